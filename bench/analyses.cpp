@@ -10,7 +10,7 @@ namespace {
 
 scenarios::AnalysisList all() {
   scenarios::AnalysisList list = scenarios::analyses();
-  // `formula`, which is about no motion, stays last.
+  // `formula`, which computes no motion, stays last.
   list.insert(list.end() - 1, {
                                   &stress_test_analysis(),
                                   &mechanisms_analysis(),

@@ -1,5 +1,5 @@
 #pragma once
-/// All analyses: those of scenarios/ and those whose pair is here, in the order of the reference page.
+/// All analyses, those of scenarios/ and those of bench/, in the order of the reference page.
 ///
 ///     scenarios::run(scenarios::load_scenario("rig.yaml", {.analyses = bench::analyses()}))
 

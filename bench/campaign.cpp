@@ -26,7 +26,7 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// All motions that are left, on all threads of all processes.
+/// The remaining motions, on all threads of all processes.
 void run_cases(const Grid& grid, const RunContext& context, scenarios::CaseFile& file) {
   const RunOptions& options = context.options;
   const sim::SteadyStateOptions steady = context.steady_states();
@@ -46,7 +46,7 @@ CampaignSize size_of(const StressTest& question, const RunContext& context) {
   StressTest sample = question;
   const Grid whole(question);
   CampaignSize size{whole.motions(), whole.cases(), whole.cases() * sample.methods.size(), 0.0, 0.0};
-  // One motion of each law, read once: all others like it.
+  // One motion of each law, read once, stands for all of that law.
   const std::size_t severities = sample.severities.size();
   sample.severities = {sample.severities[severities / 2]};
   sample.ranges.resize(1);
@@ -63,7 +63,7 @@ CampaignSize size_of(const StressTest& question, const RunContext& context) {
   const double threads = std::thread::hardware_concurrency();
   size.seconds =
       motions * static_cast<double>(severities * question.ranges.size() * question.rigs.size()) / threads;
-  // What further readings of a motion take. The motion is timed again: it may have been the first at all.
+  // Time of further readings of a motion. The motion is timed again, because the first motion of a run is slower.
   if (question.seeds > 1) {
     constexpr int most = 5;
     const double once = seconds_of(grid, 0);

@@ -1,9 +1,9 @@
 #pragma once
 /// The stress test: every method against every departure from Coulomb + viscous friction.
 ///
-/// The grid is computed motion by motion, on all threads of all processes; each finished case is written at once
-/// (`scenarios/results/case_file.hpp`); when all are there they are put in order and scored. Results depend neither
-/// on the number of threads or processes nor on interruptions.
+/// The grid is computed motion by motion, on all threads of all processes. Each finished case is written at once
+/// (`scenarios/results/case_file.hpp`). When all cases are written they are put in order and scored. Results depend
+/// neither on the number of threads or processes nor on interruptions.
 ///
 /// Errors: those of `scenarios::CaseFile`.
 
@@ -14,7 +14,7 @@
 
 namespace dualdamp::bench {
 
-/// What a campaign asks of the machine, before it runs.
+/// Estimated size of a campaign, before it runs.
 struct CampaignSize {
   std::size_t motions = 0;
   std::size_t cases = 0;
@@ -25,10 +25,10 @@ struct CampaignSize {
 
 [[nodiscard]] CampaignSize size_of(const StressTest& question, const scenarios::RunContext& context);
 
-/// In a title in one line.
+/// One line for a title.
 [[nodiscard]] std::string describe(const CampaignSize& size);
 
-/// Only process 0 returns scores; the others return an empty answer.
+/// Runs and scores the campaign. Only process 0 returns scores; the others return an empty answer.
 [[nodiscard]] scenarios::Answer run_campaign(const StressTest& question, const scenarios::RunContext& context);
 
 }  // namespace dualdamp::bench

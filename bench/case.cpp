@@ -34,7 +34,7 @@ Json estimate_json(const Estimate& estimate) {
   json["zeta95"] = interval_json(estimate.interval95, &identify::ParameterIntervals::zeta);
   json["F095"] = interval_json(estimate.interval95, &identify::ParameterIntervals::F0);
   json["p_value"] = estimate.lack_of_fit ? number_json(estimate.lack_of_fit->p_value) : Json(nullptr);
-  // What the method says of itself: the ledger of assumptions is not asked.
+  // The method's own diagnostics, without the ledger of assumptions.
   json["usable"] = estimate.usable && !(estimate.lack_of_fit && estimate.lack_of_fit->fired);
   return json;
 }
@@ -49,15 +49,15 @@ Json consequence_json(const Consequence& consequence) {
           {"cramer_rao_F0", number_json(consequence.cramer_rao_F0)}};
 }
 
-/// Why some of a motion could not be measured; empty.
+/// Why a part of a motion could not be measured; empty if all of it was.
 std::string first_warning(const scenarios::MotionRecord& curve,
                           const std::optional<scenarios::MotionRecord>& response) {
   if (!curve.warnings.empty()) return curve.warnings.front();
   return response && !response->warnings.empty() ? response->warnings.front() : "";
 }
 
-/// A law that makes a record stays out of the library of a method that seeks laws: such a method is judged by laws
-/// that it does not know.
+/// The law that makes a record is taken out of the library of a method that fits a library of laws, so that the
+/// method is scored by laws that it does not know.
 identify::OptionValues options_for(const identify::MethodEntry& method, const Departure& departure) {
   if (!method.has(identify::without_option)) return {};
   std::vector<std::string> unknown;
@@ -81,7 +81,7 @@ void measure_motion(const Grid& grid, const sim::SteadyStateOptions& options, st
   std::size_t place = number * grid.cases_per_motion();
   DepartedRig departed{motion.departure, motion.severity};
   if (!motion.departure.is_truth()) departed.reference = maker.reference();
-  std::optional<DepartedMotions> unsampled;  // serves all sensors that sample nothing
+  std::optional<DepartedMotions> unsampled;  // for all sensors without a sample rate
   for (const SensorSet& sensors : question.sensors) {
     Laboratory laboratory{{oscillator.mass, oscillator.stiffness, rig.truth.model.excitation.frequency},
                           sensors.sensors};

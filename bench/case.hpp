@@ -1,5 +1,5 @@
 #pragma once
-/// One motion of a stress test, measured: its records, and what methods make of them.
+/// One motion of a stress test, measured: its records, and the estimates of the methods.
 
 #include <cstddef>
 #include <functional>
@@ -13,16 +13,16 @@
 
 namespace dualdamp::bench {
 
-/// A case as a laboratory has it, and what is known of it beside.
+/// A case as a laboratory has it, with what only the stress test knows of it.
 struct MeasuredCase {
   std::size_t number = 0;
   const identify::Record& record;
-  std::size_t responses = 0;  ///< histories at its end that answer a random drive: 0 or 1
+  std::size_t responses = 0;  ///< number of responses to a random drive, at the end of its histories: 0 or 1
   const identify::KnownConstants& constants;
   const SensorSet& sensors;
   const Consequence& consequence;
   const UnmeasuredAmplitudes& unmeasured;
-  const std::string& reason;  ///< why some of it could not be measured; empty
+  const std::string& reason;  ///< why a part of it could not be measured; empty if all of it was
 };
 
 /// Computes motion `number` once and measures those of its cases that are `wanted`.
@@ -33,8 +33,8 @@ void measure_motion(const Grid& grid, const sim::SteadyStateOptions& options, st
 /// A finished case: its line without line end.
 using TakeLine = std::function<void(const std::string& line)>;
 
-/// The same, read by all methods: finished cases as lines of `cases.jsonl`. A case that cannot be measured is a
-/// line with a reason.
+/// Measures the motion, runs all methods and passes the finished cases on as lines of `cases.jsonl`. A case that
+/// cannot be measured is a line with a reason.
 void run_motion(const Grid& grid, const sim::SteadyStateOptions& options, std::size_t number,
                 const std::function<bool(std::size_t)>& wanted, const TakeLine& take);
 

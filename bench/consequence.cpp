@@ -15,20 +15,20 @@ namespace {
 
 using Readings = std::vector<double>;
 
-/// The sensors without what is random in them.
+/// The sensors without noise and resolution.
 identify::Sensors quiet(identify::Sensors sensors) {
   for (identify::Sensor* sensor : {&sensors.y, &sensors.x, &sensors.v, &sensors.a, &sensors.force})
     sensor->noise = sensor->resolution = 0.0;
   return sensors;
 }
 
-/// Of one reading.
+/// Standard deviation of one reading.
 double deviation(const identify::Sensor& sensor) {
   return std::hypot(sensor.noise, sensor.resolution / std::sqrt(12.0));
 }
 
-/// Extremes of a decay that has come to rest: the further ones lie where the mass sticks. So readings of motions
-/// with different numbers of swings can be compared, and change steadily as a swing vanishes.
+/// Extremes of a decay that has come to rest: the remaining ones are the position where the mass sticks. So motions
+/// with different numbers of swings can be compared, and the readings change continuously as a swing vanishes.
 Readings with_rest(Readings extremes, int peaks) {
   if (!extremes.empty())
     extremes.resize(std::max(extremes.size(), static_cast<std::size_t>(peaks)), extremes.back());
@@ -59,7 +59,7 @@ Readings readings_of(const Motions& motions, const identify::Sensors& sensors) {
   return list;
 }
 
-/// Of these readings; `slopes`: dx/dY of each pair.
+/// Standard deviations of these readings; `slopes`: dx/dY of each pair.
 Readings deviations_of(const Motions& motions, const identify::Sensors& sensors, const Readings& slopes) {
   Readings list;
   const double x = deviation(sensors.x);
@@ -115,7 +115,7 @@ std::optional<Eigen::VectorXd> scaled(const Motions& motions, const identify::Se
   return result;
 }
 
-/// What Coulomb + viscous friction would show, as a function of ln(c/c0) and ln(F0/F00).
+/// The readings of Coulomb + viscous friction, as a function of ln(c/c0) and ln(F0/F00).
 class MatchedResponse {
  public:
   MatchedResponse(const MotionMaker& maker, Truth truth, const identify::Sensors& sensors,
@@ -151,7 +151,7 @@ struct Nearest {
   double distance = 0.0;
 };
 
-/// Gauss and Newton, with shorter steps where a whole one leads away.
+/// Gauss-Newton, with shorter steps where a whole step increases the distance.
 std::optional<Nearest> nearest(const MatchedResponse& response, const Eigen::VectorXd& data) {
   Eigen::Vector2d p = Eigen::Vector2d::Zero();
   std::optional<Eigen::VectorXd> here = response(p);
@@ -198,7 +198,7 @@ sim::Model model_of(const DepartedRig& departed, const Truth& truth) {
   return departed.departure.model(truth, departed.reference, departed.severity);
 }
 
-/// Of the normal distribution.
+/// Distribution function of the normal distribution.
 double probability_below(double z) { return 0.5 * std::erfc(-z / std::numbers::sqrt2); }
 
 }  // namespace
@@ -238,7 +238,7 @@ Consequence consequence_of(const MotionMaker& maker, const DepartedRig& departed
   if (departed.departure.is_truth()) {
     result = {.distance = 0.0, .harm_zeta = 0.0, .harm_F0 = 0.0};
   } else if (const std::optional<Nearest> found = nearest(simple, *data)) {
-    // zeta of the nearest motion is over the constants that are believed.
+    // zeta of the nearest motion refers to the constants that the laboratory believes in.
     if (departed.departure.has_zeta()) result.harm_zeta = std::exp(found->p[0]) * stretch - 1.0;
     if (departed.departure.has_F0()) result.harm_F0 = std::exp(found->p[1]) - 1.0;
     result.distance = found->distance;

@@ -1,5 +1,5 @@
 #pragma once
-/// What a departure comes to: what could be known of it, and what it costs.
+/// The consequence of a departure: how well it can be detected, and what error it causes.
 ///
 /// The noise-free readings d of the departed motion are compared with those of Coulomb + viscous friction, f(zeta,
 /// F0), that the laboratory would compute with the constants it believes in:
@@ -7,20 +7,21 @@
 ///   distance^2 = min over zeta, F0 of sum_i ((d_i - f_i(zeta, F0))/sigma_i)^2,
 ///   harm = largest relative difference between the zeta and F0 of that minimum and the truth.
 ///
-/// Readings are all that a record holds and that has noise: amplitudes and phases of pairs, extremes, samples of x,
-/// v and a; a mass that has come to rest has further extremes where it sticks. The response to a random drive is
-/// none of them: a distance takes some 27 motions, and one of 2,000 s takes a second. sigma_i is the standard
-/// deviation of a reading, that of resolution and of Y (by dx/dY) included. So harm is what a perfect fit would be
-/// wrong by, and no test has more power than
+/// Readings are all data of a record that have noise: amplitudes and phases of pairs, extremes, samples of x, v and
+/// a. Where the mass has come to rest, the remaining extremes are its position. The response to a random drive is
+/// not among the readings: a distance takes some 27 motions, and one motion of 2,000 s takes a second. sigma_i is
+/// the standard deviation of a reading, including that of the resolution and of Y (by dx/dY). So harm is the error
+/// of a perfect fit, and no test has more power than
 ///
 ///   attainable power = Phi(distance - 1.645),
 ///
-/// that of the likelihood-ratio test at 5 % which knows the departure and the noise (Neyman and Pearson).
+/// the power of the likelihood-ratio test at 5 % that knows the departure and the noise (Neyman and Pearson).
 ///
-/// Cramer-Rao: the relative standard deviation of zeta and F0 that the best unbiased estimator has which knows the
-/// law and its severity: (J^T J)^-1 with J = d(d_i/sigma_i)/d(ln c, ln F0).
+/// Cramer-Rao: the relative standard deviation of zeta and F0 of the best unbiased estimator that knows the law and
+/// its severity: (J^T J)^-1 with J = d(d_i/sigma_i)/d(ln c, ln F0).
 ///
-/// A number that does not exist is NaN: without noise there is no distance, and harm is that of equal weights.
+/// A number that does not exist is NaN. Without noise there is no distance, and harm is computed with equal
+/// weights.
 
 #include <array>
 
@@ -36,19 +37,19 @@ struct Consequence {
   double cramer_rao_zeta = not_stated;  ///< relative
   double cramer_rao_F0 = not_stated;
 
-  /// Of harm_zeta and harm_F0 the larger modulus; NaN where there is neither.
+  /// The larger modulus of harm_zeta and harm_F0; NaN where there is neither.
   [[nodiscard]] double harm() const;
 };
 
-/// A departure as it is made, and as the laboratory reads it.
+/// A departure, its severity and the reference motion.
 struct DepartedRig {
   Departure departure{};
   double severity = 0.0;
   ReferenceMotion reference{};
 };
 
-/// The motions of a departed rig, and those of rigs with a little more c, a little more F0: all that the bound of
-/// Cramer and Rao takes. They serve all sensors.
+/// The motions of a departed rig, and those of the rigs with a slightly larger c and with a slightly larger F0, for
+/// the bound of Cramer and Rao. They serve all sensors.
 struct DepartedMotions {
   Motions here;
   std::array<Motions, 2> beside;
@@ -58,7 +59,8 @@ struct DepartedMotions {
 [[nodiscard]] DepartedMotions departed_motions(const MotionMaker& maker, const DepartedRig& departed,
                                                const Truth& truth, const Laboratory& laboratory);
 
-/// `laboratory`: what it believes, and its sensors as they are; `nominal`: as it believes them to be.
+/// `laboratory`: the constants that it believes in, and its true sensors; `nominal`: the sensors that it believes
+/// to have.
 [[nodiscard]] Consequence consequence_of(const MotionMaker& maker, const DepartedRig& departed, const TrueRig& rig,
                                          const DepartedMotions& motions, const Laboratory& laboratory,
                                          const identify::Sensors& nominal);

@@ -36,8 +36,8 @@ bool Departure::needs_sweeps() const {
 sim::Model Departure::model(const Truth& truth, const ReferenceMotion& reference, double s) const {
   if (is_truth()) return undisturbed(truth);
   if (beside == nullptr) return departed(*law, truth, reference, s);
-  // The second rig changes oscillator and drive; friction is that of the first. Its last law is the Coulomb
-  // friction of the truth, those before it are part of the structure.
+  // The second rig changes oscillator and drive; friction is that of the first rig. The last law of the second rig
+  // is the Coulomb friction of the truth, which is removed; the laws before it are part of the structure.
   Truth changed = truth;
   changed.model = departed(*beside, truth, reference, s);
   changed.model.friction.pop_back();

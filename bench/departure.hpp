@@ -1,5 +1,5 @@
 #pragma once
-/// What is not as assumed in a case of the stress test: nothing, one rig of the table, or two at the same severity.
+/// The departure of a case of the stress test: none, one rig of the table, or two rigs at the same severity.
 
 #include <string>
 
@@ -7,25 +7,25 @@
 
 namespace dualdamp::bench {
 
-/// Name of the truth in the place of a departure.
+/// Name of the truth among the names of departures.
 inline constexpr const char* truth_name = "coulomb_viscous";
 
 struct Departure {
   const Rig* law = nullptr;     ///< nullptr: friction is Coulomb + viscous and all is as assumed
-  const Rig* beside = nullptr;  ///< a second one, which leaves friction alone (`leaves_friction_alone`); or nullptr
+  const Rig* beside = nullptr;  ///< a second rig, for which `leaves_friction_alone`; or nullptr
 
   [[nodiscard]] bool is_truth() const { return law == nullptr; }
   /// "lugre", "lugre + base_gain", "coulomb_viscous"
   [[nodiscard]] std::string name() const;
   [[nodiscard]] Family family() const;
-  /// What its severity is, in words.
+  /// The meaning of its severity, in words.
   [[nodiscard]] std::string severity() const;
   /// Beyond it a severity has no meaning.
   [[nodiscard]] double largest() const;
-  /// Whether one zeta, one F0 is still there to be found.
+  /// Whether there is still one true zeta, one true F0.
   [[nodiscard]] bool has_zeta() const;
   [[nodiscard]] bool has_F0() const;
-  /// It shows in records of several sweeps alone.
+  /// Whether only records of several sweeps show it.
   [[nodiscard]] bool needs_sweeps() const;
 
   /// The truth with the departure of severity s.
@@ -36,8 +36,8 @@ struct Departure {
   friend bool operator==(const Departure&, const Departure&) = default;
 };
 
-/// Whether a rig has the Coulomb friction of the truth, as the last of its laws: its departure lies in spring,
-/// sensors, constants or drive.
+/// Whether a rig has the Coulomb friction of the truth, as its last law: it departs in spring, sensors, constants
+/// or drive.
 [[nodiscard]] bool leaves_friction_alone(const Rig& rig);
 
 }  // namespace dualdamp::bench

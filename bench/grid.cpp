@@ -4,7 +4,7 @@ namespace dualdamp::bench {
 
 namespace {
 
-/// Neighbours in, strangers out: the finalizer of SplitMix64 (steele2014fast).
+/// Makes unrelated seeds from neighbouring numbers: the finalizer of SplitMix64 (steele2014fast).
 std::uint64_t mixed(std::uint64_t z) {
   z += 0x9E3779B97F4A7C15U;
   z = (z ^ (z >> 30U)) * 0xBF58476D1CE4E5B9U;

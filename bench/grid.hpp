@@ -1,11 +1,11 @@
 #pragma once
 /// The grid of a stress test, expanded: cases by number, and what they share.
 ///
-/// A motion is one departure at one severity on one rig over one range of excitation. It serves all sensors and
-/// seeds, which are the cases; a case serves all methods. Motion 0 of each rig and range is the truth itself,
-/// friction that is Coulomb + viscous: there a rejection is a false alarm.
+/// A motion is one departure at one severity on one rig over one range of excitation. Each set of sensors and each
+/// seed makes one case of it; all methods read each case. Motion 0 of each rig and range is the truth itself,
+/// Coulomb + viscous friction: there a rejection is a false alarm.
 ///
-/// A cell is what cases differ in by rig and seed only: departure, severity, range and sensors.
+/// A cell holds the cases of one departure, severity, range and set of sensors; they differ by rig and seed.
 
 #include <cstddef>
 #include <cstdint>
@@ -47,15 +47,15 @@ class Grid {
   [[nodiscard]] std::size_t cell_of(const Motion& motion, std::size_t sensors) const {
     return (motion.range * motions_per_range_ + motion.place) * question_.sensors.size() + sensors;
   }
-  /// A motion of the first rig, and the sensors, of a cell.
+  /// The first case of a cell, with the first rig.
   [[nodiscard]] Case first_of_cell(std::size_t cell) const {
     return {cell / question_.sensors.size(), cell % question_.sensors.size(), 0};
   }
-  /// What methods can find in it.
+  /// The true parameters of a motion.
   [[nodiscard]] TrueParameters parameters(const Motion& motion) const;
-  /// Of the random drive of a motion, which no other motion has and all its cases share.
+  /// Seed of the random drive of a motion. No other motion has it, and all cases of the motion share it.
   [[nodiscard]] std::uint64_t drive_seed(std::size_t motion) const;
-  /// Of all draws of a case.
+  /// Seed of all draws of a case.
   [[nodiscard]] std::uint64_t seed(std::size_t number) const;
 
   [[nodiscard]] const StressTest& question() const { return question_; }

@@ -1,5 +1,5 @@
 #pragma once
-/// What a launcher of parallel programs tells the processes it starts: variables of the environment.
+/// Detects a launcher of parallel programs by the environment variables that it sets.
 
 #include <optional>
 
@@ -11,8 +11,8 @@ struct Launch {
 };
 
 /// Nothing where no launcher is known to have started this process. Known are Open MPI (OMPI_COMM_WORLD_SIZE),
-/// MPICH and Intel MPI (PMI_SIZE), MVAPICH (MV2_COMM_WORLD_SIZE), Slurm's srun (SLURM_STEP_NUM_TASKS), and whatever
-/// speaks PMIx (PMIX_RANK). A launcher of one process is none.
+/// MPICH and Intel MPI (PMI_SIZE), MVAPICH (MV2_COMM_WORLD_SIZE), Slurm's srun (SLURM_STEP_NUM_TASKS), and any
+/// launcher with PMIx (PMIX_RANK). A launcher of a single process does not count.
 [[nodiscard]] std::optional<Launch> launch();
 
 }  // namespace dualdamp::bench

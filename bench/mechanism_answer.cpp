@@ -93,7 +93,7 @@ std::string values_text(const Rig& mechanism, const std::vector<double>& values)
   return text;
 }
 
-/// A number of a fit, or none where there is no fit.
+/// A number of a fit; none without a fit.
 template <typename Get>
 auto of_fit(Get get) {
   return [get](const Explanation& e) { return e.fit.outcome.ok() ? get(e) : scenarios::none; };
@@ -156,12 +156,13 @@ Table amplitude_table(std::string name, const std::vector<std::pair<std::string,
   return table;
 }
 
-/// Whether a decay bends as the measured one does, by a tenth of it at least.
+/// Whether a decay bends in the direction of the measured one, by more than a tenth of it.
 bool bends_alike(const Explanation& explanation, const DecayReading& measured) {
-  return explanation.decay && explanation.decay->bend() / measured.bend() > 0.1;
+  const double bend = measured.bend();
+  return explanation.decay && explanation.decay->bend() * bend > 0.1 * bend * bend;
 }
 
-/// Beyond this ratio to what is plausible a parameter belongs to another machine.
+/// Beyond this ratio to its plausible value a parameter is implausible for the rig.
 constexpr double far_fetched = 10.0;
 
 std::string verdict(const StudyAnswer& answer, const MechanismStudy& study) {

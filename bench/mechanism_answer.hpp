@@ -1,5 +1,5 @@
 #pragma once
-/// What a study of mechanisms found, and how it is told: as JSON, as tables, and in words.
+/// The result of a study of mechanisms, as JSON and as tables.
 
 #include <optional>
 #include <string>
@@ -12,19 +12,19 @@
 
 namespace dualdamp::bench {
 
-/// What a free decay of the rig gives by the method, from its first and its last four extremes.
+/// The estimates of `free_decay` for a decay of the rig, from its first four and from its last four extremes.
 struct DecayReading {
   MeasuredDecay::Segment high, low;
 
   [[nodiscard]] double bend() const { return high.zeta / low.zeta - 1.0; }
 };
 
-/// One mechanism, answered.
+/// One mechanism, fitted to the estimates.
 struct Explanation {
   const Rig* mechanism = nullptr;
   std::size_t unknowns = 0;
   MechanismFit fit;
-  double misfit = scenarios::none;   ///< largest of all numbers, relative
+  double misfit = scenarios::none;   ///< largest relative deviation of a number
   double stretch = scenarios::none;  ///< largest ratio between a parameter and its plausible value, either way
   std::vector<std::string> aliases;
   std::optional<DecayReading> decay;
@@ -38,16 +38,16 @@ struct Effect {
   std::optional<std::vector<PartReading>> readings;
 };
 
-/// All of them, the closest first.
+/// All mechanisms, the closest first.
 struct StudyAnswer {
-  Levels measured;  ///< that the estimates lead to
+  Levels measured;  ///< reconstructed from the estimates
   std::vector<Explanation> explanations;
   std::vector<Effect> effects;
 };
 
 [[nodiscard]] scenarios::Json result_of(const StudyAnswer& answer, const MechanismStudy& study);
 
-/// mechanisms, effects, levels, curves.
+/// The tables mechanisms, effects, levels and curves.
 [[nodiscard]] std::vector<scenarios::Table> tables_of(const StudyAnswer& answer, const MechanismStudy& study);
 
 }  // namespace dualdamp::bench

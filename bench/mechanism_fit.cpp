@@ -19,11 +19,12 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-/// Error of steps and closure of orbits: what differences over `step` can bear.
+/// Tolerance of steps and of the closure of orbits, small enough for differences over `step`.
 constexpr double accuracy = 1e-8;
 constexpr double step = 3e-4;
 
-/// A test at the edge of thermal runaway or of a fold creeps; a fit has better things to do than to wait for it.
+/// Largest number of transient periods: at the edge of thermal runaway or of a fold a test converges too slowly for
+/// a fit.
 constexpr int patience = 300;
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
@@ -38,7 +39,7 @@ VectorXd misfit(const std::vector<PartReading>& readings, const MechanismStudy& 
   return result;
 }
 
-/// Derivatives by differences, backward where the model ends ahead; none where it ends on either side.
+/// Derivatives by differences: backward where there is no forward one, 0 where there is neither.
 template <typename Residuals>
 Eigen::MatrixXd derivatives(const Residuals& residuals, const VectorXd& p, const VectorXd& here,
                             const VectorXd& high) {
@@ -57,7 +58,7 @@ Eigen::MatrixXd derivatives(const Residuals& residuals, const VectorXd& p, const
   return jacobian;
 }
 
-/// Least squares over residuals that may not exist: steps are shortened to where they do.
+/// Least squares with residuals that may not exist: steps are shortened until they exist.
 template <typename Residuals>
 identify::LeastSquaresFit least_squares(const Residuals& residuals, Index count, VectorXd start, VectorXd low,
                                         VectorXd high, double tolerance) {
@@ -78,14 +79,14 @@ identify::LeastSquaresFit least_squares(const Residuals& residuals, Index count,
   return identify::fit(problem);
 }
 
-/// Equally spaced from the first one on.
+/// Equally spaced levels.
 std::vector<double> spaced(double first, double spacing, std::size_t count) {
   std::vector<double> levels(count);
   for (std::size_t i = 0; i < count; ++i) levels[i] = first + spacing * static_cast<double>(i);
   return levels;
 }
 
-/// Where the lines of the estimates meet the axis x = 0, in the mean: kY = (4/pi) F0, near enough.
+/// Mean intercept of the lines of the estimates with the axis x = 0, approximately kY = (4/pi) F0; in Y [m].
 double usual_intercept(const MechanismStudy& study, double stiffness) {
   double sum = 0.0;
   for (const PartEstimate& estimate : study.estimates) sum += estimate.F0;
@@ -94,7 +95,7 @@ double usual_intercept(const MechanismStudy& study, double stiffness) {
 
 bool goes_by_ratios(const RigParameter& parameter) { return parameter.low > 0.0; }
 
-/// Of a parameter in units of its scale.
+/// The unknown of a parameter, given in units of its scale.
 double to_unknown(const RigParameter& parameter, double value) {
   return goes_by_ratios(parameter) ? std::log(value) : value;
 }
@@ -106,7 +107,7 @@ sim::Model test_model(const Rig& mechanism, const Apparatus& apparatus, const Ri
   return model;
 }
 
-/// Ratios to where the search of a parameter begins.
+/// Starts of a search, as ratios to `RigParameter::start`.
 constexpr std::array<double, 3> ratios = {1.0, 0.3, 3.0};
 
 }  // namespace
@@ -137,7 +138,7 @@ std::optional<Levels> reconstruct(const MechanismStudy& study, const identify::K
   const double unit = usual_intercept(study, constants.stiffness);
   const auto levels_at = [&](const VectorXd& p) {
     Levels levels{free_levels ? spaced(p[outputs] * unit, p[outputs + 1] * unit, count) : study.amplitudes, {}};
-    // Outputs by their growth, which keeps every line rising.
+    // The unknowns are the increments of the outputs, so that every line rises.
     double x = 0.0;
     for (Index i = 0; i < outputs; ++i) levels.x.push_back(x += p[i] * unit);
     return levels;
@@ -154,7 +155,7 @@ std::optional<Levels> reconstruct(const MechanismStudy& study, const identify::K
   double least = static_cast<double>(2 * study.estimates.size());
   for (const double first : {1.1, 1.25, 1.5, 2.0}) {
     for (const double spacing : {0.08, 0.15, 0.3}) {
-      // Outputs on the line of all data.
+      // Start with the outputs on the line of all data.
       const std::vector<double> Y = free_levels ? spaced(first, spacing, count) : study.amplitudes;
       VectorXd start(size);
       double before = 0.0;
@@ -218,8 +219,9 @@ MechanismSearch::Point MechanismSearch::point(const VectorXd& p) const {
   return point;
 }
 
-/// Of the test at p; next to the last one where p differs by the step of a derivative. A test from nothing is
-/// repeated next to itself, so that it closes as well as those: differences bear no less.
+/// Outputs of the test at p; sought near the orbits of the last test if p differs by the step of a derivative. A
+/// test without known orbits is computed once more near its own orbits, so that it closes as well as its
+/// neighbours, as differences require.
 std::optional<Response> MechanismSearch::outputs(const VectorXd& p, LastTest& last) const {
   const Point here = point(p);
   const bool is_near = last.p.size() > 0 && (p - last.p).cwiseAbs().maxCoeff() < 2.0 * step;
@@ -236,8 +238,8 @@ std::optional<Response> MechanismSearch::outputs(const VectorXd& p, LastTest& la
 }
 
 VectorXd MechanismSearch::bounds(bool high) const {
-  // Friction may all but vanish. Levels are sought around those that the estimates themselves lead to: others would
-  // be another experiment, and not far below them the mass sticks.
+  // Friction may become very small. Levels are bounded around those reconstructed from the estimates: others would
+  // be another experiment, and a little below them the mass sticks.
   VectorXd p = VectorXd::Constant(static_cast<Index>(unknowns()), high ? 6.0 : 1e-3);
   if (levels_are_free()) {
     p[2] = high ? 1.6 : 0.9;
@@ -251,8 +253,8 @@ VectorXd MechanismSearch::bounds(bool high) const {
 }
 
 VectorXd MechanismSearch::start(std::size_t number) const {
-  // Bent data lead below what their lowest part reads; where the mechanism has no part in it friction is what all
-  // data read.
+  // For bent data F0 and c lie below the estimates of the lowest part. If the mechanism has no effect, they are the
+  // estimates of all data.
   const PartEstimate& estimate = number == 0 ? study_.estimates.back() : study_.estimates.front();
   const double below = number == 0 ? 0.85 : 0.95;
   const double c = 2.0 * estimate.zeta * std::sqrt(apparatus_.oscillator.mass * apparatus_.oscillator.stiffness);
@@ -262,7 +264,7 @@ VectorXd MechanismSearch::start(std::size_t number) const {
   for (std::size_t i = 0; i < parameters(); ++i) {
     const RigParameter& parameter = mechanism_.parameters[i];
     double value = parameter.start;
-    // The first parameter is what a mechanism is about: it begins at several places.
+    // The first parameter is the main one of a mechanism: its search has several starts.
     if (i == 0) value *= goes_by_ratios(parameter) ? ratios.at(number) : number == 0 ? 1.0 : -1.0;
     p[first_parameter() + static_cast<Index>(i)] =
         to_unknown(parameter, std::clamp(value, parameter.low, parameter.high));
@@ -271,7 +273,7 @@ VectorXd MechanismSearch::start(std::size_t number) const {
 }
 
 VectorXd MechanismSearch::pull(const VectorXd& p) const {
-  // Levels that double count as much as a misfit of one standard error, parameters that grow by e^10 likewise.
+  // Doubled levels count as a misfit of one standard error, and so does a parameter that is e^10 times larger.
   VectorXd weights = VectorXd::Constant(p.size(), 0.1);
   weights.head(first_parameter()).setConstant(1.0);
   weights.head(2).setZero();
@@ -309,7 +311,7 @@ MechanismFit MechanismSearch::fit(const VectorXd& from, double tolerance) const 
   const identify::LeastSquaresFit fit =
       least_squares(test, static_cast<Index>(numbers()) + from.size(), from, low, high, tolerance);
   result.outcome = fit.outcome;
-  // Once more: the last test of a fit may be one of its differences.
+  // Compute the result again: the last test of a fit may belong to a difference.
   const std::optional<VectorXd> residuals = fit.outcome.ok() ? test(fit.parameters) : std::nullopt;
   if (!residuals) {
     if (result.outcome.ok()) result.outcome = {core::OutcomeKind::not_identifiable, "the fit did not converge"};

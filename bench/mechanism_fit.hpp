@@ -1,16 +1,16 @@
 #pragma once
-/// One mechanism fitted to what straight lines through parts of x-Y data gave.
+/// Fits one mechanism to the estimates of straight lines through parts of x-Y data.
 ///
-/// A test is repeated as it was made: steady states at the input levels by the engines, then the least-squares line
-/// of `resonance_least_squares` through the lower parts of them. Unknowns are F0, c, the mechanism's parameters
-/// and, where the levels are not known, the first of them and their spacing:
+/// The engines repeat the test: steady states at the input levels, then the least-squares line of
+/// `resonance_least_squares` through the lower parts of them. Unknowns are F0, c, the mechanism's parameters and,
+/// where the levels are not known, the first of them and their spacing:
 ///
 ///   chi2 = sum over parts of ((zeta - zeta_i)/std)^2 + ((F0 - F0_i)/std)^2
 ///
-/// A weak pull to where a search begins, no part of chi2, keeps it from wandering where the numbers do not change.
-/// Levenberg-Marquardt (`identify/statistics/least_squares.hpp`) with derivatives by differences, within bounds,
-/// among motions that never stick: a test that does is seen in its record. Cost: some hundred tests of as many
-/// steady states as there are levels.
+/// A weak pull towards the start of a search, which is not part of chi2, holds parameters that do not change the
+/// numbers. Levenberg-Marquardt (`identify/statistics/least_squares.hpp`) with derivatives by differences, within
+/// bounds, among motions that never stick, since sticks show in the record of a test. Cost: some hundred tests of
+/// as many steady states as there are levels.
 
 #include <Eigen/Core>
 #include <cstddef>
@@ -32,7 +32,7 @@ struct Levels {
   std::vector<double> x;
 };
 
-/// What one part of the data gives.
+/// The estimate from one part of the data.
 struct PartReading {
   double zeta = 0.0;
   double F0 = 0.0;  ///< N
@@ -46,13 +46,13 @@ struct PartReading {
 /// zeta of the smallest part over that of the largest, less 1.
 [[nodiscard]] double bend_of(const std::vector<PartReading>& readings);
 
-/// Levels that give the estimates of the study: all outputs are free. Nothing where no such levels are found to a
-/// standard error of each number.
+/// Levels that reproduce the estimates of the study, with all outputs free. Nothing where no such levels are found
+/// to a standard error of each number.
 [[nodiscard]] std::optional<Levels> reconstruct(const MechanismStudy& study,
                                                 const identify::KnownConstants& constants);
 
-/// Output amplitudes of the mechanism at input amplitudes; nothing where one has no steady state. `orbits`: those
-/// of a test that differs little, near which these are sought, or none yet; then those of this test.
+/// Output amplitudes of the mechanism at the input amplitudes Y; nothing where one has no steady state. `near`:
+/// orbits of a test that differs little, near which the search begins; may be empty.
 struct Response {
   std::vector<double> x;  ///< m
   bool sticks = false;    ///< at one of them at least
@@ -74,20 +74,20 @@ struct MechanismFit {
   Eigen::VectorXd unknowns;  ///< for `refine`
 };
 
-/// Fits one mechanism; the study, the apparatus and the mechanism outlive it.
+/// Fits one mechanism. The study, the apparatus and the mechanism must outlive it.
 class MechanismSearch {
  public:
-  /// `near`: levels with which searches begin, or the known ones.
+  /// `near`: levels at which searches begin, or the known levels.
   MechanismSearch(const Rig& mechanism, const MechanismStudy& study, const Apparatus& apparatus, Levels near);
 
-  /// Places from which the mechanism's parameters are sought.
+  /// Number of starts of the search for the mechanism's parameters.
   [[nodiscard]] std::size_t starts() const;
-  /// A rough fit from one of them.
+  /// A rough fit from one start.
   [[nodiscard]] MechanismFit begin(std::size_t start) const;
-  /// What a rough fit leads to.
+  /// The fine fit from a rough one.
   [[nodiscard]] MechanismFit refine(const MechanismFit& rough) const;
 
-  /// Unknowns of the fit, and numbers that it has to explain.
+  /// Number of unknowns of the fit, and of the estimates that it must reproduce.
   [[nodiscard]] std::size_t unknowns() const { return static_cast<std::size_t>(first_parameter()) + parameters(); }
   [[nodiscard]] std::size_t numbers() const { return 2 * study_.estimates.size(); }
 
@@ -98,14 +98,15 @@ class MechanismSearch {
     std::vector<double> Y;
   };
 
-  /// The last test that was computed from nothing; its orbits lead to those of its derivatives.
+  /// The last test that was computed without known orbits; the orbits for its derivatives are sought near its
+  /// orbits.
   struct LastTest {
     Eigen::VectorXd p{};
     std::vector<sim::KnownOrbit> near{};
   };
 
-  // The unknowns are numbers of order one: F0 and c over those of the study, first level and spacing over those
-  // near, and the parameters over their scales, by their logarithms where they cannot vanish.
+  // The unknowns are numbers of order one: F0 and c over those of the study, first level and spacing over those of
+  // `near_`, and the parameters over their scales, as logarithms where they cannot vanish.
   [[nodiscard]] bool levels_are_free() const { return study_.amplitudes.empty(); }
   [[nodiscard]] Eigen::Index first_parameter() const { return levels_are_free() ? 4 : 2; }
   [[nodiscard]] std::size_t parameters() const { return mechanism_.parameters.size(); }
@@ -113,7 +114,7 @@ class MechanismSearch {
   [[nodiscard]] std::optional<Response> outputs(const Eigen::VectorXd& p, LastTest& last) const;
   [[nodiscard]] Eigen::VectorXd bounds(bool high) const;
   [[nodiscard]] Eigen::VectorXd start(std::size_t number) const;
-  /// Residuals that draw p to the first start.
+  /// Residuals that pull p towards the first start.
   [[nodiscard]] Eigen::VectorXd pull(const Eigen::VectorXd& p) const;
   [[nodiscard]] MechanismFit fit(const Eigen::VectorXd& start, double tolerance) const;
 

@@ -16,7 +16,7 @@ namespace dualdamp::bench {
 
 namespace {
 
-/// The whole study; its parts are computed apart and in parallel.
+/// The whole study; its parts are independent and are computed in parallel.
 class Study {
  public:
   Study(const MechanismStudy& study, const sim::Model& model, Levels levels)
@@ -46,7 +46,8 @@ class Study {
 };
 
 Apparatus Study::apparatus_of(const sim::Model& model, const Levels& levels) {
-  // Steady states know a slow warming by its mean power: five periods are slow enough for four digits.
+  // In a steady state slow warming depends only on the mean power; a time constant of five periods gives four
+  // digits.
   constexpr double warming_periods = 5.0;
   const std::size_t middle = levels.Y.size() / 2;
   const double frequency = model.excitation.frequency;
@@ -83,7 +84,7 @@ double Study::misfit(const std::vector<PartReading>& readings) const {
   return largest;
 }
 
-/// Over the plausible values that are nearest.
+/// Stretch relative to the nearest plausible values.
 double Study::stretch(const Explanation& explanation) const {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   double least = infinity;
@@ -99,7 +100,7 @@ double Study::stretch(const Explanation& explanation) const {
   return least;
 }
 
-/// Of the fitted rig on the spring of the decay, cold, released from rest.
+/// Decay of the fitted rig on the spring of the decay, cold, released from rest.
 std::optional<DecayReading> Study::decay(const Explanation& explanation) const {
   const MeasuredDecay& measured = *study_.decay;
   Apparatus cold = apparatus_;
@@ -133,7 +134,7 @@ void Study::finish(Explanation& explanation) const {
   explanation.misfit = misfit(explanation.fit.readings);
   explanation.stretch = stretch(explanation);
   if (study_.decay) explanation.decay = decay(explanation);
-  // A curve to look at: the levels and a little beyond.
+  // A curve for the chart: the range of the levels and a little more.
   constexpr std::size_t points = 31;
   const std::vector<double>& Y = explanation.fit.levels.Y;
   const double margin = 0.1 * (Y.back() - Y.front());
@@ -148,7 +149,7 @@ void Study::finish(Explanation& explanation) const {
   }
 }
 
-/// Fits that differ from one another by less than the standard errors of the estimates.
+/// Finds fits that differ from one another by less than the standard errors of the estimates.
 void find_aliases(std::vector<Explanation>& explanations, const MechanismStudy& study) {
   const auto distance = [&](const Explanation& a, const Explanation& b) {
     double sum = 0.0;

@@ -48,8 +48,9 @@ Field plausible_values() {
     }
     rigs.variants.push_back({std::string(mechanism.name), std::string(mechanism.meaning), {std::move(fields)}});
   }
-  Field field =
-      choice("plausible", std::move(rigs), "plausible values of the rig; they replace those of that mechanism");
+  Field field = choice("plausible", std::move(rigs),
+                       "plausible values of the mechanisms' parameters; they replace the default values of a "
+                       "mechanism");
   field.listed = field.only_listed = true;
   return std::move(field).items(1, max_sets);
 }
@@ -80,7 +81,7 @@ Section keys() {
                     "estimates from straight lines through the data and through their lower parts")
            .required()
            .items(2, max_sets),
-       integer("levels", "number of input levels, equally spaced at unknown places").at_least(4).at_most(max_sets),
+       integer("levels", "number of input levels, equally spaced at unknown values").at_least(4).at_most(max_sets),
        optional(grid("amplitudes", {"m"}, "input levels, where they are known").above(0).items(3, max_sets)),
        word_list("mechanisms", mechanism_names(), "mechanisms that are tried; default: all"), plausible_values(),
        section("decay", decay, "a free decay of the same mass and friction, to compare")},
@@ -91,8 +92,8 @@ Section keys() {
 ResultFields reading(const std::string& prefix, const std::string& of) {
   return {{prefix + "bend", "1", "zeta of the smallest part over that of the largest, less 1" + of},
           {prefix + "estimates[].share", "1", "part of the data"},
-          {prefix + "estimates[].zeta", "1", "damping ratio by the line through it" + of},
-          {prefix + "estimates[].F0", "N", "friction force by it" + of}};
+          {prefix + "estimates[].zeta", "1", "damping ratio by the line through this part" + of},
+          {prefix + "estimates[].F0", "N", "friction force by that line" + of}};
 }
 
 ResultFields levels_and_decay(const std::string& prefix) {
@@ -108,7 +109,7 @@ ResultFields levels_and_decay(const std::string& prefix) {
 ResultFields fields() {
   const std::string fit = "mechanisms[].";
   ResultFields fields =
-      joined({{"verdict", "", "conclusions of the study and their limits"}}, reading("explained.", ", measured"));
+      joined({{"verdict", "", "conclusions of the study and their limits"}}, reading("explained.", " (measured)"));
   fields =
       joined(joined(fields, levels_and_decay("explained.")),
              {{fit + "mechanism", "", "name, closest first"},
@@ -119,16 +120,16 @@ ResultFields fields() {
               {fit + "misfit", "1", "largest relative misfit of all numbers"},
               {fit + "stretch", "1", "largest ratio between a parameter and its plausible value, either way"},
               {fit + "F0", "N", "Coulomb friction of the fit"},
-              {fit + "c", "N.s/m", "its damping"},
+              {fit + "c", "N.s/m", "viscous damping of the fit"},
               {fit + "parameters[].name", "", "a parameter of the mechanism"},
               {fit + "parameters[].unit", "", "its unit"},
               {fit + "parameters[].value", "", "its value"},
               {fit + "parameters[].at_bound", "", "the search ended at a bound"},
               {fit + "aliases[]", "", "mechanisms that differ from this one by less than the standard errors"}});
-  fields = joined(joined(fields, reading(fit, " of the fit")), levels_and_decay(fit));
+  fields = joined(joined(fields, reading(fit, " (of the fit)")), levels_and_decay(fit));
   const std::string effect = "effects[].";
   return joined(joined(fields, {{effect + "mechanism", "", "a mechanism at plausible values"},
-                                {effect + "case", "", "which of several"},
+                                {effect + "case", "", "name of the values, if there are several"},
                                 {effect + "because", "", "where the values come from"},
                                 {effect + "parameters[].name", "", "a parameter"},
                                 {effect + "parameters[].unit", "", "its unit"},
@@ -138,7 +139,7 @@ ResultFields fields() {
                 reading(effect, ""));
 }
 
-/// Parts that differ, each of two levels at least.
+/// Checks that the parts differ and have at least two levels each.
 void check_shares(CheckedFile& file, std::size_t levels) {
   std::vector<std::size_t> parts;
   const Json& estimates = file.values().at("analysis").at("estimates");
@@ -170,7 +171,7 @@ void check_parts(CheckedFile& file) {
                   "zeta and F0 of " + std::to_string((sought + 1) / 2) + " parts", std::to_string(count));
 }
 
-/// What is known of the mechanisms that the file says nothing about.
+/// Plausible values of the table for the mechanisms without values in the file.
 void complete_plausible(CheckedFile& file) {
   const Json& analysis = file.values().at("analysis");
   Json list = analysis.value("plausible", Json::array());
@@ -202,7 +203,7 @@ void check(CheckedFile& file) {
   if (analysis.contains("mechanisms")) complete_plausible(file);
 }
 
-/// The friction of the system is what the rig is believed to have, one Coulomb law (check_truth).
+/// The friction of the system, one Coulomb law (check_truth), is that which the rig is believed to have.
 MechanismStudy study_of(const Json& section, const Json& system) {
   MechanismStudy result;
   result.friction = {number(system.at("friction").at("kinetic")), number(system.at("damping"))};

@@ -15,7 +15,7 @@
 
 namespace dualdamp::bench {
 
-/// What the straight line through the lower part of the data gave.
+/// The estimate from the straight line through the lower part of the data.
 struct PartEstimate {
   double share = 1.0;  ///< of the levels, the lowest ones
   double zeta = 0.0;
@@ -24,7 +24,7 @@ struct PartEstimate {
   double F0_std = 0.0;  ///< N
 };
 
-/// What a rig with the mechanism may well have.
+/// Plausible values of a mechanism.
 struct PlausibleRig {
   const Rig* mechanism = nullptr;
   std::string name;            ///< which of several; may be empty
@@ -45,7 +45,7 @@ struct MeasuredDecay {
 };
 
 struct MechanismStudy {
-  RigFriction friction;                 ///< what the rig is believed to have
+  RigFriction friction;                 ///< that the laboratory believes the rig to have
   std::vector<PartEstimate> estimates;  ///< largest share first
   std::size_t levels = 0;
   std::vector<double> amplitudes;  ///< input levels [m]; empty: equally spaced at unknown places
@@ -54,7 +54,7 @@ struct MechanismStudy {
   std::optional<MeasuredDecay> decay;
 };
 
-/// How many of `levels` a share is.
+/// The number of levels in a share of them.
 [[nodiscard]] inline std::size_t part_of(std::size_t levels, double share) {
   return static_cast<std::size_t>(std::lround(static_cast<double>(levels) * share));
 }

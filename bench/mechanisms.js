@@ -1,4 +1,4 @@
-// The study of mechanisms: which of them explains bent estimates, and what each does in a rig as it may well be.
+// The study of mechanisms: which mechanism explains bent estimates, and the effect of each at plausible values.
 
 /** Below a ten-thousandth of a per cent a change is rounding. */
 function signedPercent(share) {

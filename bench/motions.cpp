@@ -78,7 +78,7 @@ std::optional<scenarios::MotionRecord> MotionMaker::random_response(const sim::M
 UnmeasuredAmplitudes MotionMaker::unmeasured(const sim::Model& model) const {
   sim::SteadyStateOptions amplitude_alone = options_;
   amplitude_alone.full_account = false;
-  // A departure may drive at another frequency than the one that the laboratory sets.
+  // A departure may drive at another frequency than the laboratory sets.
   const double detuning = model.excitation.frequency / rig_.truth.model.excitation.frequency;
   UnmeasuredAmplitudes result{};
   std::ranges::transform(unmeasured_tests(range_, rig_), result.begin(), [&](const UnmeasuredTest& test) {

@@ -1,7 +1,7 @@
 #pragma once
-/// The motions that one law makes on a rig, as perfect sensors see them: a curve of steady states and, where the
-/// stress test asks for one, a decay. A response to a random drive stands apart, since nothing is computed from it
-/// but records (random_response.hpp, consequence.hpp).
+/// The motions of a rig as perfect sensors see them: a curve of steady states and, if the stress test has decays, a
+/// decay. The response to a random drive is separate (random_response.hpp), since only records are made from it,
+/// and no consequence (consequence.hpp).
 
 #include <cstdint>
 #include <optional>
@@ -22,7 +22,7 @@ struct Motions {
   int peaks = 0;        ///< extremes of the decay that were asked for; a mass that comes to rest has fewer
   double stated = 1.0;  ///< frequency that the laboratory believes in, over the one it drives at
 
-  /// What the sensors make of them. `warnings` are appended.
+  /// The record that the sensors make of them. `warnings` are appended.
   [[nodiscard]] identify::Record reading(const identify::Sensors& sensors, std::uint64_t seed,
                                          std::vector<std::string>& warnings) const;
 };
@@ -37,21 +37,23 @@ class MotionMaker {
   MotionMaker(const StressTest& question, const TrueRig& rig, const ExcitationRange& range,
               const sim::SteadyStateOptions& options);
 
-  /// The motion in the middle of the range, of the truth.
+  /// The motion of the truth in the middle of the range.
   [[nodiscard]] ReferenceMotion reference() const;
 
-  /// `model`: at its own frequency, where the laboratory believes in that of the rig. All its friction grows by
-  /// `growth`, relative, from the first sweep to the last. `stretch` multiplies all input amplitudes.
+  /// `model` is driven at its own frequency; the laboratory believes that it is the frequency of the rig. All
+  /// friction of the model grows by `growth`, relative, from the first sweep to the last. `stretch` multiplies all
+  /// input amplitudes.
   [[nodiscard]] Motions motions(const sim::Model& model, const identify::Sensors& sensors, double growth = 0.0,
                                 double stretch = 1.0) const;
 
-  /// Of the stress test's random drive with a seed of its own; nothing where it has none. `sensors` say how late it
-  /// is read.
+  /// The response to the stress test's random drive with this seed; nothing where it has none. `sensors` give the
+  /// delays of the readings.
   [[nodiscard]] std::optional<scenarios::MotionRecord> random_response(const sim::Model& model,
                                                                        const identify::Sensors& sensors,
                                                                        std::uint64_t seed) const;
 
-  /// What the model would do in the tests that are not made; NaN where it has no steady state or does not move.
+  /// Amplitudes of the model in the tests of prediction.hpp, which no record holds; NaN where it has no steady
+  /// state or does not move.
   [[nodiscard]] UnmeasuredAmplitudes unmeasured(const sim::Model& model) const;
 
  private:

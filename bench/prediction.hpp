@@ -1,5 +1,5 @@
 #pragma once
-/// What an estimate is for: the motion of the same rig in a test that was not made.
+/// Error of a prediction by an estimate: the motion of the same rig in a test that was not made.
 ///
 /// Two tests beside each range of excitation:
 ///

@@ -25,8 +25,8 @@ void check(int outcome, const char* what) {
   if (outcome != MPI_SUCCESS) throw std::runtime_error(std::string("MPI failed: ") + what);
 }
 
-/// Over a network a counter answers only while its own process is inside MPI: without this the others would wait
-/// for as long as process 0 computes.
+/// Over a network a counter answers only while its own process is inside MPI. Without this loop the other processes
+/// would wait while process 0 computes.
 void attend(std::mutex& mutex, const std::stop_token& stop) {
   while (!stop.stop_requested()) {
     {
@@ -38,7 +38,7 @@ void attend(std::mutex& mutex, const std::stop_token& stop) {
   }
 }
 
-/// A launcher and an MPI library that do not belong together leave every process believing that it is alone.
+/// With an MPI library that does not belong to the launcher, every process finds itself alone.
 void check_count(int count) {
   const std::optional<Launch> started = launch();
   if (!started || started->processes <= 1 || started->processes == count) return;
@@ -52,8 +52,8 @@ void check_count(int count) {
 }  // namespace
 
 struct Processes::Shared {
-  std::mutex mutex;              ///< MPI is called by one thread at a time
-  std::vector<MPI_Win> windows;  ///< of all counters: freed together at the end, not while a process fails
+  std::mutex mutex;              ///< only one thread at a time calls MPI
+  std::vector<MPI_Win> windows;  ///< of all counters; freed together at the end, not in a failing process
   std::jthread attendant;        ///< of process 0
 };
 
@@ -121,7 +121,7 @@ std::unique_ptr<scenarios::ItemCounter> Processes::share_items() {
 
 void Processes::wait() {
   if (count_ == 1) return;
-  // A barrier of MPI's own would keep a core busy for as long as the slowest process works.
+  // A blocking barrier of MPI would keep a core busy until the slowest process arrives.
   MPI_Request request = MPI_REQUEST_NULL;
   const auto arrived = [&] {
     const std::lock_guard lock(shared_->mutex);

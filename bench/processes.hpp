@@ -1,14 +1,14 @@
 #pragma once
 /// The processes that share a campaign: one alone, or those that a launcher (`launcher.hpp`) has started.
 ///
-/// Work is handed out one item at a time to whichever process asks, by a counter that process 0 keeps; which
-/// process does what is left to chance and must not matter. Source: the MPI standard, one-sided communication.
+/// A counter in process 0 gives out work, one item at a time, to the process that asks next. Which process does
+/// which item is random and must not affect results. Source: the MPI standard, one-sided communication.
 ///
-/// A process that fails while the others work would leave them waiting: it says why and calls `abort`. Failures
-/// that come before the work are agreed on by `first_failure`.
+/// If a process failed during the work, the others would wait for it; so it prints the reason and calls `abort`.
+/// For failures before the work, `first_failure` tells all processes.
 ///
 /// Errors: `std::runtime_error` when MPI fails; `core::InputError` when a launcher starts a program that was built
-/// without MPI, or several processes that do not know each other.
+/// without MPI, or several processes that the MPI library does not connect.
 
 #include <memory>
 #include <optional>
@@ -40,7 +40,7 @@ class Processes final : public scenarios::ProcessGroup {
   /// Ends all processes, this one with them.
   [[noreturn]] void abort(int status);
 
-  /// Whether a launcher started several; without joining.
+  /// Whether a launcher started several processes; does not join them.
   [[nodiscard]] static bool several();
 
  private:

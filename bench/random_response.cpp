@@ -18,19 +18,21 @@ using namespace scenarios;
 
 constexpr const char* place = "analysis.random_response";
 
-/// An excitation of the format, whose seed is each motion's own, and how its response is recorded.
+/// The keys of an excitation without its seed, which each motion has of its own, and the keys of the recording.
 Variant recorded(const std::string& type) {
   Variant variant = *excitations().find(type);
   std::erase_if(variant.section.fields, [](const Field& field) { return field.name == "seed"; });
-  for (Field& field : std::vector<Field>{
-           quantity("duration", {"s"}, "length of the record").required().above(0),
-           quantity("settle", {"s"}, "time from rest that is not recorded").with_fallback(0.0).at_least(0),
-           quantity("sample_rate", {"1/s"}, "samples of x, v, a and the drive").required().above(0)})
+  for (Field& field :
+       std::vector<Field>{quantity("duration", {"s"}, "length of the record").required().above(0),
+                          quantity("settle", {"s"}, "time from the start at rest until the record begins")
+                              .with_fallback(0.0)
+                              .at_least(0),
+                          quantity("sample_rate", {"1/s"}, "samples of x, v, a and the drive").required().above(0)})
     variant.section.fields.push_back(std::move(field));
   return variant;
 }
 
-/// `phase_lag` as the time that it is at this frequency.
+/// The sensor with its phase lag as the delay that it is at this frequency.
 identify::Sensor delayed(identify::Sensor sensor, double frequency) {
   sensor.delay = sensor.lag(frequency);
   sensor.phase_lag = 0.0;
@@ -54,7 +56,7 @@ void check_random_response(CheckedFile& file) {
     const double values = (number(section.at("duration")) + number_or(section, "settle", 0.0)) *
                           number(section.at("bandwidth")) / std::numbers::pi;
     if (values > max_nodes)
-      file.complain(place + std::string(".bandwidth"), "the drive is too long",
+      file.complain(place + std::string(".bandwidth"), "the drive has too many pieces",
                     "at most " + core::format_number(max_nodes, 8) + " pieces", core::format_number(values, 6));
   }
   const Json sets = analysis.value("sensors", Json::array());

@@ -1,5 +1,5 @@
 #pragma once
-/// The table of rigs under the names that the stress test and the study of mechanisms call its parts by.
+/// The names of the table of rigs in this namespace.
 
 #include "identify/rigs/rigs.hpp"
 

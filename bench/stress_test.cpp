@@ -44,7 +44,7 @@ std::vector<std::string> departure_names() {
   return names;
 }
 
-/// Those that can stand beside another.
+/// Names of the departures that can be the second of a pair.
 std::vector<std::string> companion_names() {
   std::vector<std::string> names;
   for (const Rig& departure : departures())
@@ -52,7 +52,7 @@ std::vector<std::string> companion_names() {
   return names;
 }
 
-/// {from, to}: between which the rigs lie, spaced by ratios.
+/// {from, to}: range of the rigs, on a logarithmic scale.
 Field between(const std::string& name, const std::string& meaning) {
   return section(name,
                  {{quantity("from", {"1"}, "smallest").required().above(0),
@@ -74,11 +74,11 @@ Section rig_keys() {
 
 Section stress_test_keys() {
   constexpr int max_seeds = 1'000'000;
-  std::vector<Field> set = {text("name", "its name in the results").required()};
+  std::vector<Field> set = {text("name", "name in the results").required()};
   for (Field& field : sensor_fields())
     if (field.name != "seed") set.push_back(std::move(field));
   constexpr int max_sweeps = 100;
-  const Section range = {{text("name", "its name in the results").required(), amplitudes(), optional(frequencies()),
+  const Section range = {{text("name", "name in the results").required(), amplitudes(), optional(frequencies()),
                           integer("sweeps", "how often all its states are measured, sweep after sweep")
                               .with_fallback(1)
                               .at_least(1)
@@ -93,7 +93,7 @@ Section stress_test_keys() {
       {word_list("laws", departure_names(), "departures from Coulomb + viscous friction; default: all"),
        section_list("pairs", pair, "two departures together, both at each severity; default: none")
            .items(1, max_sets),
-       grid("severities", {"1"}, "severities; each departure defines its own")
+       grid("severities", {"1"}, "severities; their meaning depends on the departure")
            .required()
            .above(0)
            .items(1, max_sets),
@@ -103,7 +103,7 @@ Section stress_test_keys() {
        section_list("sensors", Section{std::move(set)},
                     "what the curves are measured with; default: perfect sensors")
            .items(1, max_sets),
-       integer("seeds", "readings of each motion by each set of sensors, each with noise of its own")
+       integer("seeds", "how often each set of sensors reads each motion, each time with other noise")
            .with_fallback(1)
            .at_least(1)
            .at_most(max_seeds),
@@ -111,9 +111,8 @@ Section stress_test_keys() {
        section("rigs", rig_keys(), "rigs of a low-discrepancy set (Halton); default: the rig of the scenario"),
        section("decay", decay, "a free vibration in addition to each curve, for the methods that need one"),
        random_response_key(), methods_key("all that the measurements allow"),
-       boolean(
-           "answer",
-           "the program's own answer takes part too, as a method: what 'identify' says of a record without any_law")
+       boolean("answer",
+               "the program's own answer is scored too, as a method: the answer of 'identify' without any_law")
            .with_fallback(false)}};
 }
 
@@ -124,7 +123,7 @@ std::optional<Departure> pair_of(const Json& item) {
                    find_departure(item.at("beside").get<std::string>())};
 }
 
-/// In the order of the file: those alone, then the pairs.
+/// The departures in the order of the file: single ones, then the pairs.
 std::vector<Departure> departures_of(const Json& analysis) {
   std::vector<Departure> list;
   for (const Json& name : analysis.at("laws")) list.push_back({find_departure(name.get<std::string>())});
@@ -155,11 +154,11 @@ bool has_sweeps(const Json& analysis) {
 void check_sweeps(CheckedFile& file, const Json& analysis) {
   for (const Departure& departure : departures_of(analysis))
     if (departure.needs_sweeps() && !has_sweeps(analysis))
-      file.complain("analysis.ranges", "'" + departure.name() + "' shows in records of several sweeps alone",
+      file.complain("analysis.ranges", "'" + departure.name() + "' has an effect only in records of several sweeps",
                     "a range with 'sweeps' above 1");
 }
 
-/// Two of one family would undo or repeat each other.
+/// Refuses pairs within one family, which would cancel or repeat each other, and equal pairs.
 void check_pairs(CheckedFile& file, const Json& analysis) {
   const Json pairs = analysis.value("pairs", Json::array());
   std::vector<std::string> names;
@@ -221,7 +220,7 @@ std::vector<identify::Record> outlines(const CheckedFile& file) {
                          .mean_square_speed = 1.0});
       }
       if (analysis.contains("decay")) record.decay = identify::DecayRecord{{1.0}, {0.0}};
-      // A faulty one is complained about, and not its lack too.
+      // A faulty section is reported once, not also as missing.
       if (file.stands_in_file("analysis", "random_response"))
         record.histories.push_back(random_outline(analysis.value("random_response", Json::object())));
       if (sensors.contains("sample_rate"))
@@ -231,7 +230,7 @@ std::vector<identify::Record> outlines(const CheckedFile& file) {
   return records;
 }
 
-/// Histories of one motion are in memory together.
+/// Bounds the samples of one motion, whose histories are in memory together.
 void check_samples(CheckedFile& file, const Json& analysis) {
   if (!analysis.contains("sensors")) return;
   double most = 0.0;
@@ -278,7 +277,7 @@ void check_stress_test(CheckedFile& file) {
                   core::format_number(cases, 9));
 }
 
-/// Van der Corput's sequence: the digits of n in this base, mirrored behind the point.
+/// Van der Corput's sequence: the digits of n in this base, mirrored at the point.
 double mirrored(int n, int base) {
   double result = 0.0;
   for (double place = 1.0 / base; n > 0; n /= base, place /= base) result += place * (n % base);

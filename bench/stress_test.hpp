@@ -1,6 +1,6 @@
 #pragma once
-/// `stress_test`: how wrong each method is under which departures from Coulomb + viscous friction, how large,
-/// measured how.
+/// `stress_test`: how wrong each method is, by departure from Coulomb + viscous friction, severity, range and
+/// sensors.
 ///
 /// The run is a campaign: campaign.hpp.
 
@@ -19,7 +19,8 @@
 
 namespace dualdamp::bench {
 
-/// Steady states at all these input amplitudes and frequencies: an x-Y curve, a frequency response, or both.
+/// Steady states at all these input amplitudes and frequencies: an x-Y curve, a frequency response, or a
+/// combination of both.
 struct ExcitationRange {
   std::string name;
   std::vector<double> amplitudes;   ///< m
@@ -32,13 +33,13 @@ struct SensorSet {
   identify::Sensors sensors;
 };
 
-/// A free decay beside each range, for the methods that need one: from rest at a displacement.
+/// A free decay, from rest at a displacement, beside each range; for the methods that need one.
 struct DecayTest {
   double displacement = 0.0;  ///< m
   int peaks = 0;
 };
 
-/// The response to a random drive beside each range, for the methods that need one: from rest, sampled.
+/// The sampled response to a random drive, from rest, beside each range; for the methods that need one.
 struct RandomTest {
   sim::Excitation drive;     ///< noise, whose seed each motion has of its own (grid.hpp)
   double duration = 0.0;     ///< s
@@ -48,7 +49,7 @@ struct RandomTest {
   [[nodiscard]] double samples() const { return duration * sample_rate; }
 };
 
-/// The truth that departures depart from.
+/// The truth of one rig, and its drive.
 struct TrueRig {
   Truth truth;
   double frequency = 0.0;  ///< of the drive, where a range names none [rad/s]
@@ -69,7 +70,7 @@ struct StressTest {
   std::optional<RandomTest> random;
   std::vector<Entry> entries;  ///< answers of programs outside, scored beside the methods
 
-  /// Who takes part: the methods, then the entries.
+  /// Number of entrants: the methods, then the entries.
   [[nodiscard]] std::size_t entrants() const { return methods.size() + entries.size(); }
   [[nodiscard]] std::string entrant(std::size_t number) const {
     return number < methods.size() ? std::string(methods[number]->name) : entries[number - methods.size()].name;
@@ -79,7 +80,7 @@ struct StressTest {
 /// The stress test that a question asks for; nullptr where it asks for something else.
 [[nodiscard]] const StressTest* stress_test_of(const scenarios::Question& question);
 
-/// The question with entries in it.
+/// The question with these entries.
 [[nodiscard]] std::unique_ptr<const scenarios::Question> question_of(StressTest question);
 
 [[nodiscard]] const scenarios::Analysis& stress_test_analysis();

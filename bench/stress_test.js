@@ -1,4 +1,4 @@
-// The stress test: who is right, who knows, what nobody can know.
+// The stress test: accuracy, power and attainable power of the methods.
 
 const metricMeanings = {
   interval_score: "mean of the interval scores of zeta and F0, relative to the truth; smaller is better; saying nothing scores 2",
@@ -7,7 +7,7 @@ const metricMeanings = {
   power: "cases with a departure that the method rejects",
   attainable_power: "the same of the best test which knows the departure and the noise",
   false_alarm: "cases without a departure that the method rejects",
-  prediction_error: "mean relative error of the amplitudes that the estimate predicts for tests that were not made: half as far again, and 10 % below in frequency",
+  prediction_error: "mean relative error of the amplitudes that the estimate predicts in two tests that no record holds: at 1.5 times the largest input amplitude, and at 0.9 times the lowest frequency",
   selective_risk_area: "mean loss (largest relative error, 1 at most) over coverage, the cases in the order of the method's own confidence",
 };
 const isShare = (name) => !name.startsWith("interval_score") && name !== "selective_risk_area";
@@ -80,7 +80,7 @@ function departureTable() {
 
 /** What a departure comes to: harm over distance, one point a motion. */
 function consequenceChart() {
-  // Far below the noise a distance is rounding.
+  // Distances far below the noise are rounding.
   const rows = rowsOf("consequences").filter((row) => row.distance > 1e-3 && row.harm > 1e-6);
   if (!rows.length) return [];
   const familyOf = Object.fromEntries(rowsOf("departures").map((row) => [row.departure, row.family]));

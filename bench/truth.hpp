@@ -1,5 +1,5 @@
 #pragma once
-/// The truth that the analyses of bench/ depart from: one Coulomb law and damping, and nothing else.
+/// The truth of the analyses of bench/: one Coulomb law and viscous damping, and nothing else.
 
 #include "scenarios/format/checked_file.hpp"
 

@@ -17,7 +17,7 @@ namespace dualdamp::cli {
 
 namespace {
 
-/// Curves that a chart can show and a legend can name.
+/// Largest number of results of a comparison: curves that a chart and its legend can show.
 constexpr int most_compared = 50;
 
 constexpr auto usage = static_cast<int>(core::ExitStatus::usage);
@@ -27,7 +27,7 @@ std::string version_text() {
   return fmt::format("dualdamp {} ({}, {}, {})", build.version, build.commit, build.compiler, build.build_type);
 }
 
-/// The libraries that DUALDAMP_PLUGINS names.
+/// The libraries in DUALDAMP_PLUGINS.
 std::vector<std::string> plugins_of_environment() {
   const char* text = std::getenv("DUALDAMP_PLUGINS");
   std::istringstream list(text == nullptr ? "" : text);
@@ -85,11 +85,12 @@ class Parser {
         ->allow_extra_args(false)
         ->type_name("LIB");
     command
-        .add_flag("--isolate-plugins{600}", isolation_,
-                  "Execute the command in a process of its own with a limit of time; --isolate-plugins=60: seconds "
-                  "(default: 600)")
+        .add_flag(
+            "--isolate-plugins{600}", isolation_,
+            "Execute the command in a child process with a time limit; --isolate-plugins=60: seconds (default: "
+            "600)")
         ->check(CLI::Range(0.1, 1e6))
-        ->check([](const std::string& text) {  // "nan" is in every range
+        ->check([](const std::string& text) {  // CLI::Range accepts "nan"
           return core::parse_number(text).value ? std::string() : "'" + text + "' is no number of seconds";
         });
   }
@@ -116,7 +117,7 @@ class Parser {
                    "Discard the cases of an earlier stress test or sweep in the same directory")
         ->excludes(resume);
     run_command_->add_flag("--verify", run_.verify,
-                           "Compute each result again by another engine and compare; the same as numerics.verify");
+                           "Compute each result again in another way and compare; the same as numerics.verify");
     add_plot(*run_command_, run_.plot);
     add_units(*run_command_, run_.shown_units);
     add_plugins(*run_command_);
@@ -125,7 +126,7 @@ class Parser {
   void add_stress() {
     constexpr int max_jobs = 1024;
     stress_command_ =
-        app_.add_subcommand("stress", "Export a stress test to other programs, and score their answers");
+        app_.add_subcommand("stress", "Export a stress test for other programs, and score their answers");
     stress_command_->require_subcommand(1);
     const auto add_common = [&](CLI::App& command, std::string& file, std::vector<std::string>& set, int& jobs) {
       command.add_option("SCENARIO", file, "A scenario with the analysis stress_test")->required()->type_name("");
@@ -187,7 +188,7 @@ class Parser {
             "m g l of a pendulum, such as '2.9 N.m': the part of the stiffness, or the whole of it, whose torque "
             "is m g l sin(x)")
         ->type_name("QUANTITY");
-    command.add_option("--coordinate", identify_.coordinate, "What x is (default: what the units say)")
+    command.add_option("--coordinate", identify_.coordinate, "Kind of the coordinate x (default: from the units)")
         ->type_name("displacement|angle");
     command
         .add_option("--frequency", identify_.frequency,
@@ -204,9 +205,7 @@ class Parser {
     command.add_option("--sigma-Y", identify_.sigma_Y, "Known standard deviation of a measured input amplitude")
         ->type_name("QUANTITY");
     add_gains(command, identify_.gain_uncertainties);
-    command.add_flag(
-        "--robust", identify_.robust,
-        "Bounds the influence of readings that do not belong to the others (Huber), and replaces spikes");
+    command.add_flag("--robust", identify_.robust, "Bounds the influence of outliers (Huber), and replaces spikes");
     add_file_options(command, identify_);
     add_units(command, identify_.shown_units);
     add_output_options(command, identify_.out, identify_.json, identify_.quiet);
@@ -235,19 +234,21 @@ class Parser {
     add_output_options(command, next_.out, next_.json, next_.quiet);
   }
 
-  /// What a fit and a prediction say of their records.
+  /// The options of `fit` and `predict` about their records.
   template <typename RecordCommand>
   void add_record_options(CLI::App& command, RecordCommand& options) {
     command.add_option("--frequency", options.frequency, "Forcing frequency of the base motion, such as '6.17 Hz'")
         ->type_name("QUANTITY");
-    command.add_option("--amplitude", options.amplitude, "Its amplitude, of histories")->type_name("QUANTITY");
+    command
+        .add_option("--amplitude", options.amplitude, "Amplitude of the base motion of histories, such as '5 mm'")
+        ->type_name("QUANTITY");
     command
         .add_option("--sigma", options.sigmas,
                     "Known standard deviation of the noise of x, v, a, force or phase: --sigma x='2 um'")
         ->allow_extra_args(false)
         ->type_name("SIGNAL=QUANTITY");
     command.add_flag("--loop", options.loop,
-                     "The column force is what leads the mass along the measured motion: a friction loop");
+                     "The records are friction loops: the column force moves the mass along the measured motion");
     command.add_option("--set", options.set, "Set a value of the scenario: --set system.friction.sigma2='0 N.s/m'")
         ->allow_extra_args(false)
         ->type_name("PATH=VALUE");
@@ -260,7 +261,8 @@ class Parser {
   void add_fit() {
     fit_command_ = app_.add_subcommand("fit", "Fit a friction law and constants of the rig to measured records");
     CLI::App& command = *fit_command_;
-    command.add_option("LAW", fit_.law, "A law of 'dualdamp laws', or several with commas, which are compared")
+    command
+        .add_option("LAW", fit_.law, "A law of 'dualdamp laws'; several laws, separated by commas, are compared")
         ->required()
         ->type_name("");
     command.add_option("DATA", fit_.data, "Data files, fitted together (docs/data-files.md)")
@@ -268,27 +270,29 @@ class Parser {
         ->type_name("");
     command
         .add_option("--free", fit_.free,
-                    "Names of numbers to seek beside those that are not stated, with commas: --free mass,sigma2")
+                    "Parameters to fit although they are stated, separated by commas: --free mass,sigma2")
         ->type_name("NAMES");
-    command.add_option("--mass", fit_.mass, "Mass, such as '1.042 kg'; sought where it is not stated")
+    command.add_option("--mass", fit_.mass, "Mass, such as '1.042 kg'; fitted if it is not stated")
         ->type_name("QUANTITY");
-    command.add_option("--stiffness", fit_.stiffness, "Stiffness; sought where it is not stated")
+    command.add_option("--stiffness", fit_.stiffness, "Stiffness; fitted if it is not stated")
         ->type_name("QUANTITY");
-    command.add_option("--damping", fit_.damping, "Viscous damping; sought where it is not stated")
+    command.add_option("--damping", fit_.damping, "Viscous damping; fitted if it is not stated")
         ->type_name("QUANTITY");
-    command.add_option("--validate", fit_.validate, "A data file that the fitted rig has to predict")
+    command.add_option("--validate", fit_.validate, "A data file to predict with the fitted rig")
         ->allow_extra_args(false)
         ->type_name("DATA");
-    command.add_option("--starts", fit_.starts, "Starts of the search (default: 40, or 8 where all is stated)")
+    command
+        .add_option("--starts", fit_.starts,
+                    "Number of starts of the search (default: 40, or 8 if every parameter has a stated value)")
         ->check(CLI::Range(1, 10'000))
         ->type_name("N");
-    command.add_flag("--robust", fit_.robust, "Bounds the influence of readings that do not belong to the others");
+    command.add_flag("--robust", fit_.robust, "Bounds the influence of outliers (Huber)");
     command.add_flag("--no-profile", fit_.no_profile, "Leaves out the intervals by the profile of the likelihood");
     add_record_options(command, fit_);
   }
 
   void add_predict() {
-    predict_command_ = app_.add_subcommand("predict", "Predict other records by a fitted rig");
+    predict_command_ = app_.add_subcommand("predict", "Predict other records with a fitted rig");
     CLI::App& command = *predict_command_;
     command.add_option("RESULT", predict_.result, "result.json of a fit, or its directory")
         ->required()
@@ -304,11 +308,11 @@ class Parser {
         ->type_name("");
     add_plot(*report_command_, report_.plot);
     add_units(*report_command_, report_.shown_units);
-    new_command_ = app_.add_subcommand("new", "Print a commented scenario to begin with");
-    new_command_->add_option("ANALYSIS", new_.analysis, "What it asks for, such as xy_curve; see dualdamp analyses")
+    new_command_ = app_.add_subcommand("new", "Print a commented scenario as a first file");
+    new_command_->add_option("ANALYSIS", new_.analysis, "Its analysis, such as xy_curve; see dualdamp analyses")
         ->required()
         ->type_name("");
-    compare_command_ = app_.add_subcommand("compare", "Draw the curves of several results over each other");
+    compare_command_ = app_.add_subcommand("compare", "Draw the curves of several results in one chart");
     compare_command_->add_option("DIR", compare_.directories, "Two or more directories with a result.json")
         ->required()
         ->expected(2, most_compared)
@@ -361,7 +365,7 @@ class Parser {
     manual_command_ = app_.add_subcommand("manual", "Print the manual page: dualdamp manual | man -l -");
   }
 
-  /// What is wrong with a command line that names none of the commands.
+  /// The message for a command line without a known command.
   [[nodiscard]] std::string wrong_command() const {
     const std::vector<std::string> words = app_.remaining();
     const auto word = std::ranges::find_if(words, [](const std::string& text) { return !text.starts_with('-'); });
@@ -415,7 +419,7 @@ class Parser {
   CLI::App* completion_command_ = nullptr;
   CLI::App* manual_command_ = nullptr;
   std::vector<std::string> plugins_ = plugins_of_environment();
-  std::string isolation_;  ///< seconds: of numbers CLI11 takes whole ones only as the value of a flag
+  std::string isolation_;  ///< seconds, as text: CLI11 accepts only integers as the value of a flag
   RunCommand run_;
   ExportCommand export_;
   ScoreCommand score_;

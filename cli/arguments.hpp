@@ -1,5 +1,6 @@
 #pragma once
-/// The command line as values. Only arguments.cpp and command_table.cpp know the library that parses it.
+/// The command line as values. Only arguments.cpp, command_table.cpp and shared_options.cpp use the library that
+/// parses it.
 
 #include <string>
 #include <variant>
@@ -13,27 +14,27 @@ struct RunCommand {
   std::vector<std::string> files;
   std::string out;
   std::vector<std::string> set;
-  int jobs = 0;  ///< threads, shared by files that run at the same time; 0: one file at a time, on all cores
+  int jobs = 0;  ///< number of threads; with several files, how many run at the same time; 0: one file, all cores
   bool json = false;
   bool quiet = false;
   bool dry_run = false;
   bool resume = false;
   bool overwrite = false;
-  bool verify = false;      ///< compute every result again in another way
+  bool verify = false;      ///< compute each result again in another way and compare
   std::string plot;         ///< SVG file for the main chart; empty: none
-  std::string shown_units;  ///< of charts, pages and what is printed, with commas
+  std::string shown_units;  ///< of charts, pages and printed tables, separated by commas
 };
 
-/// `stress export`: records for programs outside.
+/// `stress export`: writes records for other programs.
 struct ExportCommand {
   std::string file;
   std::string out;
-  std::string seed;  ///< of all draws; empty: one that nobody can guess
+  std::string seed;  ///< of all random numbers; empty: a hidden random one
   std::vector<std::string> set;
   int jobs = 0;
 };
 
-/// `stress score`: their answers beside those of the methods.
+/// `stress score`: scores answers of other programs beside the methods.
 struct ScoreCommand {
   std::string file;
   std::string key;
@@ -51,7 +52,7 @@ struct CheckCommand {
 
 struct LawsCommand {
   std::string name;
-  bool check = false;  ///< whether it keeps the law contract
+  bool check = false;  ///< test whether the law keeps its contract
   std::vector<std::string> set;
   std::string stroke = "0.1 m";
   std::string stroke_time = "0.5 s";
@@ -75,7 +76,7 @@ struct CompletionCommand {
 
 struct ManualCommand {};
 
-/// What data files do not say of themselves.
+/// Statements about a data file that the file does not make itself.
 struct FileOptions {
   std::vector<std::string> units;    ///< x=mm
   std::vector<std::string> columns;  ///< x=LVDT 2
@@ -94,10 +95,10 @@ struct IdentifyCommand : FileOptions {
   std::string out;
   bool json = false;
   bool quiet = false;
-  std::string shown_units;  ///< of charts, pages and what is printed, with commas
+  std::string shown_units;  ///< of charts, pages and printed tables, separated by commas
 };
 
-/// What to measure next, after data or a scenario.
+/// `next`: what to measure next, for a data file or a scenario.
 struct NextCommand : FileOptions {
   std::string data;  ///< a data file, or a scenario
   std::string mass, stiffness, frequency;
@@ -106,11 +107,11 @@ struct NextCommand : FileOptions {
   std::string out;
   bool json = false;
   bool quiet = false;
-  std::string shown_units;  ///< of charts, pages and what is printed, with commas
+  std::string shown_units;  ///< of charts, pages and printed tables, separated by commas
 };
 
 struct FitCommand : FileOptions {
-  std::string law;  ///< several with commas
+  std::string law;  ///< one law, or several separated by commas
   std::vector<std::string> data;
   std::vector<std::string> validate;
   std::string free;
@@ -124,7 +125,7 @@ struct FitCommand : FileOptions {
   std::string out;
   bool json = false;
   bool quiet = false;
-  std::string shown_units;  ///< of charts, pages and what is printed, with commas
+  std::string shown_units;  ///< of charts, pages and printed tables, separated by commas
 };
 
 struct PredictCommand : FileOptions {
@@ -137,13 +138,13 @@ struct PredictCommand : FileOptions {
   std::string out;
   bool json = false;
   bool quiet = false;
-  std::string shown_units;  ///< of charts, pages and what is printed, with commas
+  std::string shown_units;  ///< of charts, pages and printed tables, separated by commas
 };
 
 struct ReportCommand {
   std::vector<std::string> directories;
   std::string plot;         ///< SVG file for the main chart; empty: none
-  std::string shown_units;  ///< of charts, pages and what is printed, with commas
+  std::string shown_units;  ///< of charts, pages and printed tables, separated by commas
 };
 
 struct NewCommand {
@@ -153,14 +154,14 @@ struct NewCommand {
 struct CompareCommand {
   std::vector<std::string> directories;  ///< two or more
   std::string out = "compare";
-  std::string shown_units;  ///< of charts, pages and what is printed, with commas
+  std::string shown_units;  ///< of charts, pages and printed tables, separated by commas
 };
 
-/// Nothing to do but to print and leave: help, version, or a wrong command line.
+/// Print a message and end: help, version, or a wrong command line.
 struct Leave {
   std::string message;
   int status = 0;
-  bool json = false;  ///< the caller wanted JSON
+  bool json = false;  ///< whether the caller asked for JSON
 };
 
 using Command =
@@ -172,15 +173,15 @@ using Command =
 struct Call {
   Command command;
   std::vector<std::string> plugins;  ///< libraries to load before the command is executed
-  double isolation = 0.0;            ///< seconds that a child process has for the command; 0: no child
-  bool json = false;                 ///< the caller wants JSON
+  double isolation = 0.0;            ///< time limit of the child process for the command [s]; 0: no child process
+  bool json = false;                 ///< whether the caller asked for JSON
 };
 
-/// Plugins are those that the environment variable DUALDAMP_PLUGINS names, colons between them, then those of
-/// `--plugin`, wherever it stands.
+/// Parses a command line. `plugins` holds those of the environment variable DUALDAMP_PLUGINS, separated by colons,
+/// then those of each `--plugin`, which may be before or after the command.
 [[nodiscard]] Call parse(int argc, const char* const* argv);
 
-/// What `parse` accepts.
+/// The commands and options that `parse` accepts.
 [[nodiscard]] CommandTable command_table();
 
 }  // namespace dualdamp::cli

@@ -8,15 +8,16 @@
 
 namespace dualdamp::cli {
 
-/// Draws the main chart of a result directory into an SVG file; returns what was written. Errors:
-/// `core::InputError` where there is none, `scenarios::OutputError`.
+/// Draws the main chart of a result directory into an SVG file. Returns a message. Errors: `core::InputError` if
+/// there is no result or no chart, `scenarios::OutputError`.
 [[nodiscard]] std::string plot_result(const std::string& directory, const std::string& file,
                                       const std::string& units = {});
 
-/// The same behind a run, whose results are there already: that they have no chart is one more message.
+/// The same after a run. If the result has no chart, a message is added to the report.
 void add_plot(Report& report, const std::string& directory, const std::string& file);
 
-/// Lays the curves of several result directories over each other; returns what was written to `out`.
+/// Writes a comparison of several result directories to `out`. Returns a message. Errors: as `comparison`, and
+/// `scenarios::OutputError`.
 [[nodiscard]] std::string compare_results(const std::vector<std::string>& directories, const std::string& out,
                                           const std::string& units);
 

@@ -16,7 +16,7 @@ OptionEntry entry_of(const CLI::Option& option) {
   } else {
     entry.name = "--" + option.get_lnames().front();
     if (!option.get_snames().empty()) entry.short_name = "-" + option.get_snames().front();
-    const std::string type = option.get_type_name();  // "N:INT in [1 - 10]" where there is a range
+    const std::string type = option.get_type_name();  // "N:INT in [1 - 10]" with a range
     if (!is_flag) entry.placeholder = type.substr(0, type.find(':'));
   }
   entry.text = option.get_description();
@@ -28,7 +28,7 @@ OptionEntry entry_of(const CLI::Option& option) {
 
 void add(CommandTable& table, const CLI::App& app, const std::string& name) {
   CommandEntry entry{.name = name, .text = app.get_description()};
-  // A command without a footer of its own has the program's.
+  // A command without its own footer inherits that of the program.
   if (table.empty() || app.get_footer() != table.front().footer) entry.footer = app.get_footer();
   for (const CLI::Option* option : app.get_options()) entry.options.push_back(entry_of(*option));
   const std::vector<const CLI::App*> commands = app.get_subcommands([](const CLI::App*) { return true; });

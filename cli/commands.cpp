@@ -49,20 +49,20 @@ using core::ExitStatus;
 using scenarios::LoadOptions;
 using scenarios::Scenario;
 
-/// Throws where results cannot go, before anything is computed.
+/// Throws if results cannot be written, before anything is computed.
 void refuse_unusable(const std::string& directory) {
   std::error_code error;
   if (fs::exists(directory, error) && !fs::is_directory(directory, error))
     throw scenarios::OutputError("cannot write results to " + directory + ": it is not a directory");
 }
 
-/// Those that mpirun started; one otherwise. They part when the program ends.
+/// The processes that mpirun started; one without mpirun. They are finalised when the program ends.
 const std::shared_ptr<bench::Processes>& processes() {
   static const auto all = std::make_shared<bench::Processes>();
   return all;
 }
 
-/// Of several processes only the first has anything to say.
+/// Whether this process prints nothing: of several processes, only the first one prints.
 bool is_silent() { return bench::Processes::several() && processes()->rank() != 0; }
 
 Report run_and_write(Scenario loaded, scenarios::RunOptions options, bool quiet) {
@@ -97,17 +97,17 @@ Report run_and_write(Scenario loaded, scenarios::RunOptions options, bool quiet)
   return report;
 }
 
-/// The option was checked when it was read.
+/// The units of `--units`, which were checked when the option was read.
 void show_in(const std::string& units, Scenario& scenario) {
   if (!units.empty()) static_cast<void>(scenarios::ask_for_units(units, scenario.written_units));
 }
 
-/// nullptr where the question is none.
+/// The question as a campaign; nullptr if it is none.
 const scenarios::Campaign* campaign_of(const Scenario& scenario) {
   return dynamic_cast<const scenarios::Campaign*>(scenario.question.get());
 }
 
-/// `directory`: where results would go; empty when nothing would be run.
+/// `directory`: where the results would be written; empty if nothing would be run.
 Report checked(const Scenario& scenario, const std::string& directory) {
   Report report;
   report.text = scenario.file + ": valid: " + scenario.analysis_name;
@@ -120,8 +120,8 @@ Report checked(const Scenario& scenario, const std::string& directory) {
   return report;
 }
 
-/// What results are named by: the file without its extension. Of `..yaml` and `...yaml` that would be another
-/// place.
+/// The name of the results: the file name without extension. Not for `..yaml` and `...yaml`, whose names would be
+/// other directories.
 std::string stem_of(const std::string& file) {
   const fs::path path(file);
   const std::string stem = path.stem().string();
@@ -139,7 +139,7 @@ scenarios::FoundCases found_cases(const RunCommand& command) {
   return command.overwrite ? scenarios::FoundCases::overwrite : scenarios::FoundCases::refuse;
 }
 
-/// The scenario, or what there is to say instead of a run: a refusal, or what a dry run tells.
+/// The scenario; or a report in place of a run: a refusal, or the text of a dry run.
 Report load(const RunCommand& command, const std::string& file, std::optional<Scenario>& scenario) {
   return guarded([&]() -> Report {
     LoadOptions options{.analyses = bench::analyses()};
@@ -157,7 +157,7 @@ Report load(const RunCommand& command, const std::string& file, std::optional<Sc
   });
 }
 
-/// Several processes refuse a file together, and the first that has a reason tells it.
+/// If any of several processes refuses a file, all do. The first process with a reason reports it.
 Report agreed(Report report) {
   if (!bench::Processes::several()) return report;
   const auto failure = processes()->first_failure(static_cast<int>(report.status));
@@ -182,14 +182,14 @@ Report run_file(const RunCommand& command, const std::string& file) {
     return result;
   });
   if (is_done || !bench::Processes::several()) return report;
-  // The others would wait for this process.
+  // All processes must stop, since the others would wait for this one.
   if (command.json) report.json(std::cout);
   print(report, {command.json, command.quiet});
   std::cout.flush();
   processes()->abort(static_cast<int>(report.status));
 }
 
-/// stdout may be full or closed; a result that did not arrive is not a result.
+/// Fails if stdout is full or closed, since the result did not arrive.
 int finish(ExitStatus status) {
   std::cout.flush();
   if (std::cout) return static_cast<int>(status);
@@ -203,7 +203,7 @@ int say(const Report& report, const Style& style) {
   return finish(report.status);
 }
 
-/// Two files with one result directory would overwrite each other.
+/// Refuses two files with the same result directory: they would overwrite each other.
 std::string clash(const RunCommand& command) {
   std::map<std::string, std::string> owners;
   for (const std::string& file : command.files) {
@@ -223,7 +223,7 @@ int execute(const RunCommand& command) {
   if (const std::string problem = clash(command); !problem.empty())
     return say(refused(ExitStatus::usage, problem), style);
   const Report joined = guarded([] {
-    (void)is_silent();  // joins the others
+    (void)is_silent();  // joins the other processes of mpirun
     return Report{};
   });
   if (joined.status != ExitStatus::done) return say(joined, style);
@@ -235,7 +235,7 @@ int execute(const RunCommand& command) {
       reports.put(i, run_file(command, command.files[i]));
   };
   {
-    // Processes that share campaigns take them in the same order.
+    // Processes that share stress tests must take the files in the same order.
     const int jobs = bench::Processes::several() ? 1 : std::max(command.jobs, 1);
     const std::size_t workers = std::min(static_cast<std::size_t>(jobs), command.files.size());
     std::optional<sim::ThreadLimit> limit;
@@ -257,7 +257,7 @@ int execute(const CheckCommand& command) {
   return finish(reports.worst());
 }
 
-/// Of records: results go beside the name of the first data file.
+/// Runs a scenario about data files. The results are named after the first data file.
 template <typename RecordCommand>
 int execute_on_records(const RecordCommand& command, const std::string& data, const char* suffix = "") {
   const Style style{command.json, command.quiet};
@@ -293,7 +293,7 @@ int execute(const ScoreCommand& command) {
   const Style style{command.json, command.quiet};
   return say(guarded([&] {
                const fs::path standard = fs::path("results") / (stem_of(command.file) + "-scored");
-               // Methods answer once for all entries.
+               // The estimates of the methods are stored, and are the same for all entries.
                return run_and_write(scenario_of(command),
                                     {.directory = command.out.empty() ? standard.string() : command.out,
                                      .threads = command.jobs,
@@ -309,7 +309,7 @@ int execute(const ReportCommand& command) {
   ExitStatus worst = ExitStatus::done;
   for (const std::string& directory : command.directories) {
     const Report report = guarded([&] {
-      // Where there is no directory there is no result either: nothing is created.
+      // A missing directory has no result; it is not created.
       if (std::error_code error; !fs::is_directory(directory, error)) {
         const bool says_more = error && error != std::errc::no_such_file_or_directory;
         return refused(ExitStatus::invalid_input, directory + ": there is no such directory" +
@@ -389,7 +389,7 @@ int execute(const Leave& leave) {
   return say(report, {leave.json, false});
 }
 
-/// Loads the plugins; says why not and returns the status when one is refused.
+/// Loads the plugins. If one is refused, prints the reason and returns the exit status.
 std::optional<int> load_plugins(const std::vector<std::string>& files, const Style& style) {
   try {
     for (const std::string& file : files) friction::load_plugin(file);

@@ -10,13 +10,13 @@ namespace dualdamp::cli {
 
 namespace {
 
-/// What can stand at one place of the command line.
+/// The words that are possible at one place of the command line.
 struct Choices {
   enum class Kind { anything, words, files, directories } kind = Kind::anything;
-  std::vector<std::string> list = {};  ///< the words, or the endings of files; no endings: any file
+  std::vector<std::string> list = {};  ///< the words; or the extensions of files, empty for any file
 };
 
-/// A placeholder has one meaning in all commands.
+/// The choices for a placeholder, which has the same meaning in all commands.
 Choices choices_of(const std::string& placeholder) {
   using enum Choices::Kind;
   Choices named{words};
@@ -46,19 +46,19 @@ std::string joined(const std::vector<std::string>& words, const std::string& sep
   return text;
 }
 
-/// The first clause of a text, for a list beside the command line.
+/// The first clause of a help text, for the list that the shell shows.
 std::string brief(const std::string& text) {
   return text.substr(0, std::min({text.find("; "), text.find(": "), text.find(", such as"), text.find(" (")}));
 }
 
-/// In single quotes of a shell.
+/// The text in single quotes of a shell.
 std::string quoted(const std::string& text, const std::string& quote_inside) {
   std::string inside;
   for (const char c : text) inside += c == '\'' ? quote_inside : std::string(1, c);
   return "'" + inside + "'";
 }
 
-/// "command:word" where the word names a command of it: "stress:export".
+/// "command:word" for each command of a command: "stress:export".
 std::vector<std::string> steps(const CommandTable& table) {
   std::vector<std::string> all;
   for (const CommandEntry& command : table)
@@ -76,7 +76,8 @@ std::vector<std::string> options_with_value(const CommandTable& table) {
   return all;
 }
 
-/// Calls `visit(place, option)` for each positional argument: "fit:0" is the first, "fit:*" all from then on.
+/// Calls `visit(place, option)` for each positional argument. The place of the first one is "fit:0"; that of a
+/// repeatable one is "fit:*".
 template <typename Visit>
 void for_positionals(const CommandEntry& command, Visit visit) {
   int position = 0;
@@ -165,7 +166,7 @@ std::string bash_script(const CommandTable& table) {
 // -----------------------------------------------------------------------------------------------------------------
 // zsh
 
-/// Signs that mean something in a specification of _arguments.
+/// Escapes the characters that have a meaning in a specification of _arguments.
 std::string zsh_text(const std::string& text) {
   std::string escaped;
   for (const char c : text) {
@@ -233,7 +234,7 @@ std::string zsh_script(const CommandTable& table) {
   std::string script =
       "#compdef dualdamp\n# Completion of dualdamp for zsh; written by: dualdamp completion zsh\n\n";
   for (const CommandEntry& command : table) script += zsh_function(table, command);
-  // As a file of $fpath it is the function itself; else it is sourced.
+  // The script may be a file of $fpath, which is the function itself, or be sourced.
   return script +
          "if [[ $funcstack[1] == _dualdamp ]]; then\n  _dualdamp \"$@\"\nelse\n  compdef _dualdamp dualdamp\nfi\n";
 }

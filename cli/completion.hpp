@@ -8,8 +8,8 @@
 
 namespace dualdamp::cli {
 
-/// The script for "bash", "zsh" or "fish": commands, options, names of laws, methods and analyses, files by their
-/// ending. Laws of plugins that are loaded are among the laws.
+/// The script for the shell "bash", "zsh" or "fish". It completes commands, options, names of laws (with those of
+/// loaded plugins), methods and analyses, and files with the right extension.
 [[nodiscard]] std::string completion_script(std::string_view shell, const CommandTable& table);
 
 }  // namespace dualdamp::cli

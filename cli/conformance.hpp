@@ -12,7 +12,8 @@ struct Conformance {
   bool holds = true;
 };
 
-/// Errors: core::InputError for values that the law refuses; friction::LawFault.
+/// Tests whether a law keeps its contract. Errors: core::InputError for values that the law refuses;
+/// friction::LawFault.
 [[nodiscard]] Conformance check_law(const LawsCommand& command);
 
 }  // namespace dualdamp::cli

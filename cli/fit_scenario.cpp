@@ -17,14 +17,14 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// A text as YAML, whatever characters a file name holds.
+/// The text as a quoted YAML string. A file name may hold any character.
 std::string in_quotes(const std::string& text) {
   std::string result = "'";
   for (const char c : text) result += c == '\'' ? "''" : std::string(1, c);
   return result + "'";
 }
 
-/// Options like `x=mm` as a map.
+/// Options such as `x=mm` as a YAML map.
 std::string map_of(const std::vector<std::string>& list) {
   std::string text;
   for (const std::string& item : list) {
@@ -35,7 +35,7 @@ std::string map_of(const std::vector<std::string>& list) {
   return "{" + text + "}";
 }
 
-/// Data files with what the options say of them.
+/// The data files with the statements of the options about them.
 template <typename RecordCommand>
 std::string data_of(const std::vector<std::string>& files, const RecordCommand& command) {
   std::string list;
@@ -71,10 +71,10 @@ void add_drive(const RecordCommand& command, scenarios::LoadOptions& options) {
   throw core::InputError(core::Diagnostic{.place = {.file = file}, .message = std::move(message)});
 }
 
-/// The document of a fit.
+/// Reads result.json of a fit.
 Json fitted_document(const std::string& path) {
   namespace fs = std::filesystem;
-  std::error_code error;  // of what cannot be looked at reading tells more
+  std::error_code error;  // if the file cannot be examined, reading it gives the reason
   const fs::path file = fs::is_directory(path, error) ? fs::path(path) / "result.json" : fs::path(path);
   constexpr std::size_t largest = std::size_t{1} << 26U;
   Json document = scenarios::parse_json(scenarios::read_file(file.string(), largest));
@@ -84,7 +84,7 @@ Json fitted_document(const std::string& path) {
   return document;
 }
 
-/// "analysis={...}" of a prediction by this fit.
+/// The override "analysis={...}" of a prediction with this fit.
 std::string prediction_of(const Json& result, const PredictCommand& command) {
   std::string names;
   std::vector<std::size_t> shared;
@@ -141,7 +141,8 @@ scenarios::Scenario prediction_by(const Json& document, const PredictCommand& co
   options.data_anywhere = true;
   options.set = {{"analysis=" + prediction_of(result, command), "DATA"}};
   const Json& scenario = document.at("scenario");
-  // Where the fit had no drive, that of the fitted scenario is one of its readings: not that of other records.
+  // If the fit had no drive, the drive of the fitted scenario is that of one of its readings, not that of other
+  // records.
   const std::string drive = scenario.contains("excitation") ? scenario.at("excitation").dump() : "{type: none}";
   options.set.push_back({"excitation=" + drive, "RESULT", true});
   add_drive(command, options);

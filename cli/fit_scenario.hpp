@@ -1,15 +1,15 @@
 #pragma once
-/// The commands `fit` and `predict` as scenarios: same checks, same messages, same results.
+/// Translates the commands `fit` and `predict` to scenarios, so that checks, messages and results are the same.
 
 #include "cli/arguments.hpp"
 #include "scenarios/scenario.hpp"
 
 namespace dualdamp::cli {
 
-/// Errors: `core::InputError` with the options that are wrong, or with what is wrong in a data file.
+/// Errors: `core::InputError` with the wrong options, or with the faults of a data file.
 [[nodiscard]] scenarios::Scenario scenario_of(const FitCommand& command);
 
-/// The same; and where the result is none of a fit.
+/// Errors: the same; also `core::InputError` if the result is not that of a fit.
 [[nodiscard]] scenarios::Scenario scenario_of(const PredictCommand& command);
 
 }  // namespace dualdamp::cli

@@ -1,5 +1,5 @@
 #pragma once
-/// What a command says of work that cannot be done.
+/// Reports of work that failed.
 
 #include <functional>
 #include <string>
@@ -13,10 +13,10 @@ namespace dualdamp::cli {
 [[nodiscard]] Report refused(core::ExitStatus status, const std::vector<core::Diagnostic>& problems);
 [[nodiscard]] Report refused(core::ExitStatus status, const std::string& message);
 
-/// What nobody should ever read, with the commit that did it.
+/// The report of a bug of the program, with the commit of the program.
 [[nodiscard]] Report bug(const std::string& what);
 
-/// The report of `work`, or of what it throws.
+/// Calls `work` and returns its report, or the report of the exception that it throws.
 [[nodiscard]] Report guarded(const std::function<Report()>& work);
 
 }  // namespace dualdamp::cli

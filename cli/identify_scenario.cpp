@@ -9,14 +9,14 @@ namespace dualdamp::cli {
 
 namespace {
 
-/// A text as YAML, whatever characters a file name holds.
+/// The text as a quoted YAML string. A file name may hold any character.
 std::string quoted(const std::string& text) {
   std::string result = "'";
   for (const char c : text) result += c == '\'' ? "''" : std::string(1, c);
   return result + "'";
 }
 
-/// Options like `--unit x=mm`, which fill a map.
+/// Adds options such as `--unit x=mm` as a YAML map.
 void add_maps(const FileOptions& command, scenarios::LoadOptions& options) {
   for (const auto& [option, key, list] : {std::tuple{"--unit", "units", &command.units},
                                           {"--column", "columns", &command.columns},
@@ -29,7 +29,7 @@ void add_maps(const FileOptions& command, scenarios::LoadOptions& options) {
     }
 }
 
-/// What every data file may need.
+/// Adds the options about the data file.
 void add_file_options(const FileOptions& command, scenarios::LoadOptions& options) {
   if (!command.decimal.empty()) options.set.push_back({"analysis.decimal=" + quoted(command.decimal), "--decimal"});
   if (command.no_header) options.set.push_back({"analysis.no_header=true", "--no-header"});

@@ -1,15 +1,15 @@
 #pragma once
-/// The commands `identify` and `next` as scenarios: same checks, same messages, same results.
+/// Translates the commands `identify` and `next` to scenarios, so that checks, messages and results are the same.
 
 #include "cli/arguments.hpp"
 #include "scenarios/scenario.hpp"
 
 namespace dualdamp::cli {
 
-/// Errors: `core::InputError` with the options that are wrong, or with what is wrong in the data file.
+/// Errors: `core::InputError` with the wrong options, or with the faults of the data file.
 [[nodiscard]] scenarios::Scenario scenario_of(const IdentifyCommand& command);
 
-/// The analysis `design` of a data file, or of a scenario's record.
+/// The analysis `design` for a data file, or for the record of a scenario. Errors: the same.
 [[nodiscard]] scenarios::Scenario scenario_of(const NextCommand& command);
 
 }  // namespace dualdamp::cli

@@ -14,14 +14,14 @@ namespace dualdamp::cli {
 
 namespace {
 
-/// How long a cancelled computation may take to end.
+/// Time that a cancelled computation has to end.
 constexpr timespec patience{.tv_sec = 0, .tv_nsec = 500'000'000};
 
 void wait_for_interrupt(const sigset_t& signals) {
   int number = 0;
   if (sigwait(&signals, &number) != 0) return;
   {
-    // Results that are being written are complete first.
+    // Wait until results that are being written are complete.
     const std::lock_guard lock(output_mutex());
     core::request_cancellation();
   }
@@ -38,14 +38,14 @@ void watch_for_interrupt() {
   sigemptyset(&signals);
   sigaddset(&signals, SIGINT);
   sigaddset(&signals, SIGTERM);
-  // A file that may not grow further is an error of the one who writes it.
+  // The limit on the size of a file is then an error of the write, not a signal that ends the program.
   (void)::signal(SIGXFSZ, SIG_IGN);
-  // Threads started later inherit the mask, so that the signal goes to the watcher alone.
+  // Threads that start later inherit the mask, so only the watcher gets the signals.
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
   try {
     std::thread([signals] { wait_for_interrupt(signals); }).detach();
   } catch (const std::system_error&) {
-    // No thread is to be had: an interrupt ends the program as it ends any other.
+    // Without a thread, an interrupt ends the program at once.
     pthread_sigmask(SIG_UNBLOCK, &signals, nullptr);
   }
 }
@@ -53,12 +53,12 @@ void watch_for_interrupt() {
 void say_interrupted() {
   static constexpr char message[] = "interrupted\n";
   if (::write(STDERR_FILENO, message, sizeof message - 1) < 0) {
-    // Nobody is left to tell.
+    // There is no way left to report the failure.
   }
 }
 
 std::mutex& output_mutex() {
-  // Never destroyed: the watcher outlives main.
+  // Never destroyed, because the watcher outlives main.
   static auto* const mutex = new std::mutex;
   return *mutex;
 }

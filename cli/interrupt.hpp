@@ -1,20 +1,20 @@
 #pragma once
-/// SIGINT and SIGTERM end the program with status 130, but never in the middle of writing results.
+/// Ends the program with status 130 on SIGINT or SIGTERM, but never while it writes results.
 ///
-/// Computations are cancelled (`core/cancellation.hpp`) and the program ends in the ordinary way. What has not come
-/// to an end after half a second, or when a second signal comes, is left as it is.
+/// Computations are cancelled (`core/cancellation.hpp`), and the program ends in the ordinary way. If that takes
+/// longer than half a second, or if a second signal comes, the process exits at once.
 
 #include <mutex>
 
 namespace dualdamp::cli {
 
-/// To be called once, before any other thread starts.
+/// Starts to watch for the signals. Call it once, before any other thread starts.
 void watch_for_interrupt();
 
-/// Held while results are written; an interrupt waits for it.
+/// Hold this mutex while results are written: an interrupt waits for it.
 [[nodiscard]] std::mutex& output_mutex();
 
-/// To the standard error.
+/// Prints the message of an interruption to stderr.
 void say_interrupted();
 
 }  // namespace dualdamp::cli

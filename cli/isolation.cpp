@@ -37,7 +37,7 @@ int say(ExitStatus status, const std::string& message, const Call& call) {
 }
 
 [[noreturn]] void be_child(const Call& call, const sigset_t& before) {
-  (void)::prctl(PR_SET_PDEATHSIG, SIGKILL);  // nobody would end it after its parent
+  (void)::prctl(PR_SET_PDEATHSIG, SIGKILL);  // otherwise it would run on after its parent
   (void)::sigprocmask(SIG_SETMASK, &before, nullptr);
   watch_for_interrupt();
   std::exit(execute(call));
@@ -49,14 +49,14 @@ timespec until(Clock::time_point end) {
   return {.tv_sec = static_cast<time_t>(whole), .tv_nsec = static_cast<long>((left.count() - whole) * 1e9)};
 }
 
-/// How the child ended; none: not before the end, and it was killed.
+/// The status of the child. Nothing if it did not end in time; it is then killed.
 std::optional<int> wait_for(pid_t child, const sigset_t& signals, Clock::time_point end) {
   int status = 0;
   while (::waitpid(child, &status, WNOHANG) == 0) {
     const timespec left = until(end);
     siginfo_t signal{};
     const int number = ::sigtimedwait(&signals, &signal, &left);
-    // What a terminal sends reaches the child without help.
+    // Signals from a terminal also reach the child; others are passed on.
     if ((number == SIGINT || number == SIGTERM) && signal.si_code == SI_USER) (void)::kill(child, number);
     if (number > 0 || errno == EINTR || Clock::now() < end) continue;
     (void)::kill(child, SIGKILL);

@@ -33,7 +33,7 @@ std::string engine_name(friction::EngineKind kind) {
   return kind == friction::EngineKind::exact ? "exact" : "smooth";
 }
 
-/// The rows of a table of parameters; those of a record stand below it.
+/// The rows of a table of parameters. The parameters of a record follow it.
 void add_rows(Rows& rows, const std::vector<friction::Parameter>& table, const std::string& prefix) {
   for (const friction::Parameter& parameter : table) {
     const std::string name = prefix + std::string(parameter.name);
@@ -46,7 +46,7 @@ void add_rows(Rows& rows, const std::vector<friction::Parameter>& table, const s
   }
 }
 
-/// What the registry says about a law beside its equation and parameters.
+/// The facts about a law besides its equation and parameters.
 std::string facts_of(const friction::LawEntry& law) {
   Rows rows = {{"engine", engine_name(law.engine)},
                {"remembers", law.states.empty() ? "nothing" : std::string(law.states)},
@@ -63,7 +63,7 @@ std::string facts_of(const friction::LawEntry& law) {
   return columns(rows);
 }
 
-/// Keys of an analysis beside its type.
+/// The keys of an analysis, without its type.
 std::string keys_of(const scenarios::Analysis& analysis) {
   if (analysis.keys.fields.empty()) return {};
   Rows rows = {{"key", "values", "meaning"}};
@@ -72,7 +72,7 @@ std::string keys_of(const scenarios::Analysis& analysis) {
   return "\n" + columns(rows);
 }
 
-/// Fields of its result.
+/// The fields of the result of an analysis.
 std::string results_of(const scenarios::Analysis& analysis) {
   if (analysis.results.empty()) return {};
   Rows rows = {{"result", "unit", "meaning"}};
@@ -81,7 +81,7 @@ std::string results_of(const scenarios::Analysis& analysis) {
   return "\n" + columns(rows);
 }
 
-/// "data with excitation base_harmonic or none", one line a source of its data.
+/// One line for each possible source of the data: "data with excitation base_harmonic or none".
 std::string needs_of(const scenarios::Analysis& analysis) {
   std::string text;
   for (const scenarios::Needs& needs : analysis.needs) {

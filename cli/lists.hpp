@@ -1,20 +1,20 @@
 #pragma once
-/// The registries for people: `dualdamp laws`, `dualdamp methods` and `dualdamp analyses`.
+/// The registries as text: `dualdamp laws`, `dualdamp methods` and `dualdamp analyses`.
 
 #include <string>
 
 namespace dualdamp::cli {
 
 struct Listing {
-  std::string text;  ///< the list, or why there is none
+  std::string text;  ///< the list or the description, or why there is none
   bool found = true;
 };
 
-/// All laws, or what `name` is.
+/// A list of all laws if `name` is empty, else the description of the law `name`.
 [[nodiscard]] Listing list_laws(const std::string& name);
-/// All methods, or what `name` is.
+/// The same for methods.
 [[nodiscard]] Listing list_methods(const std::string& name);
-/// All analyses, or what `name` is.
+/// The same for analyses.
 [[nodiscard]] Listing list_analyses(const std::string& name);
 
 }  // namespace dualdamp::cli

@@ -9,7 +9,7 @@ namespace dualdamp::cli {
 
 namespace {
 
-/// A text as troff prints it: no sign of it is a command, and a hyphen can be copied.
+/// The text escaped for troff: no character is a command, and a hyphen can be copied.
 std::string plain(std::string_view text) {
   std::string plain;
   for (const char c : text) {
@@ -47,7 +47,7 @@ std::string synopsis_of(const CommandEntry& command) {
 std::string options_of(const CommandEntry& command) {
   std::string text;
   for (const OptionEntry& option : command.options) {
-    if (option.name == "--help" && !command.name.empty()) continue;  // said once
+    if (option.name == "--help" && !command.name.empty()) continue;  // described once, for the program
     text += ".TP\n" + usage_of(option) + "\n" + plain(option.text);
     text += option.is_required && !option.is_positional ? "; required" : "";
     text += option.is_repeatable && !option.is_positional ? "; may be repeated.\n" : ".\n";

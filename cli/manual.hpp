@@ -7,7 +7,7 @@
 
 namespace dualdamp::cli {
 
-/// In the language of troff with the macros man(7).
+/// The text of the page, in troff with the macros of man(7).
 [[nodiscard]] std::string manual_page(const CommandTable& table);
 
 }  // namespace dualdamp::cli

@@ -1,5 +1,5 @@
 #pragma once
-/// `dualdamp new`: a scenario to begin with.
+/// `dualdamp new`: a commented scenario as a first file.
 
 #include <string>
 #include <string_view>
@@ -9,10 +9,10 @@
 
 namespace dualdamp::cli {
 
-/// An example of each analysis, as files; written by cmake/write_templates.cmake.
+/// The texts of one example of each analysis; cmake/write_templates.cmake writes them.
 [[nodiscard]] const std::vector<std::string_view>& templates();
 
-/// A commented scenario that asks for an analysis, or why there is none.
+/// A commented scenario with this analysis, or why there is none.
 [[nodiscard]] Listing new_scenario(const std::string& analysis);
 
 }  // namespace dualdamp::cli

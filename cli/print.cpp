@@ -16,17 +16,17 @@ constexpr std::size_t max_rows = 20;
 constexpr int digits = 9;
 
 struct Block {
-  std::vector<std::string> cells;  ///< the head first
+  std::vector<std::string> cells;  ///< the heading first
   bool is_number = false;
 };
 
-/// Characters, not bytes: a micro sign is one column wide.
+/// Width in characters, not bytes: a micro sign is one column wide.
 std::size_t width(const std::string& text) {
   return static_cast<std::size_t>(
       std::ranges::count_if(text, [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
 }
 
-/// The first rows of a column, in the unit the user wrote.
+/// The first rows of a column, in the unit that the user wrote.
 Block block(const scenarios::Column& column, std::size_t rows, const scenarios::ShownUnits& units = {}) {
   Block result;
   result.is_number = column.kind != scenarios::CellKind::text;
@@ -63,7 +63,7 @@ std::string aligned(const std::vector<Block>& blocks) {
   return text;
 }
 
-/// The head, and as many rows as people read.
+/// The headings and the first rows of a table.
 std::string table_text(const scenarios::Table& table, const scenarios::ShownUnits& units) {
   const std::size_t all = table.columns.empty() ? 0 : table.columns.front().size();
   const std::size_t rows = std::min(all, max_rows);
@@ -85,11 +85,11 @@ std::string numbers_text(const scenarios::Table& summary) {
       if (!summary.columns[0].texts[i].starts_with(certificate)) shown.cells.push_back(column.texts[i]);
   }
   if (blocks.front().cells.size() == 1) return {};
-  blocks[1].is_number = true;  // lined up at the right like numbers
+  blocks[1].is_number = true;  // aligned at the right, like numbers
   return "\n" + aligned(blocks);
 }
 
-/// How the result was found stands behind it, on one line.
+/// The certificate of the result, on one line.
 std::string certificate_text(const scenarios::Table& summary) {
   std::string text;
   for (std::size_t i = 0; i < summary.size(); ++i)
@@ -99,7 +99,7 @@ std::string certificate_text(const scenarios::Table& summary) {
   return text.empty() ? text : text + "\n";
 }
 
-/// A paragraph of lines that fit a terminal.
+/// The paragraph, broken into lines that fit a terminal.
 std::string folded(const std::string& paragraph) {
   constexpr std::size_t widest = 100;
   std::string text;
@@ -115,7 +115,7 @@ std::string folded(const std::string& paragraph) {
 }
 
 std::string checks_text(const std::vector<scenarios::Check>& checks) {
-  std::vector<std::vector<std::string>> rows = {{"value", "paper", "here", "difference", "ok", "source"}};
+  std::vector<std::vector<std::string>> rows = {{"value", "expected", "found", "difference", "ok", "source"}};
   for (const scenarios::Check& check : checks) {
     const auto found = core::parse_number(check.found);
     rows.push_back({check.path, check.expected,

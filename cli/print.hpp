@@ -1,5 +1,5 @@
 #pragma once
-/// Results for people: aligned tables with units.
+/// Results as text for the terminal: aligned tables with units.
 
 #include <string>
 #include <vector>
@@ -8,13 +8,13 @@
 
 namespace dualdamp::cli {
 
-/// Title, single numbers, lists and the comparison with expected values.
+/// The result as text: title, single numbers, lists, and the comparison with expected values.
 [[nodiscard]] std::string readable(const scenarios::Scenario& scenario, const scenarios::RunResult& result);
 
-/// Rows of texts in columns two blanks apart.
+/// Rows of texts as aligned columns, two blanks apart.
 [[nodiscard]] std::string columns(const std::vector<std::vector<std::string>>& rows);
 
-/// How far a long run is: a line on a terminal that is written over and over.
+/// Shows the progress of a long run as one line on the terminal, which each call overwrites.
 void show(const scenarios::Progress& progress);
 
 }  // namespace dualdamp::cli

@@ -9,7 +9,8 @@ namespace dualdamp::cli {
 
 namespace {
 
-/// Names and lines of a user's files are said again; what in them a terminal would take for a command is replaced.
+/// The text without control characters. Messages quote names and lines of files, in which a terminal could find
+/// commands.
 std::string for_terminal(const std::string& text) {
   static constexpr std::string_view replacement = "\xEF\xBF\xBD";
   std::string result;

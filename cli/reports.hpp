@@ -1,5 +1,5 @@
 #pragma once
-/// What the program has to say about each scenario, and in which order.
+/// The output of the program about each scenario, in the order of the files.
 
 #include <cstddef>
 #include <iosfwd>
@@ -12,13 +12,13 @@
 
 namespace dualdamp::cli {
 
-/// What one scenario has to say, kept until it is its turn.
+/// The output about one scenario, kept until those of earlier files are printed.
 struct Report {
   core::ExitStatus status = core::ExitStatus::done;
   std::string text;        ///< for stdout
-  scenarios::Writer json;  ///< instead, when JSON is wanted
+  scenarios::Writer json;  ///< for stdout in place of `text`, if JSON is asked for
   std::string messages;    ///< for stderr
-  std::string errors;      ///< for stderr, also when quiet
+  std::string errors;      ///< for stderr, also with `quiet`
 };
 
 struct Style {
@@ -28,14 +28,14 @@ struct Style {
 
 void print(const Report& report, const Style& style);
 
-/// Prints reports in the order of the files, each as soon as those before it are there.
+/// Prints reports in the order of the files, each one as soon as those before it are printed.
 class InOrder {
  public:
-  /// `silent`: nothing between them; of several processes that share the work only the first says anything.
+  /// `silent`: prints nothing. Of several processes that share the work, only the first one prints.
   InOrder(std::size_t count, Style style, bool silent = false);
 
   void put(std::size_t index, Report report);
-  /// One document; a list of them for several files.
+  /// Writes one JSON document, or a list of documents for several files.
   void write_json(std::ostream& out) const;
   [[nodiscard]] core::ExitStatus worst() const;
 

@@ -19,7 +19,7 @@ void add_output_options(CLI::App& command, std::string& out, bool& json, bool& q
 void add_units(CLI::App& command, std::string& units) {
   command
       .add_option("--units", units,
-                  "Units of charts, pages and what is printed, with commas: --units mm,Hz; files stay in SI")
+                  "Units of charts, pages and printed tables, separated by commas: --units mm,Hz; files stay in SI")
       ->type_name("UNITS")
       ->check([](const std::string& text) {
         std::map<std::string, std::string> written;

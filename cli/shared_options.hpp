@@ -12,18 +12,18 @@ class App;
 
 namespace dualdamp::cli {
 
-/// Where results go and what is printed.
+/// Adds `--out`, `--json` and `--quiet`.
 void add_output_options(CLI::App& command, std::string& out, bool& json, bool& quiet);
-/// Units of what is shown to people.
+/// Adds `--units`: units of charts, pages and printed tables.
 void add_units(CLI::App& command, std::string& units);
 void add_plot(CLI::App& command, std::string& plot);
-/// How well the gains of the sensors are known.
+/// Adds `--gain-uncertainty`.
 void add_gains(CLI::App& command, std::vector<std::string>& gains);
-/// What a data file does not say of itself.
+/// Adds the options that state names, units and scales of the columns of a data file.
 void add_file_options(CLI::App& command, FileOptions& options);
 
-/// Of this command and all below it: an empty name of a file, a law, ... names nothing, as a variable of a shell
-/// that is not set does.
+/// Refuses empty positional arguments (files, laws, ...) of this command and of its commands. An unset variable of
+/// a shell gives an empty argument.
 void refuse_empty_names(CLI::App& command);
 
 }  // namespace dualdamp::cli

@@ -31,7 +31,7 @@ std::string export_stress_test(const ExportCommand& command) {
   const std::size_t cases = bench::export_cases(*bench::stress_test_of(*scenario.question),
                                                 scenarios::context_of(scenario, options), command.out);
   return "wrote " + std::to_string(cases) + " cases to " + command.out +
-         "/cases, their constants to constants.csv and the key, which is not for those who answer, to key.json\n";
+         "/cases, their constants to constants.csv, and the key, which participants must not see, to key.json\n";
 }
 
 scenarios::Scenario scenario_of(const ScoreCommand& command) {

@@ -1,5 +1,5 @@
 #pragma once
-/// The commands `stress export` and `stress score` as scenarios.
+/// The commands `stress export` and `stress score`.
 
 #include <string>
 #include <vector>
@@ -9,12 +9,12 @@
 
 namespace dualdamp::cli {
 
-/// Writes the records of a stress test and the key to them; returns what to tell. Errors: `core::InputError`, also
-/// for a scenario that is no stress test; `scenarios::OutputError`.
+/// Writes the records of a stress test and the key. Returns a message. Errors: `core::InputError`, also for a
+/// scenario that is no stress test; `scenarios::OutputError`.
 [[nodiscard]] std::string export_stress_test(const ExportCommand& command);
 
-/// The scenario with the seed of the key, and with the answers as entries. Errors: `core::InputError`, also for a
-/// key of another stress test.
+/// The scenario of a score: with the seed of the key, and with the answers as entries. Errors: `core::InputError`,
+/// also for the key of another stress test.
 [[nodiscard]] scenarios::Scenario scenario_of(const ScoreCommand& command);
 
 }  // namespace dualdamp::cli

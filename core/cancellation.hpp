@@ -2,9 +2,9 @@
 /// Cancellation: a long computation ends early because the user asked for it (Ctrl-C in the program).
 ///
 /// One flag for the whole process reaches every thread of every loop. Each loop that may last longer than a tenth
-/// of a second polls it with `stop_if_cancelled()`, which throws `Cancelled`. The exception leaves through the
-/// public entrance that was called; results of that call are lost, nothing else is. It is not a `std::exception`,
-/// so that a loop which makes a row with a reason of every failed case does not take it for a failure.
+/// of a second polls it with `stop_if_cancelled()`, which throws `Cancelled`. The exception leaves the public
+/// function that was called; only the results of that call are lost. `Cancelled` is not a `std::exception`, so that
+/// a loop which turns each failed case into a row with a reason does not catch it.
 ///
 /// Cost of a poll: one load and one branch.
 
@@ -22,7 +22,7 @@ extern std::atomic<bool> cancelled;
 
 /// May be called from any thread, and from a signal handler.
 void request_cancellation() noexcept;
-/// Computations may run again.
+/// Resets the flag, so that computations may run again.
 void clear_cancellation() noexcept;
 
 [[nodiscard]] inline bool cancellation_requested() noexcept {

@@ -45,7 +45,7 @@ std::string_view name_of(Coordinate coordinate) {
 std::string unit_for(Coordinate coordinate, std::string_view unit) {
   if (coordinate == Coordinate::displacement || is_of_rotation(unit)) return std::string(unit);
   std::string result;
-  char sign = '.';  // what joins the factor to those before it
+  char sign = '.';  // between the factor and those before it
   for (std::size_t at = 0; at < unit.size();) {
     if (!is_letter(unit[at])) {
       sign = unit[at];
@@ -60,7 +60,7 @@ std::string unit_for(Coordinate coordinate, std::string_view unit) {
       for (++after; after < unit.size() && std::isdigit(static_cast<unsigned char>(unit[after])) != 0;) ++after;
     const std::string_view power = after > end ? unit.substr(end + 1, after - end - 1) : std::string_view();
     std::string factor = raised(rotational(name), power);
-    // Both parts of N.m stand below a stroke before it.
+    // After a '/' both parts of N.m are in the denominator.
     if (const std::size_t dot = factor.find('.'); sign == '/' && dot != std::string::npos) factor[dot] = '/';
     result += factor;
     at = after;

@@ -5,7 +5,8 @@
 ///     displacement   kg      N    N/m      N.s/m      m/s    m/s^2    N/m^3      ...
 ///     angle          kg.m^2  N.m  N.m/rad  N.m.s/rad  rad/s  rad/s^2  N.m/rad^3  ...
 ///
-/// Tables name every dimension by its unit for a displacement. Whatever reads or shows a unit asks `unit_for`.
+/// Tables name every dimension by its unit for a displacement. Code that reads or prints a unit gets it from
+/// `unit_for`.
 
 #include <cstdint>
 #include <optional>
@@ -20,12 +21,12 @@ enum class Coordinate : std::uint8_t { displacement, angle };
 [[nodiscard]] std::string_view name_of(Coordinate coordinate);
 
 /// The SI unit of a quantity whose unit is `unit` for a displacement: kg becomes kg.m^2, N becomes N.m and m
-/// becomes rad, wherever they stand; s, J, W, numbers, phases (rad) and frequencies (rad/s) stay. So does a unit of
-/// rotation.
+/// becomes rad, wherever they stand; s, J, W, numbers, phases (rad) and frequencies (rad/s) stay. A unit of
+/// rotation stays, too.
 [[nodiscard]] std::string unit_for(Coordinate coordinate, std::string_view unit);
 
-/// What the coordinate must be for `unit` to be one of this dimension; nothing where it tells nothing: it may be
-/// either, or neither.
+/// The coordinate for which `unit` has the dimension named by `dimension`; nothing where `unit` fits both
+/// coordinates or neither.
 [[nodiscard]] std::optional<Coordinate> coordinate_told_by(std::string_view unit, std::string_view dimension);
 
 }  // namespace dualdamp::core

@@ -1,8 +1,8 @@
 #pragma once
 /// Diagnostics: what is wrong with an input, where, what was allowed, what was found.
 ///
-/// Input faults travel as one `InputError` that carries every problem found, so that a user mends a file in one
-/// go. Numerical outcomes are not exceptions: see `core/outcome.hpp`.
+/// Input faults are thrown as one `InputError` with every problem found, so that a user can correct a file in one
+/// pass. Numerical outcomes are not exceptions: see `core/outcome.hpp`.
 
 #include <stdexcept>
 #include <string>
@@ -11,7 +11,7 @@
 
 namespace dualdamp::core {
 
-/// Exit status of the program (contract: scenario format, section "Program").
+/// Exit status of the program.
 enum class ExitStatus {
   done = 0,
   check_failed = 1,
@@ -34,9 +34,9 @@ struct SourcePlace {
 /// One problem. Empty fields are left out of the printed message.
 struct Diagnostic {
   SourcePlace place;
-  std::string message;     ///< what is wrong, a full sentence without final stop
+  std::string message;     ///< what is wrong, a sentence without final stop
   std::string allowed;     ///< what would have been accepted
-  std::string found;       ///< what stood there
+  std::string found;       ///< the text found there
   std::string suggestion;  ///< "did you mean" candidate
 };
 
@@ -47,7 +47,7 @@ struct Diagnostic {
 /// Words of a message: "a, b, c"; with `last` = " and ": "a, b and c".
 [[nodiscard]] std::string joined(const std::vector<std::string>& words, std::string_view last = ", ");
 
-/// Thrown at an entrance (scenario file, data file, command line) with all problems found there.
+/// Thrown by the readers of scenario files, data files and the command line, with all problems found.
 class InputError : public std::runtime_error {
  public:
   explicit InputError(std::vector<Diagnostic> diagnostics);

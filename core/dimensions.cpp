@@ -41,8 +41,8 @@ const std::vector<Dimension>& dimensions() {
   return table;
 }
 
-/// What dimensions become where the coordinate is an angle. An angular velocity is not a frequency: it may be
-/// negative, and without unit it is in rad/s.
+/// The dimensions where the coordinate is an angle. An angular velocity is not a frequency: it may be negative, and
+/// without unit it is in rad/s.
 const std::vector<Dimension>& dimensions_of_rotation() {
   static const std::vector<Dimension> table = {
       {"kg.m^2",

@@ -1,5 +1,5 @@
 #pragma once
-/// The quantities that scenarios and data files hold: what they are called in messages, and their usual units.
+/// The quantities of scenarios and data files: their names in messages, and their usual units.
 
 #include <string_view>
 #include <vector>
@@ -12,12 +12,12 @@ struct Dimension {
   std::string_view si_unit;
   std::string_view noun;                ///< "a mass"
   std::string_view example;             ///< "5 kg"
-  std::vector<std::string_view> units;  ///< that messages and pages name; others are converted too
+  std::vector<std::string_view> units;  ///< named in messages and pages; other units are converted too
 };
 
-/// By the SI unit of a displacement's quantity; nothing where the table does not hold it.
+/// The dimension with this SI unit, as stated for a displacement; nullptr where the table does not hold it.
 [[nodiscard]] const Dimension* find_dimension(std::string_view si_unit, Coordinate coordinate);
-/// Of the table for displacements alone.
+/// Whether the table for displacements holds this SI unit.
 [[nodiscard]] bool is_dimension(std::string_view si_unit);
 
 }  // namespace dualdamp::core

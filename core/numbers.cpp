@@ -26,7 +26,7 @@ std::size_t word_length(std::string_view text) {
   return end == std::string_view::npos ? text.size() : end;
 }
 
-/// What is wrong with a text that does not begin with a digit.
+/// The fault of a text that does not begin with a digit.
 NumberText without_digit(std::string_view text, std::size_t sign) {
   const std::string_view rest = text.substr(sign);
   if (rest.size() > 1 && rest[0] == '.' && is_digit(rest[1]))

@@ -18,14 +18,14 @@ struct NumberText {
   std::string fault;       ///< why there is no value: "has a leading zero"; reads after "the number"
 };
 
-/// The number at the beginning of `text`; what follows it is the caller's.
+/// The number at the beginning of `text`; the caller reads what follows it.
 [[nodiscard]] NumberText read_number(std::string_view text);
 
-/// `text` as a whole is a number.
+/// Parses `text`, which must be a number as a whole.
 [[nodiscard]] NumberText parse_number(std::string_view text);
 
 /// Shortest text that reads back to the same bits. An exponent always comes with a point (`1.0e-05`): YAML 1.1
-/// readers take `1e-05` for a word. `nan`, `inf`, `-inf` for what is not finite.
+/// readers take `1e-05` for a word. Values that are not finite: `nan`, `inf`, `-inf`.
 [[nodiscard]] std::string format_number(double value);
 
 /// At most `digits` significant digits, for people to read.

@@ -1,8 +1,8 @@
 #pragma once
 /// Outcome: how a computation ended, as a value with a reason.
 ///
-/// A computation that cannot give a number says so here; it never throws for a numerical reason and never
-/// returns a plausible number in place of an answer.
+/// A computation that cannot give a number returns the reason here. It never throws for a numerical reason, and it
+/// never returns a plausible number in place of an answer.
 
 #include <string>
 

@@ -1,5 +1,6 @@
 #pragma once
-/// Provenance: what made an artefact, from what, with what, and when. Every file the program writes opens with it.
+/// Provenance: the origin of a file that the program writes: program, scenario, data and time. Every such file
+/// opens with it.
 
 #include <memory>
 #include <string>
@@ -14,12 +15,12 @@ namespace dualdamp::core {
 /// SHA-256 of `bytes` as 64 lower-case hexadecimal digits.
 [[nodiscard]] std::string sha256(std::string_view bytes);
 
-/// The same of bytes that come piece by piece.
+/// SHA-256 of bytes that come piece by piece.
 class Sha256 {
  public:
   Sha256();
   void add(std::string_view bytes);
-  /// Once, after the last piece.
+  /// The digest as 64 hexadecimal digits. Call it once, after the last piece.
   [[nodiscard]] std::string text();
 
  private:
@@ -40,7 +41,7 @@ struct Library {
 /// The present time as "2025-01-31T12:00:00Z".
 [[nodiscard]] std::string utc_now();
 
-/// A shared library whose friction law the program has taken in.
+/// A shared library whose friction law the program has loaded.
 struct Plugin {
   std::string law;
   std::string version;  ///< of the law, as the library says
@@ -48,7 +49,7 @@ struct Plugin {
   std::string sha256;  ///< of its bytes
 };
 
-/// Where an artefact comes from, beside the program itself (`core::build_info()`, `libraries()`).
+/// The origin of a file beside the program itself (`core::build_info()`, `libraries()`).
 struct Provenance {
   std::string source;                    ///< the scenario file as named by the user
   std::string source_sha256;             ///< of its bytes
@@ -62,7 +63,7 @@ struct Provenance {
   double duration = 0.0;  ///< s
 };
 
-/// Name and value in the order to print, program and libraries first: the comment head of a table and the
+/// Names and values in the order of printing, program and libraries first. The comment lines of a table and the
 /// provenance block of a result are this list.
 [[nodiscard]] std::vector<std::pair<std::string, std::string>> lines(const Provenance& provenance);
 

@@ -1,9 +1,9 @@
 #pragma once
-/// Random numbers by their number: draw n of a stream depends on seed, stream and n alone, so that a step can be
-/// repeated, and cells of a grid drawn in any order, with the same numbers everywhere.
+/// Random numbers by their index: draw n of a stream depends only on seed, stream and n. So a step can be repeated,
+/// and cells of a grid can be drawn in any order, with the same numbers.
 ///
-/// Philox-4x32-10, keyed by the seed, counting (n, stream). Source: salmon2011 in `docs/refs.bib`. Cost: about 10
-/// ns.
+/// Philox-4x32-10 with the seed as key and (n, stream) as counter. Source: salmon2011 in `docs/refs.bib`. Cost:
+/// about 10 ns.
 
 #include <cstdint>
 

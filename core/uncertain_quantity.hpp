@@ -1,8 +1,8 @@
 #pragma once
 /// Quantities that state their uncertainty: `1.042 kg ± 0.5 %`, `1568 N/m +- 8 N/m`, `(1.042 ± 0.005) kg`.
 ///
-/// What follows `±`, `+-` or `+/-` is the standard uncertainty (one standard deviation), in percent of the value,
-/// in a unit of its dimension, or without unit in that of the value. Either side may leave its unit to the other.
+/// The number after `±`, `+-` or `+/-` is the standard uncertainty (one standard deviation): in percent of the
+/// value, in a unit of its dimension, or without unit. A side without unit has the unit of the other side.
 
 #include <optional>
 #include <string>
@@ -23,14 +23,15 @@ struct UncertainQuantityText {
 [[nodiscard]] UncertainQuantityText parse_uncertain_quantity(std::string_view text, std::string_view si_unit,
                                                              Coordinate coordinate = Coordinate::displacement);
 
-/// A quantity of a dimension that is known elsewhere, apart from its relative uncertainty.
+/// A quantity and its relative uncertainty, taken apart as text; the caller knows the dimension.
 struct SplitQuantityText {
   std::string quantity;            ///< the text without the uncertainty
   std::optional<double> relative;  ///< standard uncertainty; nothing where the text states none
   std::string fault;               ///< why the uncertainty cannot be read; empty when it can
 };
 
-/// "2.5 mm/V" and 0.01 of "2.5 mm/V ± 1 %" or of "2.5 mm/V ± 0.025 mm/V": in percent, or in the unit of the value.
+/// "2.5 mm/V" and 0.01 for "2.5 mm/V ± 1 %" or "2.5 mm/V ± 0.025 mm/V": the uncertainty is in percent or in the
+/// unit of the value.
 [[nodiscard]] SplitQuantityText split_uncertainty(std::string_view text);
 
 }  // namespace dualdamp::core

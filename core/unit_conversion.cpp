@@ -108,7 +108,7 @@ class UnitSystem {
     const Unit unit = parse(text);
     if (!unit || angle_power(unit) != 0) return false;
     const std::optional<std::string> base = definition(unit);
-    // A factor comes first and an offset last, each beside a space.
+    // In a definition a factor is first and an offset last, each separated by a space.
     return base && !base->empty() && *base != "1" && base->find(' ') == std::string::npos;
   }
 
@@ -133,7 +133,7 @@ class UnitSystem {
     return std::string(buffer.data(), static_cast<std::size_t>(length));
   }
 
-  /// Exponent of the radian: udunits2 counts an angle as the number 1; here an angle is an angle.
+  /// Exponent of the radian: udunits2 counts an angle as the number 1; here it is a dimension of its own.
   static std::optional<int> angle_power(const Unit& unit) {
     const std::optional<std::string> text = definition(unit);
     if (!text) return std::nullopt;
@@ -163,8 +163,8 @@ class UnitSystem {
     return {true, rounded(factor)};
   }
 
-  /// 1e-6 is not a double but 1e6 is: dividing by it rounds once. What is left is a decimal of few digits (an inch
-  /// is 0.0254 m) that udunits2 has reached over several roundings.
+  /// The intended factor next to `factor`. 1e-6 is no double but 1e6 is, and a division by it rounds once. Other
+  /// factors are decimals of few digits (an inch is 0.0254 m), which udunits2 computes with several roundings.
   static Factor rounded(double factor) {
     constexpr double tolerance = 4e-16;
     const double up = std::nearbyint(factor);

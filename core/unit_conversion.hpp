@@ -1,5 +1,5 @@
 #pragma once
-/// Units by udunits2, without what of its grammar means more than one thing.
+/// Units by udunits2, restricted to the unambiguous part of its grammar.
 
 #include <optional>
 #include <string>
@@ -15,8 +15,8 @@ struct Factor {
   [[nodiscard]] double apply(double value) const { return value * multiply / divide; }
 };
 
-/// The part of udunits2's grammar that means one thing only: products of names with integer powers. Without numbers
-/// (`2 N`), fractional powers, offsets and references (`K @ 273`, `s since 1990`, `lg(re 1 mW)`).
+/// Whether `text` is in the unambiguous part of udunits2's grammar: a product of names with integer powers. Numbers
+/// (`2 N`), fractional powers, offsets and references (`K @ 273`, `s since 1990`, `lg(re 1 mW)`) are not.
 [[nodiscard]] bool is_product_of_units(std::string_view text);
 
 struct Conversion {
@@ -24,9 +24,10 @@ struct Conversion {
   std::optional<Factor> factor;  ///< none where the unit is of another dimension
 };
 
-/// Both are products of units. Errors: `std::runtime_error` where the unit database of udunits2 cannot be read.
+/// `unit` and `si_unit`: products of units. Errors: `std::runtime_error` where the unit database of udunits2 cannot
+/// be read.
 [[nodiscard]] Conversion conversion(const std::string& unit, const std::string& si_unit);
-/// Whether it is a product of base units and nothing else.
+/// Whether `unit` is a product of SI base units without a factor or an offset, and without an angle.
 [[nodiscard]] bool is_coherent(const std::string& unit);
 
 }  // namespace dualdamp::core

@@ -56,12 +56,12 @@ std::string to_ascii(std::string_view unit) {
 }
 
 std::string quoted(std::string_view text) {
-  return "'" + std::string(text.substr(0, 80)) + (text.size() > 80 ? "...'" : "'");  // some are of a megabyte
+  return "'" + std::string(text.substr(0, 80)) + (text.size() > 80 ? "...'" : "'");  // some texts have a megabyte
 }
 
 QuantityText refused_quantity(std::string fault) { return {std::nullopt, std::move(fault), {}}; }
 
-/// A usual unit that differs in case only, or in nothing but the prefix's spelling, or that has a radian more.
+/// A usual unit that differs only in case, or by a further "/rad"; empty if there is none.
 std::string similar_unit(std::string_view unit, std::string_view si_unit, Coordinate coordinate) {
   const auto lower = [](std::string_view text) {
     std::string result(text);
@@ -74,7 +74,7 @@ std::string similar_unit(std::string_view unit, std::string_view si_unit, Coordi
   return {};
 }
 
-/// Where an acceleration is asked for, g is no gram but standard gravity, as on the label of an accelerometer.
+/// In a unit of acceleration g is standard gravity and no gram, as on the label of an accelerometer.
 std::string with_gravity(std::string_view unit) {
   static constexpr std::array<std::array<std::string_view, 2>, 6> names = {{{"g", "gravity"},
                                                                             {"g_n", "gravity"},

@@ -1,19 +1,19 @@
 #pragma once
 /// Quantities as text: `1.042 kg`, `3 um`, `4 N.s/m`, `6.17 Hz`, `90 deg` to SI numbers.
 ///
-/// The number is parsed here (core/numbers.hpp), udunits2 sees only the unit. A bare number means SI.
-/// A dimension is named by its SI unit in udunits2 spelling: "kg", "N/m", "N.s/m", "1" (a plain number), "rad" (an
-/// angle), "rad/s" (a frequency), ...
+/// The number is parsed here (core/numbers.hpp); udunits2 gets only the unit. A bare number means SI. A dimension
+/// is named by its SI unit in udunits2 spelling: "kg", "N/m", "N.s/m", "1" (a plain number), "rad" (an angle),
+/// "rad/s" (a frequency), ...
 ///
 /// Angles and frequencies are dimensions of their own, because udunits2 takes a radian for the number 1:
 /// * a frequency is written in Hz, mHz, kHz, rpm or rad/s, and Hz means 2 pi rad/s; a bare number and 1/s are
 /// refused;
-/// * an angle unit is refused wherever no angle is asked for, and asked for wherever there is one.
+/// * a unit of angle is refused for every dimension but "rad", for which only such a unit, or none, is accepted.
 /// Where the coordinate is an angle (core/coordinate.hpp), `dimension` still names the one for a displacement: "kg"
 /// reads a moment of inertia, "m" an angle, "m/s" an angular velocity, for which a bare number is rad/s.
 ///
 /// Units are products of powers with integer exponents; `m^0.5`, `m^1/2`, offsets (`degC`) and logarithms are
-/// refused. The greek letter mu, the degree sign, raised 2 and 3 and the middle dot may be typed.
+/// refused. The Greek letter mu, the degree sign, raised 2 and 3 and the middle dot may be typed.
 ///
 /// Cost: udunits2's database is read once, at the first unit that is not in plain SI spelling. Safe to call from
 /// several threads.
@@ -44,7 +44,7 @@ struct QuantityText {
 /// `text` without the spaces around it.
 [[nodiscard]] std::string_view trimmed(std::string_view text);
 
-/// Whether the unit can name a dimension: one of SI, or a product of such, with factor 1, and read by its name.
+/// Whether the unit can name a dimension: an SI unit, or a product of SI units, with factor 1.
 [[nodiscard]] bool is_si(std::string_view unit);
 
 /// "a mass such as '5 kg'": what is accepted, for messages and documentation.

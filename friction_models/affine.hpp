@@ -1,5 +1,5 @@
 #pragma once
-/// A quantity that is an affine function of time, position and velocity, plus one term that dies out:
+/// A quantity that is an affine function of time, position and velocity, plus one decaying term:
 ///
 ///   q = constant + rate s + position x + velocity v + transient exp(-decay s)
 ///
@@ -15,11 +15,12 @@ struct Affine {
   double velocity = 0.0;   ///< per m/s
   double transient = 0.0;  ///< at s = 0
   double decay = 0.0;      ///< 1/s
-  /// Where the numbers above are small differences of large terms: the sum of the moduli of those terms.
+  /// If the numbers above are small differences of large terms: the sum of the moduli of these terms, a scale of
+  /// rounding.
   double cancelled = 0.0;
 };
 
-/// At most one of the two has a transient, or both have the same decay.
+/// Needs: at most one of the two has a transient, or both have the same decay.
 [[nodiscard]] constexpr Affine operator+(const Affine& a, const Affine& b) {
   return {a.constant + b.constant,  a.rate + b.rate,           a.position + b.position,
           a.velocity + b.velocity,  a.transient + b.transient, a.transient != 0.0 ? a.decay : b.decay,

@@ -9,18 +9,19 @@
  * may remember a mode (0 to modes - 1) and continuous states. The program computes the motion of the mass, what
  * happens at v = 0 and, for a law with a static limit, sticking. x and v are continuous across a mode change.
  *
- * Pure functions. What a law remembers is in the mode and the states that it is given; the same arguments give the
- * same results. Several threads call one law at the same time, so it holds its parameters and nothing that changes.
+ * Pure functions. The memory of a law is the mode and the states that its functions are given; the same arguments
+ * give the same results. Several threads call one law at the same time, so it holds only its parameters and nothing
+ * that changes.
  *
  * Frozen direction. Between events the direction of slip does not change: write direction * v where the formula has
  * |v|, and direction where it has sgn v. The program may evaluate the formula a little beyond v = 0, where direction
  * and the sign of v differ, and a little beyond a guard; the formula must stay smooth there.
  *
- * Force limits. A law asks for each of its force limits with dualdamp_limit(): modifiers (drift, fluctuation, ...)
- * act there, and the law does not know them.
+ * Force limits. A law gets each of its force limits from dualdamp_limit(). Modifiers (drift, fluctuation, ...) act
+ * there; the law needs no code for them.
  *
- * Versions. The program refuses a table of another DUALDAMP_LAW_ABI. Members are only ever added at the end, with
- * a new version.
+ * Versions. The program refuses a table of another DUALDAMP_LAW_ABI. New members are added only at the end, with a
+ * new version.
  */
 
 #ifdef __cplusplus
@@ -38,7 +39,7 @@ extern "C" {
 /* What functions return: 0, or a number of the law's choice, which ends the run with a message. */
 enum { DUALDAMP_OK = 0 };
 
-/* Facts about a law, or-ed into `abilities`. The conformance suite tries them. */
+/* Facts about a law, or-ed into `abilities`. The conformance suite tests them. */
 enum {
   DUALDAMP_IS_ODD = 1,    /* the mirrored motion gives the mirrored force */
   DUALDAMP_IS_PASSIVE = 2 /* it never gives out more work than it took in */
@@ -101,8 +102,8 @@ struct dualdamp_law_table {
   const char* caution;   /* what the literature warns of, one sentence */
   const char* sources;   /* literature */
 
-  /* Required. A law with these values, in *law; NULL is a law too. It may refuse values that each are in range,
-   * with a status other than 0: `message` then says why. With status 0 `message` may warn of the values. `message`
+  /* Required. Makes a law with these values, in *law; NULL is a law too. It may refuse values, each of which is in
+   * range, with a status other than 0: `message` then says why. With status 0 `message` may warn of the values. `message`
    * has room for `message_size` characters and begins empty. */
   int (*create)(const double* values, void** law, char* message, unsigned message_size);
   /* Required. */
@@ -114,10 +115,10 @@ struct dualdamp_law_table {
   /* Required with states. The size of each state in a motion that slips, > 0: errors are measured against it. */
   int (*scales)(const void* law, double* scales);
 
-  /* Optional. Mode and states in which it begins; without it mode 0 and states 0. */
+  /* Optional. Mode and states at the start; without this function mode 0 and states 0. */
   int (*start)(const void* law, const struct dualdamp_instant* now, int* mode, double* states);
-  /* Optional. The static limit: how far the force that makes the mass stick can go from that of direction 0 [N],
-   * >= 0. The latter is 0 for a law that holds equally in both directions. */
+  /* Optional. The static limit [N], >= 0: how far the force of a mass that sticks can differ from the law's force
+   * for direction 0. That force is 0 for a law that holds the mass equally in both directions. */
   int (*static_limit)(const void* law, int mode, const double* states, const struct dualdamp_instant* now,
                       double* limit);
   /* Required with guards. Values > 0 while the mode holds; it ends when one reaches 0 from above. A guard that has
@@ -127,7 +128,7 @@ struct dualdamp_law_table {
    * now->direction is the new one. It decides by mode, cause and direction, not by values, and is called again
    * while a guard is below 0 in the new mode. */
   int (*jump)(const void* law, int cause, const struct dualdamp_instant* now, int* mode, double* states);
-  /* Optional. The power turned to heat [W], of a law that stores energy; without it that is F v. */
+  /* Optional. The power turned to heat [W], for a law that stores energy; without this function F v. */
   int (*dissipation)(const void* law, int mode, const double* states, const struct dualdamp_instant* now,
                      double* power);
 };

@@ -1,6 +1,6 @@
 #pragma once
-/// What the driver tells a law about one instant: time, position and velocity of the mass, the direction of slip,
-/// and what modifiers do to the law's force limits.
+/// One instant as the driver passes it to a law: time, position and velocity of the mass, and the effect of
+/// modifiers on the law's force limits.
 
 #include "friction_models/affine.hpp"
 
@@ -31,7 +31,7 @@ struct Instant {
   double x = 0.0;  ///< m
   double v = 0.0;  ///< m/s
   Modification modification{};
-  double past_velocity = 0.0;  ///< the velocity one `delay` of the law ago [m/s]; before the start: the initial one
+  double past_velocity = 0.0;  ///< v one `delay` of the law ago [m/s]; before the start: the initial velocity
   double angle = 0.0;          ///< w t of a harmonic excitation, without its phase; else 0 [rad]
   double angle_rate = 0.0;     ///< w [rad/s]
 

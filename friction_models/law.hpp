@@ -1,31 +1,30 @@
 #pragma once
-/// The law contract: what a friction law tells the driver, and what the driver does for it.
+/// The law contract: what a friction law provides, and what the driver does for it.
 ///
-/// A law is a force, and where it has modes: guards and a jump. It is pure: it holds its parameters; what it
-/// remembers (`memory.hpp`) belongs to the driver. The driver owns the motion of the mass: position x and velocity
-/// v are continuous across every event, and the direction of slip stays the same in an interval, from one event to
-/// the next.
+/// A law is a force; a law with modes also has guards and a jump. It is pure: it holds its parameters only, and its
+/// memory (`memory.hpp`) belongs to the driver. The driver owns the motion of the mass: position x and velocity v
+/// are continuous across every event, and the direction of slip is constant in an interval, from one event to the
+/// next.
 ///
 ///   force       F(memory, now, direction) [N], F > 0 opposes v > 0. A law writes `direction` for sgn v:
-///               so the formula stays smooth across the event that ends
-///               the interval.
+///               so the formula stays smooth across the event that ends the interval.
 ///   guards      values that are > 0 while the law's mode holds; the mode ends when one reaches 0 from above.
 ///   jump        the mode change: at a guard of the law (`trigger` = its index), when the mass reverses, stops or
 ///               is released (`Trigger::direction_change`), or at a time of the law's own schedule. It is called
 ///               again while a guard is violated in the new mode. It decides by the mode and the trigger, not by
 ///               values.
 ///
-/// Sticking belongs to the driver: a law that can make the mass stick says how far its force can go from that of
-/// direction none, its static limit. Of a law that holds equally in both directions the force of direction none is
-/// 0. With v = 0 the mass sticks while |pull| <= the sum of the static limits, where pull is the sum of all forces
-/// on the mass, those of the laws for direction none; otherwise it slips in the direction of the pull. At v = 0
-/// every law first sees a change of direction to none.
+/// Sticking belongs to the driver. A law that can make the mass stick gives its static limit: how far its force can
+/// differ from its force of direction none. That force is 0 for a law that holds the mass equally in both
+/// directions. With v = 0 the mass sticks while |pull| <= the sum of the static limits, where pull is the sum of
+/// all forces on the mass, those of the laws for direction none; otherwise it slips in the direction of the pull.
+/// At v = 0 every law first sees a change of direction to none.
 ///
-/// A law asks the instant for its force limits, `now.force_limit(kinetic)`: modifiers (drift, fluctuation, a slope
-/// over position, warming) act there, and the law does not know them.
+/// A law gets its force limits from the instant, `now.force_limit(kinetic)`. Modifiers (drift, fluctuation, a slope
+/// over position, warming) act there; the law has no code for them.
 ///
 /// To write a law: `law_concepts.hpp`. To run one: `Law` below. Its abilities as interfaces: `law_model.hpp`.
-/// `docs/decisions/002-law-contract.md` works contact compliance, Iwan and LuGre through this contract.
+/// `docs/decisions/002-law-contract.md` shows contact compliance, Iwan and LuGre in this contract.
 
 #include <algorithm>
 #include <concepts>
@@ -42,8 +41,8 @@
 
 namespace dualdamp::friction {
 
-/// Any law as a value, for choice at run time. Parameters are shared and immutable, so a copy is cheap. A question
-/// about an ability that the law lacks has the answer stated here, without a call.
+/// Any law as a value, for choice at run time. Parameters are shared and immutable, so a copy is cheap. Functions
+/// of an ability that the law lacks return the value stated here, without a call.
 class Law {
  public:
   // Not for Law itself: whether it is copyable must not depend on this constructor.
@@ -71,7 +70,7 @@ class Law {
     if (abilities_.modal != nullptr) abilities_.modal->jump(memory, trigger, now, direction);
   }
 
-  /// The law makes the mass stick.
+  /// Whether the law can make the mass stick.
   [[nodiscard]] bool holds_mass() const { return abilities_.sticking != nullptr; }
   /// N; 0 for a law that does not make the mass stick.
   [[nodiscard]] double static_limit(const Memory& memory, const Instant& now) const {
@@ -91,9 +90,9 @@ class Law {
     return abilities_.affine->affine_limit(memory, now);
   }
 
-  /// False: states stay as they are between events.
+  /// False: states are constant between events.
   [[nodiscard]] bool has_rates() const { return abilities_.states != nullptr; }
-  /// Fills in the rates, zero for states that stay, and returns the force [N].
+  /// Fills in the rates, zero for constant states, and returns the force [N].
   [[nodiscard]] double respond(const Memory& memory, const Instant& now, Direction direction,
                                std::span<double> rates) const {
     if (abilities_.states != nullptr) return abilities_.states->respond(memory, now, direction, rates);

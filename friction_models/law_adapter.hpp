@@ -1,6 +1,6 @@
 #pragma once
 /// Gives a class that is written as a law (`law_concepts.hpp`) the interfaces of its abilities (`law_model.hpp`),
-/// and no others. Which ones is decided when the program is compiled. Cost: one virtual call for each question.
+/// and no others. The compiler decides which. Cost: one virtual call for each call of a function.
 
 #include <algorithm>
 #include <concepts>

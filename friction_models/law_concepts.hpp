@@ -1,7 +1,7 @@
 #pragma once
-/// How to write a law: a copyable class with a force, and the members of those abilities that it has. The compiler
-/// finds them by the concepts below; nothing is registered and nothing is inherited. Every member is const and
-/// pure: the same arguments give the same results.
+/// How to write a law: a copyable class with a force, and the member functions of its abilities. The compiler finds
+/// them by the concepts below; nothing is registered and nothing is inherited. Every member is const and pure: the
+/// same arguments give the same results.
 ///
 ///     class Coulomb {
 ///      public:
@@ -9,8 +9,8 @@
 ///       [[nodiscard]] Affine affine_limit(const Memory&, const Instant& now) const;
 ///     };
 ///
-/// A law states either the affine members (affine_force, affine_limit, affine_guards) or the plain ones (force,
-/// static_limit, guards): plain values follow from affine ones.
+/// A law has either the affine members (affine_force, affine_limit, affine_guards) or the plain ones (force,
+/// static_limit, guards). The plain values of an affine law follow from its affine members.
 
 #include <concepts>
 #include <span>
@@ -45,14 +45,13 @@ concept RespondingLaw =
 template <class L>
 concept FrictionLaw = std::copyable<L> && (AffineForce<L> || OwnForce<L> || RespondingLaw<L>);
 
-/// Remembers something: modes or states. Gives what it remembers at the start.
+/// Has a memory of modes or states. Returns the memory at the start.
 template <class L>
 concept ModalLaw = requires(const L& law, const Instant& now) {
   { law.start(now) } -> std::same_as<Memory>;
 };
 
-/// Changes its mode, for the reason that the trigger names. It decides by mode, trigger and direction, not by
-/// values.
+/// Changes its mode. `trigger` is the reason. It decides by mode, trigger and direction, not by values.
 template <class L>
 concept JumpingLaw =
     requires(const L& law, Memory& memory, const Instant& now, Direction direction, Trigger trigger) {
@@ -71,7 +70,7 @@ concept Guards = requires(const L& law, const Memory& memory, const Instant& now
   { law.guards(memory, now, direction, values) } -> std::same_as<void>;
 };
 
-/// Makes the mass stick, with forces up to this static limit [N] from that of direction none.
+/// Makes the mass stick. Returns the static limit [N]: how far its force can differ from that of direction none.
 template <class L>
 concept AffineLimit = requires(const L& law, const Memory& memory, const Instant& now) {
   { law.affine_limit(memory, now) } -> std::same_as<Affine>;
@@ -83,7 +82,7 @@ concept StaticLimit = requires(const L& law, const Memory& memory, const Instant
 template <class L>
 concept HoldsMass = AffineLimit<L> || StaticLimit<L>;
 
-/// Affine in every mode, which gives the exact engine.
+/// Affine in every mode: the exact engine can run it.
 template <class L>
 concept AffineLaw = AffineForce<L> && (!HoldsMass<L> || AffineLimit<L>) && (!Guards<L> || AffineGuards<L>);
 
@@ -94,20 +93,21 @@ concept StateLaw =
       { law.rates(frozen, now, direction, rates) } -> std::same_as<void>;
     };
 
-/// Says, of states that move, the size of each in a motion that slips, > 0: errors are measured against it. A state
-/// without a size is a position, of the size of the motion; a velocity says `size_of_velocity` (state_sizes.hpp).
+/// Gives the size of each moving state in a motion that slips, > 0; local errors are relative to it. A state whose
+/// size is left at 0 is a position and has the size of the motion; a velocity has `size_of_velocity`
+/// (state_sizes.hpp).
 template <class L>
 concept ScaledLaw = requires(const L& law, const Memory& memory, std::span<double> scales) {
   { law.scales(memory, scales) } -> std::same_as<void>;
 };
 
-/// Depends on the velocity a fixed time ago. Gives that time [s], > 0.
+/// Depends on the velocity a fixed time ago. Returns this time [s], > 0.
 template <class L>
 concept DelayedLaw = requires(const L& law) {
   { law.delay() } -> std::same_as<double>;
 };
 
-/// Stores energy. Gives the power that it turns to heat [W], which is then not force times velocity.
+/// Stores energy. Returns the power that it turns to heat [W], which is then not force times velocity.
 template <class L>
 concept DissipatingLaw = requires(const L& law, const Memory& memory, const Instant& now, Direction direction) {
   { law.dissipation(memory, now, direction) } -> std::same_as<double>;
@@ -120,13 +120,13 @@ concept AdvancingLaw =
       { law.advance(memory, now, now, duration, direction) } -> std::same_as<void>;
     };
 
-/// Changes its mode at times that are known in advance. Gives the next one [s].
+/// Changes its mode at times that are known in advance. Returns the next time [s].
 template <class L>
 concept ScheduledLaw = requires(const L& law, const Memory& memory) {
   { law.next_change(memory) } -> std::same_as<double>;
 };
 
-/// Says why no motion under this law is periodic; empty when a motion may be periodic.
+/// Returns the reason why no motion under this law is periodic; empty when a motion may be periodic.
 template <class L>
 concept AperiodicLaw = requires(const L& law) {
   { law.aperiodic() } -> std::convertible_to<std::string_view>;

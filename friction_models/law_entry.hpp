@@ -1,6 +1,6 @@
 #pragma once
-/// What the program knows about a law beside its equation of motion: name, texts, facts, parameters, and how it is
-/// made from values. Each law's source states its entry once; listing, schema, checks and documentation use it.
+/// The entry of a law in the list of laws: name, texts, facts, parameters, and how the law is made from values. The
+/// source of a law defines its entry once; listing, schema, checks and documentation use it.
 
 #include <functional>
 #include <optional>
@@ -14,7 +14,7 @@
 
 namespace dualdamp::friction {
 
-/// The engine that runs the law by itself, without `warming`.
+/// The engine that runs the law alone, without modifiers that need the smooth engine.
 enum class EngineKind { exact, smooth };
 
 struct LawEntry {
@@ -29,11 +29,11 @@ struct LawEntry {
   std::string_view caution{};                 ///< what the literature warns of, in one sentence; empty: nothing
   std::string_view sources{};                 ///< keys in `docs/refs.bib`
   std::vector<std::string_view> modifiers{};  ///< names of those it supports
-  /// Its own; in `laws()` also those of its modifiers.
+  /// Those of the law; in `laws()` also those of its modifiers.
   std::vector<Parameter> parameters{};
   /// Laws in parallel that make up this one. `values` complete.
   std::function<std::vector<Law>(const ParameterValues& values)> make{};
-  /// Rules between values that are each in range. `values` complete. May be absent.
+  /// Rules between values, each of which is in range. `values` complete. May be absent.
   std::function<std::vector<ParameterFault>(const ParameterValues& values)> check{};
   /// Warnings about these complete values. May be absent.
   std::function<std::vector<std::string>(const ParameterValues& values)> warnings{};

@@ -1,10 +1,10 @@
 #pragma once
-/// The law contract at run time. `LawModel` is what every law answers: a force, and a list of its abilities. Each
-/// ability is a small interface of its own; a law inherits those that it has and lists them in `abilities()`.
-/// Whoever runs a law asks once for the list and then calls the interfaces it finds there.
+/// The law contract at run time. `LawModel` is the interface of every law: a force, and a list of its abilities.
+/// Each ability is a small interface of its own; a law inherits the interfaces of its abilities and lists them in
+/// `abilities()`. The caller gets the list once and then calls these interfaces.
 ///
-/// A law in this tree needs none of this: write a class (`law_concepts.hpp`), and `LawAdapter` gives it the
-/// interfaces. They are for laws whose abilities are known at run time only: plugins and modified laws.
+/// To write a law in this tree, write a class (`law_concepts.hpp`); `LawAdapter` gives it the interfaces. Laws
+/// whose abilities are known only at run time, plugins and modified laws, implement them directly.
 
 #include <span>
 #include <string_view>
@@ -21,7 +21,7 @@ class Ability {
   virtual ~Ability() = default;
 };
 
-/// Modes or states: the law remembers something.
+/// The law has a memory: modes or states.
 class ModalAbility : public Ability {
  public:
   [[nodiscard]] virtual Memory start(const Instant& now) const = 0;
@@ -55,7 +55,7 @@ class StateAbility : public Ability {
   /// Fills in all rates and returns the force [N].
   [[nodiscard]] virtual double respond(const Memory& memory, const Instant& now, Direction direction,
                                        std::span<double> rates) const = 0;
-  /// Fills in the size of each state, 0 before the call; left at 0: a position.
+  /// Fills in the size of each state. `scales` is 0 before the call; a state that is left at 0 is a position.
   virtual void scales(const Memory& memory, std::span<double> scales) const = 0;
 };
 
@@ -94,8 +94,8 @@ class AperiodicAbility : public Ability {
   [[nodiscard]] virtual std::string_view aperiodic() const = 0;
 };
 
-/// What a law can do beside its force. A null pointer: the law lacks that ability. The pointers live as long as the
-/// law that gave them.
+/// The abilities of a law beside its force; a null pointer where the law lacks one. The pointers live as long as
+/// the law that returned them.
 struct Abilities {
   const ModalAbility* modal = nullptr;
   const StickingAbility* sticking = nullptr;
@@ -108,7 +108,7 @@ struct Abilities {
   const AperiodicAbility* aperiodic = nullptr;
 };
 
-/// What every law answers.
+/// The interface of every law.
 class LawModel {
  public:
   LawModel() = default;

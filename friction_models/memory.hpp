@@ -1,12 +1,12 @@
 #pragma once
-/// What a law remembers from one instant to the next. The driver keeps it, so that a step or an event search can be
-/// repeated; the law gives it its meaning.
+/// The memory of a law from one instant to the next. The driver keeps it, so that a step or an event search can be
+/// repeated; only the law knows its meaning.
 
 #include <vector>
 
 namespace dualdamp::friction {
 
-/// Where the modifiers of a law stand. It changes at events only; the law under the modifiers neither reads nor
+/// The state of the modifiers of a law. It changes only at events; the law under the modifiers neither reads nor
 /// writes it.
 struct ModifierCourse {
   bool drift_ended = false;  ///< a falling drift has taken the force limits to zero
@@ -21,14 +21,14 @@ struct ModifierCourse {
 
 struct Memory {
   int mode = 0;
-  std::vector<int> indices{};   ///< what the mode holds beyond its number, e.g. which elements stick together
+  std::vector<int> indices{};   ///< further whole numbers of the mode, such as which elements stick together
   std::vector<double> state{};  ///< enters force and guards as an affine function in every mode of an affine law
   ModifierCourse course{};
 
   friend bool operator==(const Memory&, const Memory&) = default;
 };
 
-/// Why a law is asked to change its mode.
+/// The reason for which `jump` is called.
 struct Trigger {
   static constexpr int direction_change = -1;  ///< the mass reverses, stops or is released
   static constexpr int limit_change = -2;      ///< a modifier is about to change the force limits by a step

@@ -58,7 +58,7 @@ bool is_of_kind(const Value& value, ParameterKind kind) {
   }
 }
 
-/// Goes through one table; `prefix` is the way to a record: "elements[2].".
+/// Checks the values of one table; `prefix` is the path of a record: "elements[2].".
 class Completion {
  public:
   Completion(const std::vector<Parameter>& table, ParameterValues& values, std::string prefix,
@@ -98,7 +98,7 @@ class Completion {
                "one of the two", shown(*value, values_.unit(parameter.unit)));
   }
 
-  /// No part of the form that does without `name` is given.
+  /// Whether no parameter of the form without `name` is given.
   [[nodiscard]] bool other_form_is_absent(std::string_view name) const {
     return std::ranges::none_of(table_, [&](const Parameter& other) {
       return other.instead_of == name && !name.empty() && values_.has(other.name);

@@ -21,8 +21,8 @@
 
 namespace dualdamp::friction {
 
-/// Values by name, SI. Access to a value that is not there, or is of another kind, is a bug and throws a
-/// `std::logic_error` or `std::bad_variant_access`.
+/// Values by name, SI. Access to a value that is missing or of another kind is a bug and throws `std::logic_error`
+/// or `std::bad_variant_access`.
 class ParameterValues {
  public:
   /// A whole number is a double without fraction, exact below 2^53; a record is a list of one.
@@ -49,7 +49,7 @@ class ParameterValues {
   void set(std::string_view name, Value value);
   void erase(std::string_view name);
 
-  /// What the law's x is: for the units in messages, nothing else.
+  /// Sets what the law's x is. It affects only the units in messages.
   void measure(core::Coordinate coordinate) { coordinate_ = coordinate; }
   [[nodiscard]] core::Coordinate coordinate() const { return coordinate_; }
   /// "N.m" for "N" where x is an angle.
@@ -98,26 +98,26 @@ struct Parameter {
   std::string_view same_as{};                        ///< default is the value of this earlier parameter
   bool is_optional = false;                          ///< may be absent and then has no value
   /// A law may have two forms: one with the parameter named here, which is earlier in the table, and one with this
-  /// parameter instead. Beside the earlier one this parameter is refused. Without the earlier one this parameter is
-  /// required, unless it has a default. The earlier one is required where no parameter of this form is given.
+  /// parameter instead. This parameter is refused beside the earlier one. Without the earlier one it is required,
+  /// unless it has a default. The earlier one is required if no parameter of this form is given.
   std::string_view instead_of{};
   std::string_view not_beside{};  ///< refused beside this earlier parameter, unless that is 0
   Range range{};
   std::string_view at_least{};  ///< must be >= the value of this earlier parameter
   std::string_view meaning{};   ///< one line for documentation
 
-  /// Without a default and not optional; `instead_of` may still excuse it.
+  /// No default and not optional. With `instead_of` it is required in its form only.
   [[nodiscard]] bool required() const { return !fallback && same_as.empty() && !is_optional; }
-  /// That of its kind: whole numbers of a seed lie in `seed_range`.
+  /// `range`; for a seed `seed_range`.
   [[nodiscard]] Range allowed_range() const { return kind == ParameterKind::seed ? seed_range : range; }
   /// For messages: ">= 0 N", "gaussian, lorentz", "a list of 1 to 10000 records of stiffness, limit".
   [[nodiscard]] std::string describe(core::Coordinate coordinate = core::Coordinate::displacement) const;
 };
 
-/// What a parameter without a given value has, in words: "2", "that of 'kinetic'", "required"; empty: nothing.
+/// The value of a parameter that is not given, in words: "2", "that of 'kinetic'", "required"; empty for none.
 [[nodiscard]] std::string describe_default(const std::vector<Parameter>& table, const Parameter& parameter);
 
-/// The parameters of the form that does without `name`; empty when there is no other form.
+/// The parameters of the form without `name`; empty when there is no other form.
 [[nodiscard]] std::vector<std::string> names_instead_of(const std::vector<Parameter>& table, std::string_view name);
 
 /// One fault of one parameter; the reader gives it its place in the file.
@@ -129,9 +129,9 @@ struct ParameterFault {
   bool is_missing = false;  ///< the value is not there
 };
 
-/// Fills in the defaults of `values` and returns every fault: missing, unknown, of the wrong kind, not finite, out
-/// of range, below the parameter named by `at_least`, of both forms of a law. `values` is complete when the
-/// returned list is empty.
+/// Fills in the defaults of `values` and returns every fault: a value that is missing, unknown, of the wrong kind,
+/// not finite, out of range, or below the parameter named by `at_least`, and parameters of both forms of a law.
+/// `values` is complete when the returned list is empty.
 [[nodiscard]] std::vector<ParameterFault> complete(const std::vector<Parameter>& table, ParameterValues& values);
 
 }  // namespace dualdamp::friction

@@ -33,7 +33,7 @@ using Table = dualdamp_law_table;
 constexpr std::size_t max_parameters = 64;
 constexpr std::size_t max_text = max_plugin_text;
 
-/// What is wrong with one library.
+/// The faults of one library.
 class Refusal {
  public:
   explicit Refusal(std::string file) : file_(std::move(file)) {}
@@ -51,7 +51,7 @@ class Refusal {
   std::string file_;
 };
 
-/// A key of a scenario file.
+/// Whether it can be a key of a scenario file.
 bool is_word(const char* text) {
   if (text == nullptr || std::islower(static_cast<unsigned char>(*text)) == 0) return false;
   const std::string_view word(text, strnlen(text, max_text));
@@ -204,7 +204,7 @@ std::string bytes_of(const Refusal& refuse, const std::string& file) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-/// The library's table. dlopen looks a bare name up elsewhere: `path` is absolute.
+/// The library's table. `path` is absolute, since dlopen searches other folders for a name without a path.
 const Table& table_of(const Refusal& refuse, const std::string& path) {
   void* library = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (library == nullptr) {

@@ -50,12 +50,12 @@ struct Destroyer {
     try {
       destroy(law);
     } catch (...) {
-      return;  // there is nobody to report to
+      return;  // a destructor can report to nobody
     }
   }
 };
 
-/// One law of the library with its parameters. Its abilities are those whose functions the table has.
+/// One law of the library with its parameters. It has the abilities whose functions the table has.
 class PluginLaw final : public LawModel,
                         public ModalAbility,
                         public StickingAbility,
@@ -81,7 +81,7 @@ class PluginLaw final : public LawModel,
     const dualdamp_instant instant = outside(now, direction);
     call(table_, "respond", table_.respond, law(), memory.mode, memory.state.data(), &instant, &force,
          rates.data());
-    // A value that is too large is an answer: a step that looked too far ahead is then made shorter.
+    // An infinite value is no fault: the step went too far ahead and is made shorter.
     const bool is_number =
         !std::isnan(force) && std::ranges::none_of(rates, [](double r) { return std::isnan(r); });
     if (!is_number) refuse_nan("respond", memory, now);
@@ -148,7 +148,7 @@ class PluginLaw final : public LawModel,
             .limit_vanished = m.vanished};
   }
 
-  /// It is not the law's fault when it was asked about values that are no numbers.
+  /// A result from arguments that are not finite is not the law's fault.
   void refuse_nan(const char* function, const Memory& memory, const Instant& now) const {
     const std::array<double, 3> place = {now.t, now.x, now.v};
     if (!all_finite(memory.state) || !all_finite(place)) return;

@@ -1,7 +1,7 @@
 #pragma once
-/// A law of a plugin: the functions of its table as a law of the contract, with the abilities whose functions the
-/// table has. What the interface forbids (an exception, NaN, a mode that is not declared, a status other than 0)
-/// becomes a LawFault that names the law and the function.
+/// A law of a plugin: wraps the functions of its table in the law contract. The law has the abilities whose
+/// functions the table has. A breach of the interface (an exception, NaN, a mode that is not declared, a status
+/// other than 0) becomes a LawFault that names the law and the function.
 
 #include <cstddef>
 #include <optional>
@@ -17,10 +17,10 @@ inline constexpr std::size_t max_plugin_states = 64;
 inline constexpr std::size_t max_plugin_guards = 16;
 inline constexpr std::size_t max_plugin_text = 1000;
 
-/// What create() answers to values in range.
+/// The result of create() for values in range.
 struct Created {
-  std::optional<Law> law;  ///< none: it refuses the values
-  std::string message;     ///< why, or what it warns of
+  std::optional<Law> law;  ///< none: create() refused the values
+  std::string message;     ///< the reason of the refusal, or a warning
 };
 
 /// `table`, checked, must outlive the law; `values` complete.

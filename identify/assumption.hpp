@@ -12,16 +12,16 @@ enum class Assumption {
   sensors,                ///< gain, delay, unit and range of each sensor
   spring,                 ///< linear
   one_mode,               ///< one degree of freedom
-  drive,                  ///< harmonic and steady, for the methods that take it so
+  drive,                  ///< harmonic and steady, for the methods that assume it
   stationarity,           ///< nothing drifts from sweep to sweep or within the record
-  friction_velocity,      ///< friction over speed is a constant and a straight line
-  friction_displacement,  ///< friction does not depend on position, nor on the way since the last reversal
+  friction_velocity,      ///< friction over speed is a straight line
+  friction_displacement,  ///< friction does not depend on position or on the distance since the last reversal
   symmetry,               ///< friction is the same in both directions
 };
 
 inline constexpr std::size_t assumption_count = 9;
 
-/// Probability that any test of a record rejects where nothing is wrong.
+/// Probability that any test of a record rejects if all assumptions hold.
 inline constexpr double family_level = 0.05;
 
 [[nodiscard]] constexpr std::array<Assumption, assumption_count> assumptions() {
@@ -34,10 +34,10 @@ inline constexpr double family_level = 0.05;
 [[nodiscard]] std::string_view name_of(Assumption assumption);
 /// "the constants are as stated", ...
 [[nodiscard]] std::string_view statement_of(Assumption assumption);
-/// What the record would need where it cannot tell: "phases, or a second frequency".
+/// What the record would need to test the assumption: "phases, or a second frequency".
 [[nodiscard]] std::string_view what_would_tell(Assumption assumption);
 
-/// A set of assumptions, for what a method rests on.
+/// A set of assumptions, on which a method rests.
 class AssumptionSet {
  public:
   constexpr AssumptionSet() = default;

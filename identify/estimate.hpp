@@ -1,10 +1,10 @@
 #pragma once
 /// Estimates: numbers, their uncertainty, and the method's own diagnostics.
 ///
-/// Two questions are kept apart. `outcome`: is there a number at all? When it is not ok() `value` means nothing and
-/// the record did not allow an estimate. `usable`: does the method stand by its number? An estimate that is there
-/// and not usable carries its value, so that it can be reported beside its reason. Whether the assumptions of the
-/// number hold in this record is not for one method to say: the ledger does (answer.hpp).
+/// Two questions are separate. `outcome`: is there an estimate? If it is not ok(), the record did not allow one,
+/// and `value` has no meaning. `usable`: does anything speak against the estimate? An estimate that is not usable
+/// keeps its value, which is reported with the reason. Whether the assumptions hold in this record is decided by
+/// the ledger, not by one method (answer.hpp).
 
 #include <Eigen/Core>
 #include <array>
@@ -29,7 +29,7 @@ struct ParameterIntervals {
   std::array<double, 2> zeta{}, c{}, x_f{}, F0{};
 };
 
-/// A datum left out and why (for example: it lies in the sticking range).
+/// A datum that is left out, and why (for example: the mass sticks).
 struct Exclusion {
   int number = 0;  ///< of the datum in the record, from 1
   std::string reason;
@@ -42,7 +42,8 @@ struct LackOfFit {
   int freedom = 0;
   double p_value = 1.0;
   double effect = 0.0;  ///< rms of the added term over the range of the data
-  /// p_value below the level and the effect above `least_effect`: noiseless data show differences of no weight.
+  /// p_value below the level and effect above `least_effect`: with noiseless data even negligible differences are
+  /// significant.
   bool fired = false;
   double level = 0.05;
   double least_effect = 5e-4;
@@ -91,7 +92,7 @@ struct CurveColumn {
   std::vector<double> values;
 };
 
-/// Something to plot that came out beside the numbers: friction over velocity, a profile of the likelihood.
+/// A curve of the estimate to plot: friction over velocity, a profile of the likelihood.
 struct EstimateCurve {
   std::string name;
   std::vector<CurveColumn> columns;  ///< of equal length; the first is the abscissa
@@ -111,11 +112,11 @@ struct LawIntervals;  // methods/any_law/law_intervals.hpp
 
 struct Estimate {
   std::string method;
-  core::Outcome outcome;  ///< not ok(): there is no estimate, and why
-  /// Nothing speaks against the number beside what the ledger of assumptions is asked for (ledger/ledger.hpp).
+  core::Outcome outcome;  ///< not ok(): why there is no estimate
+  /// Nothing speaks against the estimate, apart from the assumptions that the ledger tests (ledger/ledger.hpp).
   bool sound = false;
   std::vector<std::string>
-      findings;         ///< what the method's own tests found against its assumptions, each a sentence
+      findings;         ///< results of the method's own tests against its assumptions, each a sentence
   bool usable = false;  ///< sound and without findings
   std::string reason;   ///< why it is not usable, or which data it is from
   ParameterSet value;

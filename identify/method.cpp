@@ -9,8 +9,8 @@ namespace dualdamp::identify {
 
 namespace {
 
-/// Why no method may look at this input; empty when one may. Histories and extremes are left to the methods, which
-/// leave out what they cannot use.
+/// Why no method can read this input; empty otherwise. The methods themselves leave out histories and extremes that
+/// they cannot use.
 std::string fault_of_input(const Record& record, const KnownConstants& constants) {
   if (const auto faults = faults_of(constants); !faults.empty()) return faults.front().message;
   if (const auto faults = faults_of(Record{record.pairs, {}, {}}); !faults.empty()) return faults.front().message;

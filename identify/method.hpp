@@ -13,7 +13,7 @@
 
 namespace dualdamp::identify {
 
-/// What a method works on.
+/// What a method reads.
 enum class RecordKind {
   pairs,    ///< amplitude pairs at one frequency
   states,   ///< amplitude pairs with phases, or at several frequencies
@@ -63,25 +63,25 @@ struct MethodEntry {
   /// Why this record does not hold what the method needs; empty when it does.
   std::string (*lacks)(const Record&);
   MethodCall call;
-  AssumptionSet rests_on;  ///< what a departure from makes the estimate wrong
-  /// It takes seconds: campaigns run it where it is named only, and uncertainties of constants are not found by
-  /// running it again.
+  AssumptionSet rests_on;  ///< assumptions; the estimate is wrong if one of them fails
+  /// It takes seconds. Campaigns run it only if it is named, and it is not run again for the uncertainties of
+  /// constants.
   bool takes_seconds = false;
 
   [[nodiscard]] std::span<const Option* const> options() const { return call.options; }
   [[nodiscard]] bool has(const Option& option) const;
-  /// Those of the values that are of the method's options.
+  /// The values that belong to options of the method.
   [[nodiscard]] OptionValues own(const OptionValues& values) const;
 
-  /// A record or constants that are not sound (validate.hpp), a record that lacks something or has not enough
-  /// usable data: `outcome` not ok() with the reason. Values that are not those of the method's options throw a
-  /// `core::InputError`.
+  /// If the record or the constants are not sound (validate.hpp), or the record lacks something or has too few
+  /// usable data, `outcome` is not ok() and has the reason. Values that do not belong to the method's options throw
+  /// a `core::InputError`.
   [[nodiscard]] Estimate run(const Record& record, const KnownConstants& constants,
                              const OptionValues& values = {}) const;
 };
 
-/// `lacks` of the methods that ask for no more: "the record holds no x-Y pairs". `lacks_resonance_pairs` wants them
-/// all at one frequency.
+/// `lacks` of the methods without further conditions: "the record holds no x-Y pairs". `lacks_resonance_pairs`
+/// requires that all pairs are at one frequency.
 [[nodiscard]] std::string lacks_pairs(const Record& record);
 [[nodiscard]] std::string lacks_resonance_pairs(const Record& record);
 [[nodiscard]] std::string lacks_decay(const Record& record);

@@ -23,7 +23,7 @@ std::vector<double> numbers_in(const OptionValue& value) {
   return {};
 }
 
-/// Of a list of words.
+/// For a list of words.
 core::Diagnostic complaint_about_words(const Option& option, const std::vector<std::string>& given) {
   const std::string name = "option '" + std::string(option.name) + "' ";
   if (given.size() < option.least_items || given.size() > option.most_items)

@@ -10,8 +10,8 @@
 ///       &FreeDecayOptions::zero_offset}}; }
 ///     };
 ///
-/// An option of several methods is one shared constant, below; an option of one method stands in its header. A
-/// method cannot read what it does not declare.
+/// An option of several methods is a shared constant in this file; an option of one method is in the header of the
+/// method. A method cannot read an option that it does not declare.
 
 #include <array>
 #include <map>
@@ -50,10 +50,10 @@ struct Option {
   friction::Range range{};                        ///< of a number, or of each of a list
   std::size_t least_items = 1;                    ///< of a list
   std::size_t most_items = 1;                     ///< of a list
-  double per_unit = 1.0;                          ///< methods take the number divided by this: Hz for rad/s
-  std::string_view otherwise{};                   ///< what holds without it, in words
+  double per_unit = 1.0;                          ///< methods receive the number divided by this: Hz for rad/s
+  std::string_view otherwise{};                   ///< the default, in words
   std::string_view meaning{};                     ///< one line
-  std::vector<std::string> (*words)() = nullptr;  ///< that a list of words may hold
+  std::vector<std::string> (*words)() = nullptr;  ///< the words that a list of words may hold
 
   /// For messages: "> 0 and <= 1", "1 to 16 numbers > 0 rad/s".
   [[nodiscard]] std::string describe() const;
@@ -87,7 +87,7 @@ inline constexpr auto declarations_of =
     std::apply([](const auto&... use) { return std::array<const Option*, sizeof...(use)>{use.option...}; },
                Options::declared());
 
-/// The struct of values with what is given; the rest has its defaults. `values` must be without `faults_of`.
+/// The struct with the given values; the others keep their defaults. `values` must have no `faults_of`.
 template <class Options>
 [[nodiscard]] Options taken_from(const OptionValues& values) {
   Options options;
@@ -138,10 +138,10 @@ inline constexpr Option least_speed_option{
     .unit = "m/s",
     .range = {.low = 0.0},
     .otherwise = "a share of the largest speed",
-    .meaning = "slower samples are left out where friction is regressed on speed"};
+    .meaning = "samples slower than this are left out of the regression of friction on speed"};
 
-/// Known standard deviations of one measured output and input amplitude [m]. When either is positive they replace
-/// the scatter of the residuals, so that even two pairs have standard errors.
+/// Known standard deviations of one measured output and input amplitude [m]. If either is positive, they replace
+/// the scatter of the residuals, so that even two pairs give standard errors.
 struct KnownDeviations {
   double sigma_x = 0.0;
   double sigma_Y = 0.0;
@@ -152,7 +152,7 @@ struct KnownDeviations {
   }
 };
 
-/// Of the resonance methods.
+/// Options of the resonance methods.
 struct ResonanceOptions : KnownDeviations {
   bool approximate_G = false;  ///< from Eq (15) instead of the exact Eq (4) at w = wn
 
@@ -162,9 +162,9 @@ struct ResonanceOptions : KnownDeviations {
   }
 };
 
-/// Of the resonance methods that draw one line.
+/// Options of the resonance methods that fit one line.
 struct LineOptions : ResonanceOptions {
-  int bootstrap = 0;     ///< replicates, by sweeps (by residuals where there is one sweep); 0: none
+  int bootstrap = 0;     ///< replicates, by sweeps (by residuals if there is only one sweep); 0: none
   bool profile = false;  ///< curves of the likelihood of zeta and F0, with the intervals that follow from them
 
   static constexpr auto declared() {
@@ -173,16 +173,16 @@ struct LineOptions : ResonanceOptions {
   }
 };
 
-/// Of the methods that filter histories.
+/// Options of the methods that filter histories.
 struct FilterOptions {
-  /// Hz. The estimate is made with the first, and made again with the others to show what the choice matters.
-  /// Empty: the method's own.
+  /// Hz. The first gives the estimate; the estimates with the others show the effect of the choice. Empty: the
+  /// method's own.
   std::vector<double> cutoffs;
 
   static constexpr auto declared() { return std::tuple{Use{&cutoffs_option, &FilterOptions::cutoffs}}; }
 };
 
-/// Of the methods that regress forces on speeds.
+/// Options of the methods that regress forces on speeds.
 struct RegressionOptions : FilterOptions {
   double least_speed = 0.0;  ///< slower samples are left out [m/s]; 0: the method's own choice
 

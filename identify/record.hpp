@@ -15,16 +15,16 @@
 
 namespace dualdamp::identify {
 
-/// What was not measured, or is not known.
+/// Value of a quantity that was not measured or is not known.
 inline constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
-/// Constants a laboratory knows before the test; `unknown` where it does not. SI. A method that cannot do without
-/// one of them says so.
+/// Constants that a laboratory knows before the test, SI; `unknown` for the others. A method that needs a constant
+/// that is not known gives no estimate, with the reason.
 struct KnownConstants {
   double mass = unknown;       ///< m [kg], > 0
   double stiffness = unknown;  ///< k [N/m], > 0; 0 for a mass on a rail without spring
-  double frequency = unknown;  ///< forcing frequency w [rad/s], > 0, of all data that state none of their own
-  /// For the units in messages, nothing else: those given here are of a displacement (core/coordinate.hpp).
+  double frequency = unknown;  ///< forcing frequency w [rad/s], > 0, for all data that do not state their own
+  /// Only for the units in messages; the units in this file are those of a displacement (core/coordinate.hpp).
   core::Coordinate coordinate = core::Coordinate::displacement;
 
   /// "N.m" for "N" where x is an angle.
@@ -49,8 +49,8 @@ struct Pair {
   return std::isnan(pair.omega) ? constants.frequency : pair.omega;
 }
 
-/// Are two frequencies, or ratios of frequencies, one? Generators hold theirs to 1e-6, and one read off a record is
-/// no better than 1e-5.
+/// Whether two frequencies, or ratios of frequencies, are equal. Generators hold theirs to 1e-6, and a frequency
+/// from a record is not better than 1e-5.
 [[nodiscard]] inline bool is_same_frequency(double a, double b) {
   constexpr double tolerance = 1e-4;
   return std::abs(a - b) <= tolerance * b;
@@ -61,7 +61,7 @@ struct PairRecord {
   std::vector<Pair> pairs;
 };
 
-/// Extremes of a free vibration: signed turning points in order of time, about an unknown offset.
+/// Extremes of a free vibration: signed turning points in order of time, with an unknown common offset.
 struct DecayRecord {
   std::vector<double> extremes;  ///< m
   std::vector<double> times;     ///< s, increasing, one for each extreme; empty when they were not measured
@@ -80,7 +80,7 @@ struct History {
   std::string sweep;          ///< label; may be empty
 };
 
-/// A record holds what was measured; absent kinds are empty.
+/// All that was measured; kinds of data that were not measured are empty.
 struct Record {
   std::optional<PairRecord> pairs;
   std::optional<DecayRecord> decay;

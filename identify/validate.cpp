@@ -29,7 +29,7 @@ void check(double value, bool may_be_zero, const std::string& name, Faults& faul
 
 void check(const Pair& pair, const std::string& where, Faults& faults) {
   check(pair.omega, false, where + "the forcing frequency", faults);
-  // What a sensor read of a small amplitude may be below zero, by noise.
+  // By noise the reading of a small amplitude may be below zero.
   for (const auto& [value, name] : {std::pair{pair.fundamental, "fundamental amplitude"},
                                     {pair.mean_square_speed, "mean square speed"},
                                     {pair.phase, "phase"}})

@@ -1,11 +1,11 @@
 #pragma once
-/// Are a record and the constants beside it sound? For callers who build them by hand: the readers of data files
-/// and scenarios give sound ones.
+/// Checks of a record and of constants. They are for callers who build them by hand; the readers of data files and
+/// scenarios give sound ones.
 ///
-/// A fault is what no measurement can be: signals of one history with different lengths, a sample that is not
-/// finite, a frequency that is not positive, a mass that is not positive. A quantity that was not measured is
-/// `unknown` and no fault. Methods leave out pairs and histories that they cannot use and say so: that is no fault
-/// either.
+/// A fault is something that no measurement can give: signals of one history with different lengths, a sample that
+/// is not finite, a frequency that is not positive, a mass that is not positive. A quantity that was not measured
+/// is `unknown`, which is no fault. Pairs and histories that a method cannot use are no faults either: the method
+/// leaves them out and lists them.
 ///
 /// Errors: none thrown by `faults_of`; `require_sound` throws a `core::InputError` with all faults. Cost: linear.
 
@@ -25,8 +25,8 @@ namespace dualdamp::identify {
 
 void require_sound(const Record& record);
 
-/// Why the signals of a history do not belong together; empty when they do. Length and rate alone: no sample is
-/// looked at.
+/// Why the signals of a history do not belong together; empty when they do. Checks lengths and rate only, no
+/// samples.
 [[nodiscard]] std::string shape_fault(const History& history);
 
 }  // namespace dualdamp::identify

@@ -50,7 +50,7 @@ void align_events(const Table& events, Table& other, double tolerance) {
     }
 }
 
-/// The samples of an orbit from another one of its equal parts on; the last sample is the first again.
+/// The samples of an orbit, beginning with another of its equal parts; the last sample equals the first.
 void begin_later(Table& orbit, std::size_t shift) {
   for (Column& column : orbit.columns) {
     if (column.name == "t" || column.kind == CellKind::text) continue;
@@ -69,7 +69,7 @@ double distance(const Table& orbit, const Table& other) {
   return largest;
 }
 
-/// How many forcing periods later the other orbit begins; it is moved there.
+/// Number of forcing periods by which the other orbit begins later; that orbit is shifted by them.
 int align_orbit(const Table& orbit, Table& other, int periods) {
   const std::size_t part = (orbit.size() - 1) / static_cast<std::size_t>(periods);
   double least = std::numeric_limits<double>::infinity();
@@ -83,7 +83,7 @@ int align_orbit(const Table& orbit, Table& other, int periods) {
   return best;
 }
 
-/// Sticks by their start within the orbit's period, as the list has them.
+/// Shifts the starts of the sticks within the period of the orbit, and sorts the sticks.
 void begin_sticks_later(Answer& answer, double shift, double period) {
   Json& sticks = answer.result["sticks"];
   for (Json& stick : sticks) {

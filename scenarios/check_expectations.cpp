@@ -9,7 +9,7 @@ namespace dualdamp::scenarios {
 
 namespace {
 
-/// Indices whose bound is known before the run.
+/// Checks indices whose bound is known before the run.
 void check_index(CheckedFile& file, const Expectable& result, Place place, const ResultPath& path) {
   const std::size_t bracket = path.pattern.find("[]");
   if (bracket == std::string::npos) return;

@@ -35,7 +35,7 @@ void check_sections(CheckedFile& file) {
   }
 }
 
-/// Without a spring beside it gravity is the whole of the stiffness.
+/// Without a spring, gravity is the whole stiffness.
 void resolve_gravity(CheckedFile& file) {
   const auto gravity = file.number_at("system", "gravity_stiffness");
   if (!gravity) return;
@@ -56,7 +56,7 @@ void resolve_gravity(CheckedFile& file) {
   put_in_order(system, file.keys_of("system"));
 }
 
-/// Only measured data do without them.
+/// Only analyses of measured data can do without them.
 void check_constants(CheckedFile& file) {
   if (file.node("system") == nullptr) return;
   const Section& section = file.keys_of("system");
@@ -70,7 +70,7 @@ void check_constants(CheckedFile& file) {
                   "0 " + unit);
 }
 
-/// A resolved scenario has bare numbers, which do not tell that the coordinate is an angle.
+/// A resolved scenario has numbers without units, which do not show that the coordinate is an angle.
 void resolve_coordinate(CheckedFile& file) {
   if (file.coordinate() != core::Coordinate::angle || !file.values().contains("system")) return;
   Json& system = file.values()["system"];
@@ -93,7 +93,7 @@ void check_excitation(CheckedFile& file) {
   }
   const Section& section = excitations().find(type)->section;
   for (const auto& [key, varied] : {std::pair{"amplitude", "amplitudes"}, {"frequency", "frequencies"}}) {
-    // What a measurement varies it gives itself.
+    // A measurement states the quantities that it varies.
     const bool given_there = file.is_given(std::string("analysis.measurement.") + varied);
     const bool wanted = contains(file.needs()->drive, key) || (file.measurement() != nullptr && !given_there);
     if (const Field* field = section.find(key);
@@ -104,7 +104,7 @@ void check_excitation(CheckedFile& file) {
   }
 }
 
-/// A damping ratio becomes a damping; both are needed for a damped frequency.
+/// Converts a damping ratio into a damping; a damped frequency needs both.
 void resolve_damping(CheckedFile& file) {
   const auto m = file.number_at("system", "mass");
   const auto k = file.number_at("system", "stiffness");
@@ -118,7 +118,7 @@ void resolve_damping(CheckedFile& file) {
   put_in_order(system, file.keys_of("system"));
 }
 
-/// Far beyond, squares of forces and products of both are no numbers any more.
+/// Beyond these limits squares of forces and products would overflow.
 void check_mass_and_stiffness(CheckedFile& file) {
   const auto m = file.number_at("system", "mass");
   const auto k = file.number_at("system", "stiffness");
@@ -168,7 +168,7 @@ void resolve_frequency(CheckedFile& file) {
   frequency = core::format_number(value) + " rad/s";
 }
 
-/// Structural damping is that of one frequency; the system has one damper beside it.
+/// Structural damping is defined at one frequency; the system may also have one damper.
 void check_loss_factor(CheckedFile& file, const Analysis& analysis, const AnalysisList& analyses) {
   const std::string path = "system.loss_factor";
   if (file.number_at("system", "loss_factor").value_or(0.0) == 0.0) return;
@@ -178,7 +178,7 @@ void check_loss_factor(CheckedFile& file, const Analysis& analysis, const Analys
       if (other->steady_vibrations) names.emplace_back(other->name);
     file.complain(path,
                   "'" + path + "' does not work with " + file.subject() +
-                      ": structural damping is not causal, so it has no motion in time",
+                      ": structural damping is not causal: it has a steady vibration but no motion in time",
                   core::joined(names));
     return;
   }
@@ -196,7 +196,7 @@ void check_loss_factor(CheckedFile& file, const Analysis& analysis, const Analys
                   "with damper_to: base, or damping: 0");
 }
 
-/// A load that follows the drive needs one.
+/// A load that follows the drive needs a drive.
 void check_load_modulation(CheckedFile& file) {
   const Json& values = file.values();
   if (!values.contains("system") || !values.at("system").contains("friction")) return;
@@ -211,7 +211,7 @@ void check_load_modulation(CheckedFile& file) {
                     core::joined(harmonic_excitations()));
 }
 
-/// What cannot be computed again in another way is not said to be verified.
+/// A result that cannot be computed again in another way cannot be verified.
 void check_verification(CheckedFile& file, const Analysis& analysis, const AnalysisList& analyses) {
   const Json& values = file.values();
   if (analysis.verifiable || !values.contains("numerics") || !values.at("numerics").value("verify", false)) return;
@@ -224,7 +224,7 @@ void check_verification(CheckedFile& file, const Analysis& analysis, const Analy
                 core::joined(names));
 }
 
-/// An uncertainty that no number of the result would carry is not taken in silence.
+/// An uncertainty that affects no number of the result is refused.
 void check_uncertainties(CheckedFile& file, const Analysis& analysis, const AnalysisList& analyses) {
   if (analysis.uses_uncertainties) return;
   std::vector<std::string> names;
@@ -239,7 +239,7 @@ void check_uncertainties(CheckedFile& file, const Analysis& analysis, const Anal
                     "with analysis.type " + core::joined(names));
 }
 
-/// Items of the result's lists, as far as they are known before the run.
+/// Number of items of the result's lists, as far as it is known before the run.
 std::size_t result_rows(const CheckedFile& file, const Analysis& analysis) {
   std::set<std::string> lists;
   for (const ResultField& field : result_fields(analysis, file.values().at("analysis")))

@@ -1,6 +1,7 @@
 #pragma once
-/// What no table of keys can say: how the sections of a scenario fit together. Words that stand for numbers
-/// (`natural`, a damping ratio, all methods that fit) become numbers here, and measured data are read.
+/// Checks that no table of keys can express: whether the sections of a scenario fit together. Words and keys that
+/// stand for other values (`natural`, a damping ratio, the default of `methods`) are replaced by these values, and
+/// measured data are read.
 
 #include <memory>
 #include <optional>
@@ -15,9 +16,9 @@
 namespace dualdamp::scenarios {
 
 struct Checked {
-  const Analysis* analysis = nullptr;            ///< nullptr when the file is too faulty to know
+  const Analysis* analysis = nullptr;            ///< nullptr when the file is too faulty for it
   std::optional<identify::MeasuredRecord> data;  ///< of `analysis.data`, if it is there
-  std::size_t result_rows = 0;                   ///< items of the result's lists, as far as they are known
+  std::size_t result_rows = 0;                   ///< number of items of the result's lists, as far as it is known
   std::vector<DataFile> files;                   ///< of an analysis that takes several
   std::optional<identify::MeasuredSignal> compared;
   std::shared_ptr<const sim::SampledSignal> drive;

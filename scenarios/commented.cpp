@@ -56,7 +56,7 @@ class CommentedWriter {
   [[nodiscard]] std::string take() { return std::move(text_); }
 
  private:
-  /// Another key stands in its place.
+  /// Another key is used in its place.
   static bool is_replaced(const Node& node, const Section& section, const Field& field) {
     const auto stands = [&](const std::string& name) { return node.find(name) != nullptr; };
     if (!field.instead_of.empty() && stands(field.instead_of)) return true;

@@ -1,5 +1,5 @@
 #pragma once
-/// A scenario to begin with: the meaning of each key beside it, and keys that may be added as comments.
+/// A scenario to begin with: each key has its meaning beside it, and further possible keys are comments.
 
 #include <string>
 
@@ -7,8 +7,8 @@
 
 namespace dualdamp::scenarios {
 
-/// `text`: a scenario, whose values stay and whose `expect` and comments go; `analyses`: those it may ask for.
-/// Errors: `core::InputError` where it is none.
+/// `text`: a scenario; its values are kept, its `expect` and comments are dropped. `analyses`: those it may ask
+/// for. Errors: `core::InputError` if the text is not a scenario.
 [[nodiscard]] std::string commented(const std::string& text, const AnalysisList& analyses);
 
 }  // namespace dualdamp::scenarios

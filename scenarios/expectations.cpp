@@ -9,7 +9,7 @@ namespace dualdamp::scenarios {
 
 namespace {
 
-/// The cell at `points[0].x` of the table `points`; nothing when it has none there.
+/// The cell at `points[0].x` of the table `points`; nothing when there is no such cell.
 std::optional<Json> find(const Table& table, const std::string& path) {
   const auto place = parse_result_path(path);
   if (!place || place->indices.size() != 1 || place->indices.front() >= table.size()) return std::nullopt;
@@ -21,7 +21,7 @@ std::optional<Json> find(const Table& table, const std::string& path) {
   return std::nullopt;
 }
 
-/// The value at `sticks[0].start`; nothing when the path leads nowhere.
+/// The value at `sticks[0].start`; nothing when there is no such value.
 std::optional<Json> find(const Json& result, const std::string& path) {
   const Json* value = &result;
   std::size_t at = 0;

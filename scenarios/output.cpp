@@ -23,7 +23,7 @@ Json program_json() {
 Json provenance_json(const core::Provenance& provenance) {
   Json json = {{"source", provenance.source}, {"source_sha256", provenance.source_sha256}};
   if (!provenance.overrides.empty()) json["set"] = provenance.overrides;
-  // One file is the rule: its sum stands there as it is.
+  // Usually there is one file: its digest is then a text instead of a list.
   const std::vector<std::string>& sums = provenance.data_sha256;
   if (!sums.empty()) json["data_sha256"] = sums.size() == 1 ? Json(sums.front()) : Json(sums);
   for (const core::Plugin& plugin : provenance.plugins)
@@ -81,8 +81,7 @@ Json verification_json(const Verification& verification) {
   return json;
 }
 
-/// Units of the numbers in the result, by path: where the coordinate is an angle they are not those of the
-/// reference page.
+/// Units of the numbers in the result, by path: for an angle they differ from those of the reference page.
 Json units_json(const std::vector<ResultField>& fields) {
   Json json = Json::object();
   for (const ResultField& field : fields)
@@ -109,7 +108,7 @@ constexpr int indent = 2;
 
 /// A value whose lines after the first begin with `margin`. A line break inside a text is escaped in JSON.
 std::string indented(const Json& json, const std::string& margin) {
-  // File names on the command line need not be UTF-8.
+  // File names on the command line may not be UTF-8.
   const std::string text = json.dump(indent, ' ', false, Json::error_handler_t::replace);
   std::string result;
   for (const char c : text) {
@@ -258,7 +257,7 @@ std::vector<OutputFile> output_files(std::shared_ptr<const Scenario> scenario,
       files.push_back({table.name + ".csv",
                        [result, &table](std::ostream& out) { write_csv(out, table, result->provenance); },
                        std::make_shared<std::string>()});
-  // Last: where result.json is, the tables are complete.
+  // Last: if result.json exists, the tables are complete.
   files.push_back({"result.json", json_document(std::move(scenario), std::move(result), files)});
   return files;
 }

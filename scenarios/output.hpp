@@ -1,11 +1,10 @@
 #pragma once
-/// What a run leaves behind: one JSON document, and a CSV file for each table.
+/// The output of a run: one JSON document, and a CSV file for each table.
 ///
 /// The document holds, in this order: program, provenance, scenario, analysis, status, result, warnings, checks,
-/// errors, and verification where one was asked for. It is written row by row and never a text in memory. A table
-/// opens with its provenance as comment lines
-/// `# name: value`, then a header `name [unit]`, then rows; numbers read back to the same bits, a number that does
-/// not exist is an empty field.
+/// errors, and verification, if it was requested. The document is written row by row and is never a text in memory.
+/// A table begins with its provenance as comment lines `# name: value`, then a header `name [unit]`, then rows;
+/// numbers read back to the same bits, a number that does not exist is an empty field.
 
 #include <iosfwd>
 #include <memory>
@@ -16,8 +15,8 @@
 
 namespace dualdamp::scenarios {
 
-/// Writers keep what they need of a run; they are called once for a file, once more for stdout.
-/// `tables`: files whose SHA-256 the document states, where they are written by then.
+/// Writers keep the parts of a run that they need; they are called once for a file, and once more for stdout.
+/// `tables`: files whose SHA-256 the document states, if they are already written.
 [[nodiscard]] Writer json_document(std::shared_ptr<const Scenario> scenario,
                                    std::shared_ptr<const RunResult> result, std::vector<OutputFile> tables = {});
 
@@ -29,7 +28,7 @@ namespace dualdamp::scenarios {
 
 void write_csv(std::ostream& out, const Table& table, const core::Provenance& provenance);
 
-/// The tables, and result.json, which tells by their sums whether somebody has changed them since.
+/// The tables, and result.json, whose digests show whether a table was changed later.
 [[nodiscard]] std::vector<OutputFile> output_files(std::shared_ptr<const Scenario> scenario,
                                                    std::shared_ptr<const RunResult> result);
 

@@ -17,19 +17,19 @@ namespace dualdamp::scenarios {
 
 namespace {
 
-/// The results that say in a sentence what the others mean.
+/// The results that state the meaning of the others in a sentence.
 constexpr std::array<const char*, 2> sentences = {"verdict", "advice"};
 
-/// Of several lines: nothing for a table.
+/// Text of several lines, which does not fit in a table.
 bool is_document(const Json& value) {
   return value.is_string() && value.get_ref<const std::string&>().find('\n') != std::string::npos;
 }
 
-/// The numbers of the result that are no part of a list of records, in the order of the tables of the format.
+/// The numbers of the result that are not in a list of records, in the order of the tables of the format.
 void summarise(const Scenario& scenario, const Json& result, Table& table) {
   const ShownUnits units = shown_units(scenario.written_units);
   const auto add = [&](const std::string& name, const Json& value, const std::string& unit) {
-    // Sentences are told apart from numbers; the verdict says the answer, and the table of estimates holds it.
+    // Sentences are printed separately from numbers. The answer is in the verdict and in the table of estimates.
     if (value.is_structured() || is_document(value) || std::ranges::find(sentences, name) != sentences.end() ||
         name.ends_with(".text") || name.starts_with("answer"))
       return;

@@ -25,7 +25,7 @@ namespace dualdamp::scenarios {
 
 namespace {
 
-/// A file for a newer program would drown in complaints about keys this one does not know.
+/// Checked first: a file for a newer program would otherwise give many messages about unknown keys.
 void refuse_other_schema(const Document& document) {
   const Entry* entry = document.root().find("schema");
   if (entry == nullptr || entry->value.text == schema_name || !entry->value.text.starts_with("dualdamp/")) return;
@@ -37,8 +37,8 @@ void refuse_other_schema(const Document& document) {
                        {}});
 }
 
-/// Asks another analysis of the record of the document, of which a measurement is the mark. Returns what it left
-/// out, in words.
+/// Replaces the analysis of a document with a record (recognised by its measurement) by another one. Returns what
+/// was left out, in words.
 std::string ask_instead(Document& document, const LoadOptions& options) {
   const Entry* section = document.root().find("analysis");
   const Entry* type = section == nullptr ? nullptr : section->value.find("type");
@@ -125,7 +125,7 @@ std::vector<friction::Law> friction_of(const Json& section) {
   return result;
 }
 
-/// Laws whose elements become laws of their own can be too many where the list of the file is not.
+/// Laws whose elements become separate laws can be too many although the list of the file is not too long.
 void refuse_many_laws(const sim::Model& model, const Document& document, const Reading& reading) {
   const std::size_t found = model.friction.size();
   if (found <= sim::max_laws) return;
@@ -137,7 +137,7 @@ void refuse_many_laws(const sim::Model& model, const Document& document, const R
                        {}});
 }
 
-/// What there is to know of structural damping.
+/// Warnings about structural damping.
 std::vector<std::string> loss_factor_warnings(const sim::Model& model) {
   if (model.oscillator.loss_factor == 0.0) return {};
   std::vector<std::string> result = {
@@ -149,7 +149,7 @@ std::vector<std::string> loss_factor_warnings(const sim::Model& model) {
   return result;
 }
 
-/// What the laws warn of.
+/// Warnings of the laws.
 std::vector<std::string> law_warnings(const Json& section, core::Coordinate coordinate) {
   std::vector<std::string> result;
   for (const Json& item : section.is_array() ? section : Json::array({section})) {
@@ -169,7 +169,7 @@ sim::Solver solver(const Json& numerics) {
           number_or(numerics, "tolerance", sim::Solver{}.tolerance)};
 }
 
-/// Closure of steady states: that of the engine's own accuracy.
+/// Closure error of steady states, from the accuracy of the engine.
 double tolerance_of(const Json& values, const sim::Model& model) {
   const double usual = sim::is_exact(model) ? sim::SteadyStateOptions{}.tolerance : model.solver.tolerance;
   return values.contains("numerics") ? number_or(values.at("numerics"), "tolerance", usual) : usual;
@@ -213,7 +213,7 @@ std::vector<Expectation> expectations(const Json& values, const Document& docume
 }
 
 void throw_sorted(std::vector<core::Diagnostic> problems, const std::string& file) {
-  // In order of the file; what comes from elsewhere (--set, data) after it.
+  // In the order of the file; problems from elsewhere (--set, data) follow.
   std::ranges::stable_sort(problems, {}, [&](const core::Diagnostic& problem) {
     return std::tuple(problem.place.file != file, problem.place.file, problem.place.line, problem.place.column);
   });

@@ -4,8 +4,8 @@
 ///     run(load_scenario("decay.yaml"))                                      // the analyses of this library
 ///     run(load_scenario("rig.yaml", {.analyses = bench::analyses()}))       // those of bench/ too
 ///
-/// `load_scenario` reads a file by the tables of the format and refuses it, with every problem at once, unless the
-/// whole of it can be run. Format: docs/user-guide.md. Errors: `core::InputError`.
+/// `load_scenario` reads a file by the tables of the format. If any part of it cannot be run, the file is refused,
+/// with all problems at once. Format: docs/user-guide.md. Errors: `core::InputError`.
 
 #include <map>
 #include <memory>
@@ -42,17 +42,17 @@ struct Scenario {
   std::size_t result_rows = 0;             ///< items of its lists, as far as they are known before the run
   std::vector<Expectation> expect;
   double tolerance = 0.0;
-  bool verify = false;                ///< the result is to be computed again in another way
+  bool verify = false;                ///< whether the result is computed again in another way
   std::vector<std::string> warnings;  ///< of parameters of laws, and of the drive
 
-  std::map<std::string, std::string> written_units;  ///< of quantities, by path: what results are drawn in
+  std::map<std::string, std::string> written_units;  ///< of quantities, by path; used for printed results
   std::string resolved;     ///< the scenario as JSON on one line: SI, defaults filled in; itself a valid scenario
   std::string file_sha256;  ///< of the bytes of the file
   std::vector<std::string> data_sha256;  ///< of the bytes of its data files
   std::vector<std::string> overrides;    ///< `--set` texts
 };
 
-/// One `PATH=VALUE`, and what stands for its file in messages.
+/// One `PATH=VALUE`, and the name of its file in messages.
 struct Override {
   std::string assignment;
   std::string origin = "--set";
@@ -61,12 +61,13 @@ struct Override {
 
 struct LoadOptions {
   std::vector<Override> set = {};
-  /// Data files may lie outside the scenario's directory: their names come from the command line, not from a file.
+  /// Data files may be outside the scenario's directory, because their names come from the command line and not
+  /// from a file.
   bool data_anywhere = false;
   DataTexts data_texts = {};
   AnalysisList analyses = scenarios::analyses();  ///< what the file may ask for
-  /// Asks this analysis of the record that the file has another one for (`design` of that of `identify`): keys that
-  /// only the other one has, and `expect`, are left out with a warning. Empty: what the file asks.
+  /// Runs this analysis on the record of the file's own analysis (`design` on that of `identify`). Keys that only
+  /// the other analysis has, and `expect`, are left out with a warning. Empty: the analysis of the file.
   std::string_view instead = {};
 };
 

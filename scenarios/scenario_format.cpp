@@ -13,8 +13,8 @@ Section system_section() {
   friction.max_items = 16;
   return {
       {words("coordinate", {"displacement", "angle"},
-             "what x is; of an angle, mass is a moment of inertia [kg.m^2], a force is a torque [N.m], a "
-             "displacement is an angle [rad]; default: what the units say"),
+             "what x is; for an angle every mass is a moment of inertia [kg.m^2], every force a torque [N.m] and "
+             "every displacement an angle [rad]; default: it follows from the units"),
        quantity("mass", {"kg"}, "sliding mass m; optional with measured data").above(0).with_uncertainty(),
        uncertainty_of("mass", {"kg"}),
        quantity("stiffness", {"N/m"},
@@ -27,12 +27,14 @@ Section system_section() {
            .with_fallback(0.0),
        quantity("gravity_stiffness", {"N.m"},
                 "m g l of a pendulum: the part of the stiffness whose torque is m g l sin(x); without 'stiffness' "
-                "it is the whole of it. For an angle x, and no excitation or a torque")
+                "it is the whole stiffness. Only for an angle x without excitation or under a torque")
            .above(0),
        quantity("loss_factor", {"1"},
-                "structural damping eta: stiffness k (1 + i eta); for steady vibrations under one harmonic")
+                "structural damping eta: stiffness k (1 + i eta); only for steady vibrations under a single "
+                "harmonic")
            .at_least(0),
-       words("damper_to", {"ground", "base"}, "other end of the damper").with_fallback("ground"),
+       words("damper_to", {"ground", "base"}, "what the other end of the damper is fixed to")
+           .with_fallback("ground"),
        std::move(friction)},
       {{{"damping", "damping_ratio"}, false}}};
 }
@@ -64,27 +66,27 @@ Section scenario_format(const AnalysisList& analyses) {
   sweep.name = "sweep";
   sweep.kind = Kind::sweep;
   sweep.meaning =
-      "asks the question once for each value of a number of this file, or for each pair of values of two";
+      "repeats the analysis for each value of one number of this file, or for each pair of values of two numbers";
   return {
       {words("schema", {std::string(schema_name)}, "version of this format").required(),
-       text("title", "a title in one line"), section("system", system_section(), "the oscillator"),
+       text("title", "title in one line"), section("system", system_section(), "the oscillator"),
        choice("excitation", excitations(), "what drives the oscillator; default: nothing"),
        section("initial",
                {{quantity("position", {"m"}, "x at t = 0").with_fallback(0.0),
                  quantity("velocity", {"m/s"}, "v at t = 0").with_fallback(0.0)}},
                "the state at t = 0"),
-       choice("analysis", choice_of(analyses), "the question").required(), std::move(sweep),
+       choice("analysis", choice_of(analyses), "the question: what is computed").required(), std::move(sweep),
        section_list("expect", expect_section(), "checks of the result; if a value differs, the exit status is 1")
            .items(1, 10'000),
        section(
            "numerics",
            {{quantity("tolerance", {"1"},
-                      "closure of a steady state relative to its size, and error of a step where friction is "
-                      "not piecewise linear; default: 1e-14, or 1e-11 in that case")
+                      "closure error of a steady state relative to its size, and error of a step if friction is "
+                      "not piecewise linear; default: 1e-14, or 1e-11 for such friction")
                  .at_least(1e-15)
                  .at_most(1e-3),
              words("solver", {"automatic", "explicit", "implicit"},
-                   "steps of the smooth engine; automatic: the exact engine where every law allows it, else "
+                   "steps of the smooth engine; automatic: the exact engine if every law allows it, otherwise "
                    "explicit steps until the motion is stiff")
                  .with_fallback("automatic"),
              boolean("verify",

@@ -1,5 +1,5 @@
 #pragma once
-/// From a document to a scenario: what a file without a sweep and each point of one with a sweep have in common.
+/// From a document to a scenario: the common steps for a file without a sweep and for each point of a sweep.
 
 #include <string>
 #include <vector>
@@ -11,9 +11,9 @@
 
 namespace dualdamp::scenarios {
 
-/// A document, read by the tables of the format, as a scenario. `name` stands for the file in messages. The digest
-/// of the file and the overrides are left to the caller.
-/// Errors: `core::InputError` with all problems, those of the document included.
+/// A document, read by the tables of the format, as a scenario. `name` is the name of the file in messages. The
+/// caller adds the digest of the file and the overrides. Errors: `core::InputError` with all problems, those of the
+/// document included.
 [[nodiscard]] Scenario scenario_of(const Document& document, Reading reading, const std::string& name,
                                    const LoadOptions& options);
 
@@ -21,7 +21,7 @@ namespace dualdamp::scenarios {
 [[nodiscard]] std::vector<Expectation> expectations(const Json& values, const Document& document,
                                                     const Reading& reading);
 
-/// Throws problems in the order of the file; those from elsewhere (--set, data) after its own.
+/// Throws all problems in the order of the file; those from elsewhere (--set, data) follow.
 [[noreturn]] void throw_sorted(std::vector<core::Diagnostic> problems, const std::string& file);
 
 }  // namespace dualdamp::scenarios

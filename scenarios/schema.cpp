@@ -24,7 +24,7 @@ std::string literal(std::string_view text) {
   return result;
 }
 
-/// Numbers of core/numbers.hpp within the range as far as their sign tells.
+/// Numbers of core/numbers.hpp; of the range only the sign is checked.
 std::string number_pattern(const friction::Range& range) {
   const bool signless = range.low >= 0.0;
   const std::string digits = "(0|[1-9][0-9]*)(\\.[0-9]+)?([eE][+-]?[0-9]+)?";
@@ -45,7 +45,7 @@ std::string quantity_pattern(const friction::Range& range, const std::string& un
   return "^" + number_pattern(range) + " *(" + units + ")$";
 }
 
-/// The forms of core/uncertain_quantity.hpp, as far as a pattern can tell them.
+/// The forms of core/uncertain_quantity.hpp, as far as a pattern can describe them.
 std::string uncertain_pattern() { return "^\\(?[0-9.eE+-]+[^±+]*(±|\\+/?-) *[0-9].*$"; }
 
 void add_range(Json& schema, const friction::Range& range) {
@@ -85,8 +85,8 @@ Json list_schema(const Field& field, Json item) {
   return schema;
 }
 
-/// A map whose key tells which section holds: the key first, then the section it names. Editors complain about the
-/// one section that was meant, not about all.
+/// A map whose key selects the section: first the key, then the section with its name. So editors report faults of
+/// that section only, not of all.
 Json choice_schema(const Choice& choice, const std::string& name) {
   if (choice.key.empty()) return object_schema(choice.variants.front().section, nullptr, name);
   Json cases = Json::array();
@@ -102,7 +102,7 @@ Json choice_schema(const Choice& choice, const std::string& name) {
           {"allOf", std::move(cases)}};
 }
 
-/// Paths are not looked up: what their values must be depends on the key they name.
+/// Paths are not checked, because the possible values depend on the key that the path names.
 Json sweep_schema() {
   constexpr int most_keys = 2;
   Json number = {{"type", {"number", "string"}}};
@@ -157,7 +157,7 @@ Json field_form(const Field& field) {
     return {{"anyOf", {{{"type", "string"}}, item.at("anyOf").at(1), list_schema(field, item)}}};
   }
   if (!field.listed) return one;
-  // Not anyOf: an editor should complain about the map or the list that is there.
+  // Not anyOf: an editor should report faults of the map or list that is there.
   Json list = list_schema(field, one);
   return {{"type", {"object", "array"}},
           {"if", {{"type", "object"}}},
@@ -172,7 +172,7 @@ Json field_schema(const Field& field) {
   return schema;
 }
 
-/// With the key `name` nothing of the other form; without it, what that form requires.
+/// With the key `name` no key of the other form; without it, the keys that the other form requires.
 Json either_form(const Section& section, const std::string& name) {
   Json any = Json::array();
   Json required = Json::array();
@@ -231,7 +231,7 @@ Json condition_of(const Analysis& owner, const Needs& row) {
   return condition;
 }
 
-/// What the condition demands of the other sections.
+/// Requirements on the other sections under this condition.
 Json demands_of(const Needs& row) {
   if (row.excitations.empty()) {
     Json forbidden = Json::array();
@@ -265,7 +265,7 @@ std::string json_schema(const AnalysisList& list) {
   Json schema = {{"$schema", "http://json-schema.org/draft-07/schema#"},
                  {"title", "dualdamp scenario"},
                  {"description", "Made by 'dualdamp schema' from the tables of the scenario reader."}};
-  // YAML readers know .inf and .nan. NaN passes any bound, so it is the negation of one that catches it.
+  // YAML readers accept .inf and .nan. NaN passes any bound; the negation of a bound excludes it.
   constexpr double largest = std::numeric_limits<double>::max();
   schema["definitions"]["not_finite"] = {{"anyOf", {{{"minimum", largest}}, {{"maximum", -largest}}}}};
   schema.update(object_schema(scenario_format(list), nullptr, ""));

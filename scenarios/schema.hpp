@@ -1,5 +1,5 @@
 #pragma once
-/// Documents made from the tables of the format, so that they cannot say anything else than the reader does.
+/// Documents that are generated from the tables of the format, so that they agree with the reader.
 
 #include <string>
 
@@ -7,9 +7,9 @@
 
 namespace dualdamp::scenarios {
 
-/// JSON Schema (draft 7) of a scenario file, for editors and other programs. It refuses whatever a schema can see;
-/// what it cannot (duplicate keys, static friction below kinetic, ...) only the reader refuses. Units are those in
-/// common use: the reader knows more.
+/// JSON Schema (draft 7) of a scenario file, for editors and other programs. It refuses all faults that a schema
+/// can express; others (duplicate keys, static friction below kinetic, ...) only the reader refuses. Units are
+/// those in common use; the reader accepts more.
 [[nodiscard]] std::string json_schema(const AnalysisList& list);
 
 /// Reference page of keys, units, ranges, defaults and results, in Markdown.

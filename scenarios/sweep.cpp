@@ -46,7 +46,7 @@ class Points {
   [[nodiscard]] const Section& format() const { return format_; }
   [[nodiscard]] const std::string& name() const { return name_; }
 
-  /// Which of the values of a key a point has: the last key varies fastest.
+  /// Index of the value of a key at a point; the last key varies fastest.
   [[nodiscard]] std::size_t index(std::size_t point, std::size_t key) const {
     for (std::size_t i = swept_.keys.size(); --i > key;) point /= swept_.keys[i].values.size();
     return point % swept_.keys[key].values.size();
@@ -122,7 +122,7 @@ class SweepQuestion final : public Question, public Campaign {
     try {
       return answer_of_sweep(lines, columns_, fields_, main_);
     } catch (const Json::exception&) {
-      // Lines of an earlier run, which somebody may have changed.
+      // Lines of an earlier run, which may have been changed.
       core::Diagnostic problem{.message = "a line does not hold a point of this sweep", .allowed = "--overwrite"};
       problem.place.file = options.directory + "/points.jsonl";
       throw core::InputError(std::move(problem));
@@ -163,17 +163,17 @@ class SweepQuestion final : public Question, public Campaign {
   std::vector<SweptColumn> columns_;
   std::vector<ResultField> fields_;
   std::vector<std::string_view> main_;
-  std::string inputs_;  ///< digests of what the points read beside the scenario
+  std::string inputs_;  ///< digests of the other files that the points read
 };
 
-/// Problems of points; one that several points have is told once.
+/// Problems of points; a problem of several points is reported once.
 class Problems {
  public:
   void add(std::size_t point, const core::Diagnostic& problem) {
     const auto [entry, is_new] = known_.emplace(
         std::tuple(problem.place.file, problem.place.line, problem.place.column, problem.message), found_.size());
     if (is_new) found_.push_back({problem, point, 0});
-    // Values of a grid have the place of the grid, and each is one problem.
+    // Values of a grid have the place of the grid, so each counts as a separate problem.
     ++found_[entry->second].points;
   }
 
@@ -208,7 +208,7 @@ class Sweep {
   Sweep(Points points, const LoadOptions& options)
       : points_(std::move(points)), options_(options), columns_(points_.columns()) {}
 
-  /// The scenario of the whole; `expect`: what it says of the result.
+  /// The scenario of the whole sweep; `expect`: its expected values.
   Scenario scenario(std::optional<Entry> expect) {
     for (std::size_t point = 0; point < points_.size(); ++point) {
       core::stop_if_cancelled();
@@ -217,7 +217,8 @@ class Sweep {
       } catch (const core::InputError& error) {
         for (const core::Diagnostic& problem : error.diagnostics()) problems_.add(point, problem);
       }
-      // Not after the last point: to read thousands of points with a million rows each takes half a minute.
+      // Here and not after the last point, because reading thousands of points with a million rows each takes half
+      // a minute.
       if (problems_.empty()) check_size(point + 1);
     }
     if (!problems_.empty()) throw_sorted(problems_.take(points_.size(), columns_), points_.name());
@@ -258,7 +259,7 @@ class Sweep {
     }
   }
 
-  /// The number that was read at a path; nothing where there is none.
+  /// The number that was read at a path; nothing if there is none.
   static std::optional<double> number_at(const Reading& reading, const std::string& path) {
     if (!reading.places.contains(path)) return std::nullopt;
     std::string pointer = "/" + path;
@@ -284,8 +285,8 @@ class Sweep {
                            {}});
   }
 
-  /// Takes away what a point has otherwise although the file does not state it: a default that follows a swept key,
-  /// as `static` follows `kinetic`. Each point fills it in anew.
+  /// Removes values that differ between points although the file does not state them: defaults that follow a swept
+  /// key, as `static` follows `kinetic`. Each point fills them in again.
   static void keep_common(Json& first, const Json& other, const std::map<std::string, Place>& stated,
                           const std::string& path) {
     if (first.is_array() && other.is_array())
@@ -306,7 +307,7 @@ class Sweep {
   }
 
   /// The file as it was read, the first point's values in it and the swept ones beside them: words such as
-  /// `natural` stay, because they mean another number at another point.
+  /// `natural` are kept, because they mean another number at another point.
   [[nodiscard]] Json resolved(const Json& expect) const {
     Json values = first_values_;
     const Json first = Json::parse(first_.resolved);
@@ -330,8 +331,8 @@ class Sweep {
     first_.result_fields = fields_of_sweep(fields);
     for (const SweptColumn& key : columns_)
       first_.result_fields.push_back({"sweep[].values." + key.path, "", "value of the swept key, SI"});
-    first_.warnings.clear();  // each point has its own
-    first_.verify = false;    // each point is
+    first_.warnings.clear();  // each point has separate warnings
+    first_.verify = false;    // each point is verified separately
     Json expected;
     if (expect) first_.expect = expectations_of(std::move(*expect), expected);
     first_.resolved = resolved(expected).dump();

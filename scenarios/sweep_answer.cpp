@@ -14,7 +14,7 @@ namespace {
 
 using core::ExitStatus;
 
-/// The result of a run as one JSON value, the rows of its tables in it.
+/// The result of a run as one JSON value, which includes the rows of its tables.
 Json whole_result(const RunResult& run) {
   Json result = Json::parse(run.result);
   for (const Table& table : run.tables) {
@@ -31,7 +31,7 @@ Json whole_result(const RunResult& run) {
   return result;
 }
 
-/// Each number in a text as a #: what points say of numbers of their own is one warning.
+/// The text with # for each number, so that warnings of points that differ in numbers only become one.
 std::string without_numbers(std::string_view text) {
   const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
   std::string result;
@@ -43,7 +43,7 @@ std::string without_numbers(std::string_view text) {
   return result;
 }
 
-/// The value at a path of keys; null where there is none.
+/// The value at a path of keys; null if there is none.
 const Json& value_at(const Json& json, const std::string& path) {
   static const Json nothing;
   const Json* value = &json;
@@ -64,7 +64,7 @@ class ColumnBuilder {
       : name_(std::move(name)), unit_(unit == "1" ? "" : std::move(unit)) {}
 
   void add(const Json& value) {
-    // What is no single value has a table of its own.
+    // Lists have separate tables.
     const bool is_value = !value.is_null() && !value.is_structured();
     is_empty_ = is_empty_ && !is_value;
     is_text_ = is_text_ || value.is_string();
@@ -246,7 +246,7 @@ class SweepAnswer {
     add_lists(answer);
   }
 
-  /// As many columns as a terminal has room for.
+  /// Only as many columns as fit on a terminal.
   [[nodiscard]] Table for_people(const Table& table) const {
     constexpr std::size_t numbers = 4;
     Table shown = table;
@@ -258,7 +258,7 @@ class SweepAnswer {
     return shown;
   }
 
-  /// The lists of all points below each other.
+  /// The lists of all points, one below the other.
   void add_lists(Answer& answer) const {
     std::vector<std::string> lists;
     for (const ResultField& field : fields_) {
@@ -275,7 +275,7 @@ class SweepAnswer {
     }
   }
 
-  /// Paths inside an item and units, in the order of the first item, which is that of the analysis' own table.
+  /// Paths inside an item, with units, in the order of the first item, which is that of the table of the analysis.
   [[nodiscard]] std::vector<std::pair<std::string, std::string>> columns_of_list(const std::string& list,
                                                                                  const Json& point) const {
     std::vector<std::string> keys;

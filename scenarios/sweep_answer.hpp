@@ -1,5 +1,5 @@
 #pragma once
-/// The answer of a sweep, made of its finished points.
+/// The answer of a sweep, from its finished points.
 ///
 /// Tables: `sweep`, one row a point, has the swept values in the units the user wrote, the status and the single
 /// numbers of the result, those first by which the analysis is drawn; `sweep_LIST` has the rows of the lists LIST
@@ -25,8 +25,8 @@ struct SweptColumn {
 /// Point number `number` as a line of the file of finished points.
 [[nodiscard]] std::string line_of(std::size_t number, const std::vector<SweptColumn>& keys, const RunResult& run);
 
-/// `lines`: of all points, in order. `fields`: of the result of a point, units of the coordinate. `main`: those by
-/// which it is drawn.
+/// `lines`: those of all points, in order. `fields`: fields of the result of a point, with the units of the
+/// coordinate. `main`: the fields that are drawn.
 [[nodiscard]] Answer answer_of_sweep(const std::vector<std::string>& lines, const std::vector<SweptColumn>& keys,
                                      const std::vector<ResultField>& fields,
                                      const std::vector<std::string_view>& main);

@@ -20,10 +20,10 @@ namespace {
 constexpr double tight = 1e-13;
 constexpr double multiplier_tolerance = 1e-4;
 
-/// Numbers that say how a result was computed.
+/// Numbers about the computation of a result.
 bool is_account(const std::string& path) { return path.starts_with("certificate") || path == "energy.defect"; }
 
-/// "sticks[2].start" as the fields have it: "sticks[].start".
+/// "sticks[2].start" in the form of the fields: "sticks[].start".
 std::string without_indices(const std::string& path) {
   std::string result;
   bool inside = false;
@@ -40,7 +40,7 @@ std::string unit_of(const std::vector<ResultField>& fields, const std::string& p
   return field == fields.end() ? "1" : field->unit;
 }
 
-/// Numbers, words and truths of a result by their path.
+/// Numbers, words and truth values of a result by their path.
 using Leaves = std::map<std::string, Json>;
 
 void collect(const Json& json, const std::string& path, Leaves& leaves) {
@@ -55,7 +55,7 @@ void collect(const Json& json, const std::string& path, Leaves& leaves) {
   }
 }
 
-/// What follows from another list of the result.
+/// Lists that follow from another list of the result.
 bool is_derived(const Table& table) { return table.key == "regimes"; }
 
 /// Rows of a table that are compared: all but grazings.
@@ -67,15 +67,15 @@ std::vector<std::size_t> rows_of(const Table& table) {
   return rows;
 }
 
-/// Tables of samples: the columns that are continuous in time, of which a shift of an event by rounding makes no
-/// other number.
+/// For tables of samples: the columns that are continuous in time, which a shift of an event by rounding does not
+/// change.
 bool is_compared(const Table& table, const Column& column) {
   if (column.name == "reason") return false;
   return !table.key.empty() || column.name == "t" || column.name == "x" || column.name == "v";
 }
 
-/// The largest mean speed between two rows of a motion [m/s], which is met on the way: at events a mass often
-/// rests.
+/// The largest mean speed between two rows of a motion [m/s], which the motion reaches; at events the speed is
+/// often 0.
 double fastest_between_rows(const Table& table) {
   const auto t = std::ranges::find(table.columns, "t", &Column::name);
   const auto x = std::ranges::find(table.columns, "x", &Column::name);
@@ -92,7 +92,7 @@ double fastest_between_rows(const Table& table) {
 
 class Comparison {
  public:
-  /// `rounding`: sizes at which a number of a unit is rounding only.
+  /// `rounding`: sizes below which a number of a unit is rounding only.
   Comparison(const Answer& answer, const Answer& other, const std::vector<ResultField>& fields,
              SizesOfUnits rounding)
       : answer_(answer), other_(other), fields_(fields), sizes_(std::move(rounding)) {}
@@ -103,8 +103,8 @@ class Comparison {
     collect(answer_.result, {}, mine);
     collect(other_.result, {}, theirs);
     size_up(mine);
-    // It follows from the Floquet multipliers, which are compared: of one on the unit circle rounding would decide
-    // it.
+    // It follows from the Floquet multipliers, which are compared. With a Floquet multiplier on the unit circle
+    // rounding would decide it.
     if (answer_.result.contains("multipliers")) {
       mine.erase("stable");
       theirs.erase("stable");
@@ -179,7 +179,7 @@ class Comparison {
     ++result_.quantities;
   }
 
-  /// Each against the nearest one that is left.
+  /// Compares each with the nearest of those that are left.
   void compare_multipliers() {
     if (!answer_.result.contains("multipliers") || !other_.result.contains("multipliers")) return;
     const auto values = [](const Json& list) {
@@ -223,7 +223,7 @@ class Comparison {
     }
   }
 
-  /// Rows in which one computation has a reason instead of numbers are counted and not compared.
+  /// Rows for which one computation has a reason instead of numbers are counted and not compared.
   std::vector<char> compared_rows(const Table& table, const std::vector<std::size_t>& mine, const Table& other,
                                   const std::vector<std::size_t>& theirs) {
     std::vector<char> result(mine.size(), 1);
@@ -250,7 +250,7 @@ class Comparison {
     const double mine = column.numbers[row];
     const double theirs = peer.numbers[peer_row];
     if (column.kind == CellKind::number) {
-      // Each point of a curve is a motion of its own.
+      // Each point of a curve is a separate motion.
       const double size = table.key == "points" ? std::abs(mine) : sizes_[column.unit];
       return compare_numbers(quantity, column.unit, mine, theirs, size);
     }
@@ -293,7 +293,7 @@ Answer answer_by(const Way& way, const Scenario& scenario, const Question& quest
   }
 }
 
-/// Of the first way that agrees, else of the first that has a result.
+/// Verification by the first way that agrees, otherwise by the first with a result.
 Verification compare_ways(const Scenario& scenario, const Question& question, const std::string& part,
                           const RunOptions& options, const Answer& answer) {
   std::optional<Verification> apart;
@@ -318,7 +318,7 @@ Verification compare_ways(const Scenario& scenario, const Question& question, co
   return apart ? *std::move(apart) : none;
 }
 
-/// The graver one of both.
+/// The more serious of both.
 Verification worse(Verification a, Verification b) {
   const long quantities = a.quantities + b.quantities;
   const auto share = [](const Verification& v) { return v.agrees ? v.largest_difference / v.tolerance : 2.0; };

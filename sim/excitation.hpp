@@ -1,16 +1,15 @@
 #pragma once
-/// What drives the oscillator: base motion y(t) or external force f(t).
+/// The excitation of the oscillator: base motion y(t) or external force f(t).
 ///
 /// harmonic:  A cos(w t + phi) + sum_j A_j cos(n_j (w t) + phi_j), plus a constant for a force
 /// ramp:      y = V t, or f = R t
-/// noise:     band-limited white: y or f is linear between nodes at n h, h = pi/w_b (1/(2 B) with B
-///            the bandwidth in Hz), with values sqrt(D/h) times normal draw n of stream `noise_stream`
-///            of the seed. The spectral density, two-sided, is D (sin(w h/2)/(w h/2))^4:
-///            D [m^2.s or N^2.s] at low frequencies, 0.3 dB below
-///            it at w_b/5 and 7.8 dB at w_b. (An analyser's one-sided density for each Hz is 2 D.)
-/// chirp:     A cos(phi(t)), the frequency phi'(t) going from w_0 to w_1 within T, linearly or exponentially; by
-///            cubics between nodes of the exact value and slope, within 1e-9 A (and 2e-7 A phi' of the rate). Then
-///            it keeps its last value.
+/// noise:     band-limited white: y or f is linear between nodes at n h, h = pi/w_b (1/(2 B) with the bandwidth B
+///            in Hz). The value at node n is sqrt(D/h) times normal draw n of stream `noise_stream` of the seed.
+///            The two-sided spectral density is D (sin(w h/2)/(w h/2))^4: D [m^2.s or N^2.s] at low frequencies,
+///            0.3 dB less at w_b/5 and 7.8 dB less at w_b. (An analyser's one-sided density for each Hz is 2 D.)
+/// chirp:     A cos(phi(t)), where the frequency phi'(t) goes from w_0 to w_1 within T, linearly or exponentially.
+///            Computed by cubics between nodes with the exact value and slope; error 1e-9 A, of the rate 2e-7 A
+///            phi'. After T it keeps its last value.
 /// samples:   a polynomial between given nodes (`sim/sampled_signal.hpp`)
 
 #include <cstdint>
@@ -50,7 +49,7 @@ struct Chirp {
 
 class SampledSignal;
 
-/// Away from the draws that laws of the same seed make.
+/// A stream of random numbers that laws with the same seed do not use.
 inline constexpr std::uint32_t noise_stream = 2;
 
 enum class ExcitationType {
@@ -101,7 +100,7 @@ struct Excitation {
   }
 };
 
-/// Further harmonics an excitation may carry.
+/// Largest number of further harmonics of an excitation.
 inline constexpr int max_harmonics = 8;
 
 }  // namespace dualdamp::sim

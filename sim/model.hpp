@@ -1,5 +1,6 @@
 #pragma once
-/// A model is all that determines a motion: oscillator, excitation, friction laws in parallel, initial state.
+/// A model is everything that determines a motion: oscillator, excitation, friction laws in parallel, initial
+/// state.
 
 #include <vector>
 
@@ -14,9 +15,10 @@ struct InitialState {
   double velocity = 0.0;  ///< m/s
 };
 
-/// Who integrates the equation of motion.
+/// How the equation of motion is integrated.
 enum class SolverKind {
-  automatic,  ///< the exact engine where every law is affine; else explicit steps, implicit ones once it is stiff
+  automatic,  ///< the exact engine if every law is affine; else explicit steps, implicit ones once the motion is
+              ///< stiff
   explicit_steps,
   implicit_steps,
 };

@@ -1,10 +1,10 @@
 #pragma once
 /// The oscillator:  m x'' + c x' + k x + F = k y(t) + f(t)          (damper to ground, Liang and Feeny)
 ///                  m x'' + c (x' - y') + k x + F = k y(t) + f(t)   (damper to base, Hundal)
-/// with k3 (y - x)^3 beside k (y - x) for a cubic spring, and G sin(y - x) in place of the part G (y - x) of k (y -
-/// x) for a pendulum, whose G = m g l; base motion y(t) [m], external force f(t) [N] and friction force F [N], F >
-/// 0 opposing x' > 0. The equations of an angle x are the same: the units given here and everywhere in the engines
-/// are those of a displacement (core/coordinate.hpp).
+/// with base motion y(t) [m], external force f(t) [N] and friction force F [N]; F > 0 opposes x' > 0.
+/// A cubic spring adds k3 (y - x)^3 to k (y - x). For a pendulum G sin(y - x) replaces the part G (y - x) of
+/// k (y - x), G = m g l. The equations of an angle x are the same: the units here and everywhere in the engines are
+/// those of a displacement (core/coordinate.hpp).
 
 #include <cmath>
 
@@ -19,11 +19,10 @@ struct Oscillator {
   double stiffness = 1.0;  ///< k [N/m], > 0
   double damping = 0.0;    ///< c [N.s/m], any sign
   DamperTo damper_to = DamperTo::ground;
-  double cubic_stiffness = 0.0;    ///< k3 [N/m^3] on the elongation y - x, any sign
-  double gravity_stiffness = 0.0;  ///< G [N.m], the part of k that gravity makes, of an angle
-  core::Coordinate coordinate = core::Coordinate::displacement;  ///< for the units in messages, nothing else
-  double loss_factor =
-      0.0;  ///< eta >= 0, structural damping: the stiffness is k (1 + i eta); steady vibrations only
+  double cubic_stiffness = 0.0;                                  ///< k3 [N/m^3] on the elongation y - x, any sign
+  double gravity_stiffness = 0.0;                                ///< G [N.m], part of k by gravity, for an angle
+  core::Coordinate coordinate = core::Coordinate::displacement;  ///< only for the units in messages
+  double loss_factor = 0.0;  ///< eta >= 0, stiffness k (1 + i eta); steady vibrations only
 };
 
 /// The spring follows Hooke's law.
@@ -37,13 +36,13 @@ struct Oscillator {
   return o.gravity_stiffness == 0.0 ? force : force + o.gravity_stiffness * (std::sin(stretch) - stretch);
 }
 
-/// Its derivative by the elongation [N/m].
+/// Derivative of the spring force by the elongation [N/m].
 [[nodiscard]] inline double spring_slope(const Oscillator& o, double stretch) {
   const double slope = o.stiffness + 3.0 * o.cubic_stiffness * stretch * stretch;
   return o.gravity_stiffness == 0.0 ? slope : slope + o.gravity_stiffness * (std::cos(stretch) - 1.0);
 }
 
-/// What it stores [J].
+/// Energy stored in the spring [J].
 [[nodiscard]] inline double spring_energy(const Oscillator& o, double stretch) {
   const double square = stretch * stretch;
   const double energy = 0.5 * (o.stiffness + 0.5 * o.cubic_stiffness * square) * square;

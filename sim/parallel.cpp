@@ -18,7 +18,8 @@ namespace dualdamp::sim {
 
 namespace {
 
-/// The library of loops ends a computation where the system gives it no thread: it must not ask for one then.
+/// Whether the system can start a thread. oneTBB ends the computation if the system cannot, so it must
+/// then not ask for one.
 bool threads_are_to_be_had() {
   try {
     std::thread([] {}).join();
@@ -28,8 +29,8 @@ bool threads_are_to_be_had() {
   }
 }
 
-/// Says that all parts of a loop begin after its call and end before its return. The thread sanitizer does not see
-/// this in a library that is not instrumented; without it nothing is done.
+/// Tells the thread sanitizer that all parts of a loop begin after its call and end before its return, which it
+/// does not see in a library that is not instrumented. Without the sanitizer this does nothing.
 class LoopOrder {
  public:
   LoopOrder() { release(&begin_); }
@@ -74,9 +75,9 @@ void in_parts(std::size_t size, std::size_t grain, int threads,
       work(first, std::min(grain, size - first));
     });
   };
-  // A loop inside a loop shares the threads of the outer one: with an arena of its own it would draw them away from
-  // parts that take minutes to parts that take microseconds. Isolated: a thread that waits for the end of the inner
-  // loop does not begin a part of the outer one.
+  // A loop inside a loop shares the threads of the outer one: an arena of its own would take threads from parts
+  // that take minutes for parts that take microseconds. Isolated, so that a thread that waits for the end of the
+  // inner loop does not begin a part of the outer one.
   if (most < tbb::this_task_arena::max_concurrency())
     tbb::task_arena(most).execute(loop);
   else

@@ -7,12 +7,13 @@
 
 namespace dualdamp::sim {
 
-/// Calls work(first, count) for parts of `grain` items, the last one shorter, that cover `size` items; `threads` at
-/// most, 0: all cores. Between parts it looks for a cancellation (`core/cancellation.hpp`).
+/// Calls work(first, count) for parts of `grain` items that together cover `size` items; the last part may be
+/// shorter. Uses at most `threads` threads; 0: all cores. Checks for a cancellation between parts
+/// (`core/cancellation.hpp`).
 void in_parts(std::size_t size, std::size_t grain, int threads,
               const std::function<void(std::size_t first, std::size_t count)>& work);
 
-/// While it lives all loops together use `threads` at most, nested ones too.
+/// While this object exists, all loops together, nested ones too, use at most `threads` threads.
 class ThreadLimit {
  public:
   explicit ThreadLimit(int threads);

@@ -37,8 +37,8 @@ SampledSignal::SampledSignal(std::vector<double> times, std::vector<double> valu
   if (interpolation_ == Interpolation::cubic) lay_spline();
 }
 
-/// Slopes at the nodes by the tridiagonal equations of a continuous second derivative; behind the second and before
-/// the last but one node the third is continuous, too (deboor1978, IV).
+/// Slopes at the nodes, from the tridiagonal equations of a continuous second derivative. At the second node and at
+/// the last but one the third derivative is continuous too (deboor1978, IV).
 void SampledSignal::lay_spline() {
   const std::size_t last = pieces();
   slopes_.resize(times_.size());

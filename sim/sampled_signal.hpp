@@ -1,15 +1,15 @@
 #pragma once
-/// A signal y(t) known at nodes t_0 = 0 < t_1 < ... < t_N, and between them as a polynomial.
+/// A signal y(t) with values at nodes t_0 = 0 < t_1 < ... < t_N and a polynomial between neighbouring nodes.
 ///
 ///   step     y(t) = y_i from t_i on                                            jumps at the nodes
 ///   linear   a straight line from node to node                                 y' jumps; error h^2/8 max|y''|
 ///   cubic    the cubic spline with continuous y' and y'', "not a knot" at
 ///            the ends (deboor1978); of two nodes a line, of three a parabola   error 5 h^4/384 max|y''''| inside
 ///
-/// The nodes may be unevenly spaced. Beyond the last node y keeps its last value; a signal that repeats goes on
-/// with the first piece instead, so that its last node is its first one again: where their values differ y jumps.
+/// The nodes may be unevenly spaced. After the last node y keeps its last value. A signal that repeats goes on with
+/// the first piece instead: its last node is its first one again, and if their values differ, y jumps.
 ///
-/// Memory: 16 bytes a node, cubic 24. Cost: linear in the nodes once, a piece is O(1).
+/// Memory: 16 bytes a node, cubic 24. Cost: the constructor is linear in the number of nodes, a piece is O(1).
 
 #include <array>
 #include <cstddef>
@@ -17,10 +17,10 @@
 
 namespace dualdamp::sim {
 
-/// A polynomial sum_n derivatives[n] s^n/n!, s the time since its begin.
+/// A polynomial sum_n derivatives[n] s^n/n!, where s is the time since its start.
 struct PolynomialPiece {
-  double duration = 0.0;                ///< s; infinite: it lasts
-  std::array<double, 4> derivatives{};  ///< at its begin [unit of the signal/s^n]
+  double duration = 0.0;                ///< s; may be infinite
+  std::array<double, 4> derivatives{};  ///< at its start [unit of the signal/s^n]
 };
 
 /// The cubic with these values and slopes at both ends.
@@ -31,12 +31,12 @@ enum class Interpolation { step, linear, cubic };
 
 class SampledSignal {
  public:
-  /// Throws InputError: fewer than two nodes, as many times as values, a number that is not finite, times that do
-  /// not increase from 0.
+  /// Throws InputError for fewer than two nodes, times and values of different number, a number that is not finite,
+  /// or times that do not increase from 0.
   SampledSignal(std::vector<double> times, std::vector<double> values, Interpolation interpolation,
                 bool repeats = false);
 
-  /// Piece n, counted from 0 through all repeats, and the time at which it begins [s].
+  /// Piece n, counted from 0 through all repeats; begin(): the time at which it begins [s].
   [[nodiscard]] PolynomialPiece piece(long n) const;
   [[nodiscard]] double begin(long n) const;
 
@@ -47,7 +47,7 @@ class SampledSignal {
   [[nodiscard]] double length() const { return times_.back(); }                ///< s
   /// Largest |y| of the nodes.
   [[nodiscard]] double size() const { return size_; }
-  /// y at the first node less y at the last one: the jump of a signal that repeats.
+  /// y at the first node minus y at the last one: the jump of a signal that repeats.
   [[nodiscard]] double gap() const { return values_.front() - values_.back(); }
   /// Whether y itself jumps somewhere.
   [[nodiscard]] bool jumps() const { return interpolation_ == Interpolation::step || (repeats_ && gap() != 0.0); }

@@ -97,7 +97,7 @@ class Check {
   std::vector<Diagnostic> take() { return std::move(problems_); }
 
  private:
-  /// A base that jumps would drag the mass along with a damper between them by an infinite force.
+  /// If the base jumps, a damper between base and mass would exert an infinite force.
   void jumps(const Model& model) {
     const Excitation& e = model.excitation;
     if (!e.is_sampled() || e.samples == nullptr || !e.samples->jumps()) return;

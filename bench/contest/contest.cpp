@@ -21,14 +21,15 @@ namespace {
       core::Diagnostic{{file, 0, 0, {}}, std::move(message), std::move(allowed), std::move(found), {}});
 }
 
-/// Answers do not know cases that have another truth, and none is sorted by a key that was changed.
+/// Refuses a key of other cases, whose truth the answers do not refer to, and a changed key, which would assign
+/// answers wrongly.
 void check_key(const Key& key, const std::string& file, const scenarios::Scenario& scenario) {
   const Key exported = key_of(*stress_test_of(*scenario.question), scenarios::context_of(scenario, {}));
   if (key.scenario != exported.scenario)
     refuse(file, "the key is that of another stress test",
            "the scenario, with the same changes, that was exported");
   if (key.numbers != exported.numbers)
-    refuse(file, "the key is not as the export wrote it",
+    refuse(file, "the key was changed after the export",
            "key.json of the export, whose cases are " + std::to_string(exported.numbers.size()));
 }
 
@@ -47,7 +48,7 @@ scenarios::Scenario contest_scenario(const ContestLoader& load, const std::strin
   if (stress_test_of(*scenario.question) == nullptr)
     refuse(scenario.file, "this scenario asks for no stress test", "analysis: {type: stress_test, ...}",
            scenario.analysis_name);
-  // Only now: of another analysis the reader would refuse the seed, and not say why.
+  // Set only now: for another analysis the reader would refuse the seed without the real reason.
   return load({{"analysis.seed=" + seed, origin}});
 }
 
@@ -61,7 +62,7 @@ scenarios::Scenario scored_scenario(const ContestLoader& load, const std::string
   for (std::size_t i = 0; i < question.methods.size(); ++i) names.insert(question.entrant(i));
   for (const Answers& entry : answers) {
     if (!names.insert(entry.name).second)
-      refuse(entry.file, "two take part under one name", "another name", entry.name);
+      refuse(entry.file, "two entries have the same name", "another name", entry.name);
     question.entries.push_back(read_entry(entry.name, entry.file, key));
   }
   scenario.question = question_of(std::move(question));

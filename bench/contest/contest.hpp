@@ -1,6 +1,5 @@
 #pragma once
-/// The stress test as a contest: programs outside answer records of an exported one, and are scored beside the
-/// methods.
+/// The stress test as a contest: programs outside answer exported records and are scored beside the methods.
 ///
 ///     const auto exported = contest_scenario(load, hidden_seed(), "seed");
 ///     export_cases(*stress_test_of(*exported.question), context, "export");
@@ -16,24 +15,24 @@
 
 namespace dualdamp::bench {
 
-/// Reads the scenario of the contest with these values laid over it, after all others.
+/// Reads the scenario of the contest with these overrides, which act after all others.
 using ContestLoader = std::function<scenarios::Scenario(const std::vector<scenarios::Override>& values)>;
 
-/// A file of answers (`key.hpp`) and who takes part with it.
+/// A file of answers (`key.hpp`) and the name of its entry.
 struct Answers {
   std::string name;
   std::string file;
 };
 
-/// The seed of all noise, which nobody can guess and a double holds.
+/// A random seed of all noise, small enough for a double to hold exactly.
 [[nodiscard]] std::string hidden_seed();
 
-/// The stress test with this seed. `origin` stands for its file in messages.
+/// The stress test with this seed. Messages name `origin` as the source of the seed.
 [[nodiscard]] scenarios::Scenario contest_scenario(const ContestLoader& load, const std::string& seed,
                                                    const std::string& origin);
 
 /// The stress test with the seed of the key and with the answers as entries. Errors: also a key of another stress
-/// test, or one that was changed; two that take part under one name.
+/// test, a changed key, or two entrants with one name.
 [[nodiscard]] scenarios::Scenario scored_scenario(const ContestLoader& load, const std::string& key_file,
                                                   const std::vector<Answers>& answers);
 

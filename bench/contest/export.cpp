@@ -121,7 +121,7 @@ void write_case(const std::string& directory, const std::string& name, const ide
   scenarios::write_files(directory, files);
 }
 
-/// A line of constants.csv.
+/// One line of constants.csv.
 std::string constants_line(const MeasuredCase& measured) {
   const identify::Sensors& sensors = measured.sensors.sensors;
   const double periods = sensors.average_cycles;

@@ -1,12 +1,11 @@
 #pragma once
-/// A stress test as files for programs outside: what a laboratory would have, and no word of laws or truth.
+/// A stress test as files for programs outside: the data of a laboratory, without laws and truth.
 ///
 /// `cases/NNNNNN.csv`: the record of a case in the format of docs/data-files.md, x-Y pairs or histories;
 /// `cases/NNNNNN-decay.csv` beside it where the stress test has decays, `cases/NNNNNN-random.csv` where it has
-/// responses to a random drive. `constants.csv`: for each case the mass,
-/// the stiffness and the frequency that the laboratory believes in, and the standard deviations of an amplitude
-/// that its sensors have. The numbers are those of the key (`key.hpp`): neighbours have nothing to do with
-/// each other.
+/// responses to a random drive. `constants.csv`: for each case the mass, the stiffness and the frequency that the
+/// laboratory believes in, and the standard deviations of an amplitude by the noise of its sensors. The numbers are
+/// those of the key (`key.hpp`), in random order.
 ///
 /// Errors: `scenarios::OutputError`.
 

@@ -58,7 +58,7 @@ std::string all_columns() {
   return text;
 }
 
-/// A file of answers, line by line.
+/// Reads a file of answers line by line.
 class EntryReader {
  public:
   EntryReader(std::string path, const Key& key, Entry& entry) : path_(std::move(path)), key_(key), entry_(entry) {}
@@ -106,7 +106,7 @@ class EntryReader {
     if (!parsed.value)
       refuse(path_, line_, "'" + std::string(column_names.at(static_cast<std::size_t>(column))) + "' is no number",
              "a number, or nothing", text);
-    // Beyond, products of it are no numbers, and a damping of it has no motion.
+    // Larger numbers would overflow in products, and a motion with such damping cannot be computed.
     constexpr double largest = 1e60;
     if (std::abs(*parsed.value) > largest)
       refuse(path_, line_, "a number is too large to compute with", "-1e60 to 1e60", text);
@@ -185,7 +185,7 @@ Key read_key(const std::string& path) {
   const auto refuse_key = [&] {
     refuse(path, 0, "this is no key of a stress test", "key.json of 'dualdamp stress export'");
   };
-  // The conversions cut fractions, and of numbers beyond their type they are undefined.
+  // The conversions would drop fractions, and are undefined for numbers beyond the type.
   const auto is_whole = [](const Json& value) { return value.is_number_integer(); };
   Key key;
   try {

@@ -20,7 +20,7 @@ namespace {
 
 using scenarios::Json;
 
-/// "1e-2 to 1e0" of two decades.
+/// "1e-2 to 1e0": the two decades of a value.
 std::string decades(double value) {
   if (value == 0.0) return "0";
   const double low = 2.0 * std::floor(std::log10(std::abs(value)) / 2.0);
@@ -32,7 +32,7 @@ std::string decades(double value) {
 Verdict CaseReport::verdict() const {
   Verdict worst = Verdict::not_compared;
   for (const Finding& finding : findings) {
-    // One thing that agreed is more than nothing compared; otherwise the graver verdict stands.
+    // Any verdict stands above `not_compared`; otherwise the worst verdict counts.
     if (finding.verdict == Verdict::not_compared) continue;
     if (worst == Verdict::not_compared || finding.verdict > worst) worst = finding.verdict;
   }
@@ -59,7 +59,8 @@ std::vector<std::string> features(const Json& scenario) {
     result.push_back("law: " + law.at("law").get<std::string>());
     if (law.contains("static")) result.emplace_back("static above kinetic");
     if (law.contains("contact_damping")) result.emplace_back("damped contact");
-    for (const char* modifier : {"drift", "position_slope", "fluctuation", "warming"})
+    for (const char* modifier :
+         {"drift", "position_slope", "load_gradient", "load_modulation", "fluctuation", "warming"})
       if (law.contains(modifier)) result.push_back(std::string("modifier: ") + modifier);
   }
   return result;

@@ -1,5 +1,5 @@
 #pragma once
-/// One case of the campaign: a scenario, everything that is compared of it, what came out.
+/// One case of the campaign: a scenario, its comparisons, their findings.
 
 #include <cstdint>
 #include <string>
@@ -15,13 +15,13 @@ struct CaseReport {
   Findings findings;
   std::vector<std::string> features;  ///< for the table of what was drawn: "law: coulomb", "drive: force_harmonic"
 
-  /// The worst of its findings; agreed only where something was compared.
+  /// The worst of its findings; `agreed` only if something was compared.
   [[nodiscard]] Verdict verdict() const;
 };
 
 [[nodiscard]] CaseReport check_case(const scenarios::Json& scenario, std::uint64_t seed, std::uint32_t index);
 
-/// For the table of what was drawn.
+/// The features of a scenario, for the table of what was drawn.
 [[nodiscard]] std::vector<std::string> features(const scenarios::Json& scenario);
 
 [[nodiscard]] scenarios::Json to_json(const CaseReport& report);

@@ -26,7 +26,7 @@ constexpr int failed_work = 99;
 
 struct Child {
   std::uint32_t index = 0;
-  TemporaryFile answer;  ///< shared with the child: no pipe that could fill up
+  TemporaryFile answer;  ///< shared with the child; a pipe could fill up
 };
 
 void limit_this_process(const Limits& limits) {
@@ -35,13 +35,13 @@ void limit_this_process(const Limits& limits) {
     ::setrlimit(resource, &limit);
   };
   set(RLIMIT_CPU, static_cast<rlim_t>(limits.processor_seconds));
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // they reserve terabytes of addresses
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // sanitizers reserve terabytes of addresses
   set(RLIMIT_AS, static_cast<rlim_t>(limits.memory));
 #endif
   const rlimit none = {0, 0};
   ::setrlimit(RLIMIT_CORE, &none);
   ::alarm(static_cast<unsigned>(limits.wall_seconds));
-  // Whatever a test program has set: this process ends as the kernel sees it.
+  // Default handlers, in place of those of a test program, so that a signal ends this process.
   for (const int signal : {SIGABRT, SIGBUS, SIGFPE, SIGILL, SIGSEGV, SIGTERM, SIGXCPU})
     std::signal(signal, SIG_DFL);
 }

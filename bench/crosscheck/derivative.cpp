@@ -17,14 +17,14 @@ namespace {
 using sim::ForcingPeriod;
 using sim::State;
 
-/// Relative to the column, or to 1 where it is smaller: what a central difference knows at its best step.
+/// Error of a central difference at its best step, relative to the column, or to 1 where the column is smaller.
 constexpr double tolerance = 1e-4;
-/// A larger difference of the one-sided quotients is a corner.
+/// A larger relative difference of the one-sided quotients is a corner.
 constexpr double most_bend = 1e-2;
-/// At smaller steps, as parts of the size, the corner is at this state.
+/// Where a corner shows at steps below this fraction of the size, it is at this state.
 constexpr double nearby = 2e-5;
 
-/// The size of every coordinate: those of the motion where a law states none.
+/// The size of every coordinate: that of the motion where a law states none.
 Eigen::VectorXd sizes(const sim::Model& model, const State& state, double length, double omega) {
   std::vector<double> list = {length, length * omega};
   for (std::size_t i = 0; i < state.memories.size(); ++i) {
@@ -66,7 +66,7 @@ class Quotients {
     const ForcingPeriod below = map_.from(sim::displaced(state_, -change), sim::Monodromy::without, &below_events);
     if (!above_ok || !map_.outcome().ok()) return {};
     if (!sim::same_mode(above.end, below.end) || !sim::same_mode(above.end, period_.end)) return {};
-    // A slider far from zero is moved by what rounding leaves of the step.
+    // The step of a slider far from zero is rounded: take the difference that remains.
     const double taken = sim::coordinates(above.begin)[coordinate] - sim::coordinates(below.begin)[coordinate];
     if (taken == 0.0) return {};
     const Eigen::VectorXd upper = sim::coordinates(above.end);
@@ -89,7 +89,8 @@ struct Nearest {
   bool is_known = false;  ///< three quotients agree with each other: there is something to disagree with
 };
 
-/// Among steps from a thousandth of the size on down, the first that is clearly close or else the closest.
+/// Among steps from a thousandth of the size downwards: the first quotient that is clearly close, or else the
+/// closest.
 Nearest nearest_quotient(Quotients& quotients, Eigen::Index j, const Eigen::VectorXd& size,
                          const Patience& patience) {
   constexpr double clearly = 0.1 * tolerance;
@@ -99,16 +100,17 @@ Nearest nearest_quotient(Quotients& quotients, Eigen::Index j, const Eigen::Vect
   };
   Nearest nearest;
   Eigen::VectorXd last;
-  int agreeing = 0;  // with the quotient before, in a row
+  int agreeing = 0;  // in a row, each with the quotient before
   for (double part = 1e-3; part > 1e-9 && nearest.error > clearly && quotients.ok() && !patience.is_over();
        part *= 0.1) {
     const Quotient quotient = quotients.central(j, part * size[j]);
     if (!quotient.same_sequence) continue;
     const Eigen::VectorXd found = quotient.column.cwiseQuotient(size) * size[j];
-    // Where events of one kind change places the sequence stays, and the one-sided quotients differ at every step.
+    // Where two events of one kind are exchanged, the sequence is the same, but the one-sided quotients differ at
+    // every step.
     const bool is_bent =
         quotient.bend.cwiseQuotient(size).norm() * size[j] > most_bend * std::max(1.0, found.norm());
-    // Of two quotients within rounding of the motion it may be chance.
+    // Agreement of only two quotients may be chance: they may be rounding of the motion.
     agreeing = last.size() > 0 && !is_bent && apart(found, last) < 0.5 * tolerance ? agreeing + 1 : 0;
     nearest.is_known = nearest.is_known || agreeing >= 2;
     nearest.is_bent = nearest.is_bent || (is_bent && part < nearby);

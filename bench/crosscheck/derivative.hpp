@@ -1,5 +1,5 @@
 #pragma once
-/// The monodromy matrix against central differences of the period map.
+/// Compares the monodromy matrix with central differences of the period map.
 
 #include <string>
 
@@ -8,8 +8,8 @@
 
 namespace dualdamp::crosscheck {
 
-/// At `state`, the start of a forcing period. `omega`: natural frequency [rad/s], which makes a velocity of a
-/// length.
+/// At `state`, the start of a forcing period. `omega`: natural frequency [rad/s], the ratio of the sizes of
+/// velocities and lengths.
 [[nodiscard]] Finding compare_derivative(const std::string& name, const sim::Model& model, const sim::State& state,
                                          double omega);
 

@@ -12,17 +12,17 @@ namespace dualdamp::crosscheck {
 namespace {
 
 constexpr double amplification = 100.0;
-/// Times what another tolerance changes: the looser of two tolerances is ten times as far from the motion.
+/// Factor on the effect of another tolerance, of which the looser is ten times as far from the true motion.
 constexpr double beyond_unresolved = 3.0;
-/// A larger uncertainty says nothing any more.
+/// With a larger allowed difference a comparison is meaningless.
 constexpr double most_allowed = 1e-3;
-/// Events this much of the walk apart are coincident.
+/// Events closer than this fraction of the walk are coincident.
 constexpr double same_instant = 1e-7;
-/// Where the mass hardly moves an event at the same place may be this much of the walk earlier or later.
+/// Where the mass hardly moves, an event at the same position may be earlier or later by this fraction of the walk.
 constexpr double slow_instant = 1e-4;
 
-/// The largest of |x| or |v| so far, a twentieth of the walk ahead: a motion that has just begun is not yet a size.
-/// What happens between two samples counts, by the speed there and by the position of events.
+/// The largest |x| and |v| up to a twentieth of the walk after each sample, since a motion that has just begun
+/// gives no size yet. Positions of events and speeds between the samples count, too.
 struct WalkSizes {
   std::vector<double> x;
   std::vector<double> v;
@@ -60,10 +60,10 @@ std::string text_of(const std::vector<sim::Event>& list, std::size_t i) {
   return fmt::format("{} at t = {:.17g} s, x = {:.10g} m", sim::name(list[i].kind), list[i].t, list[i].x);
 }
 
-/// Walks along the events of two walks.
+/// Compares the events of two walks one after the other.
 class Events {
  public:
-  /// `window`: of time [s]; `speeds`: allowed at the samples, as far as the walks are compared [m/s].
+  /// `window`: of time [s]; `speeds`: allowed differences of speed at the samples that are compared [m/s].
   Events(const Walk& a, const Walk& b, double window, std::vector<double> speeds)
       : a_(a), b_(b), window_(window), speeds_(std::move(speeds)) {
     if (a.samples.empty()) return;
@@ -75,11 +75,11 @@ class Events {
   void compare(Difference& result);
 
  private:
-  /// How many events of both lists follow each other at the same instant.
+  /// Numbers of events of both lists at the same instant.
   struct Cluster {
     std::size_t a = 0;
     std::size_t b = 0;
-    bool at_rest = false;  ///< no longer an instant: the masses rest between them
+    bool at_rest = false;  ///< no single instant: the masses are at rest between them
   };
 
   [[nodiscard]] bool rest_between(double from, double to) const;
@@ -100,7 +100,7 @@ class Events {
   std::size_t j_ = 0;  ///< next event of b
 };
 
-/// Neither velocity is known from zero there.
+/// Whether neither velocity differs from zero by more than allowed.
 bool Events::rest_between(double from, double to) const {
   if (speeds_.empty()) return false;
   const auto last = static_cast<double>(speeds_.size() - 1);
@@ -135,8 +135,8 @@ Events::Cluster Events::cluster() const {
   }
 }
 
-/// From the event before to this one, or from this one to the next; at its start a mass that begins at rest may
-/// turn.
+/// Whether the masses are at rest from the event before to this one, or from this one to the next. At the start it
+/// is always true: a mass that begins at rest may reverse.
 bool Events::rests_beside(double t) const {
   if (t <= window_) return true;
   double before = 0.0;
@@ -156,10 +156,11 @@ bool Events::is_lone_switching(const Cluster& group) const {
          (event.kind == sim::EventKind::switching || event.kind == sim::EventKind::grazing);
 }
 
-/// Events that coincide may be listed in another order, and an even number of them more (a stop and its release,
-/// two switchings) may be a grazing within rounding. A switching of a law alone is no event of the mass: where the
-/// two modes are one formula (at the start, while the mass sticks) rounding decides which of them holds; and a
-/// grazing leaves the motion as it is. A mass that rests within what is allowed may turn at any time.
+/// Explains a difference of the events, if it can. Coincident events may be listed in another order, and an even
+/// number of further ones (a stop and its release, two switchings) may be a grazing within rounding. A single
+/// switching is no event of the mass: where both modes have the same force (at the start, while the mass sticks),
+/// rounding decides which holds. A grazing does not change the motion. A mass that is at rest within the allowed
+/// speed may reverse at any time.
 bool Events::name(const Cluster& group, Difference& result) const {
   const bool is_lone = group.a + group.b == 1;
   const double t = group.a > 0 ? a_.events[i_].t : b_.events[j_].t;
@@ -175,7 +176,7 @@ bool Events::name(const Cluster& group, Difference& result) const {
   return true;
 }
 
-/// Up to `result.until`.
+/// Compares the events up to `result.until`.
 void Events::compare(Difference& result) {
   const auto is_over = [&](const std::vector<sim::Event>& list, std::size_t k) {
     return k >= list.size() || list[k].t > result.until - 2.0 * window_;
@@ -253,7 +254,7 @@ Difference difference(const Walk& a, const Walk& b, const Sensitivity& sensitivi
     if (i < sensitivity.unresolved.size()) unresolved = std::max(unresolved, sensitivity.unresolved[i]);
     const double share = unresolved > tolerance ? beyond_unresolved : 1.0;
     const double allowed = tolerance + amplification * course + share * unresolved;
-    // From here on times of events say nothing; positions still may not differ by more than the tolerance explains.
+    // From here on times of events are not compared; positions may differ only by the effect of the tolerance.
     if (unresolved > tolerance && result.exception.empty()) {
       result.exception =
           fmt::format("unresolved: from t = {:.6g} s on another tolerance changes the motion by {:.1e}",

@@ -1,10 +1,10 @@
 #pragma once
-/// How far two walks of the same motion are apart, and how far they may be.
+/// The difference of two walks of the same motion, and the allowed difference.
 ///
-/// A motion with friction may depend on its data more strongly than any rounding allows: where a guard is grazed,
-/// where two events coincide, where the motion is unstable. What a change of the data by 1e-10 does to the motion
-/// itself measures that (`Sensitivity`). Two computations may differ by a tolerance and some thirty times that
-/// much. From the time on where that exceeds a thousandth of the motion nothing is compared: a named exception.
+/// A motion with friction may depend on its data so strongly that rounding matters: where a guard is grazed, where
+/// two events coincide, where the motion is unstable. This sensitivity is measured by the effect of a change of the
+/// data by 1e-10 on the motion (`Sensitivity`). Two computations may differ by a tolerance plus a hundred times
+/// this effect. Once the sum exceeds a thousandth of the motion nothing more is compared: a named exception.
 
 #include <optional>
 #include <string>
@@ -14,12 +14,13 @@
 
 namespace dualdamp::crosscheck {
 
-/// What a change of the data does to the motion at the times of the samples, relative to its size.
+/// The effect of a change of the data on the motion at the times of the samples, relative to the size of the
+/// motion.
 struct Sensitivity {
   std::vector<double> deviation;
   double change = 0.0;       ///< of the data, relative
   double event_shift = 0.0;  ///< largest shift of an event that both motions have [s]
-  /// What another tolerance of the same engine changes (`resolution`); beyond its end as much as there.
+  /// The effect of another tolerance of the same engine (`resolution`); after its end the last value counts.
   std::vector<double> unresolved;
 };
 
@@ -28,24 +29,24 @@ struct Difference {
   double at = 0.0;        ///< s
   double allowed = 0.0;   ///< there
   double until = 0.0;     ///< the motions were compared up to here [s]
-  int resting = 0;        ///< groups of events between which both masses are at rest within what is allowed
-  int coincident = 0;     ///< groups of events that both walks have within rounding, in another order or number
-  int silent = 0;         ///< switchings that only one walk has and that leave the motion as it is
+  int resting = 0;        ///< groups of events between which both masses are at rest within the allowed speed
+  int coincident = 0;     ///< groups of events at one instant that the walks have in another order or number
+  int silent = 0;         ///< switchings or grazings that only one walk has and that do not change the motion
   std::string exception;  ///< why not everything was compared; empty: it was
-  std::string fault;      ///< what cannot be explained; empty: they agree
+  std::string fault;      ///< a difference that nothing explains; empty: they agree
 };
 
 /// Deviation of `b` from `a` at the samples that both have, relative to the size of the motion so far.
 [[nodiscard]] std::vector<double> deviation(const Walk& a, const Walk& b);
 
-/// How far an engine resolves a motion: the deviation of two walks of the same data by different tolerances, as far
-/// as both have the same events: a lost event is no question of tolerance.
+/// How well an engine resolves a motion: the deviation of two walks of the same data with different tolerances, as
+/// long as both have the same events. A lost event is not explained by the tolerance.
 [[nodiscard]] std::vector<double> resolution(const Walk& a, const Walk& b);
 
-/// The larger of both at every sample; where a walk has fewer samples nothing is known beyond.
+/// Takes the larger deviation at every sample. After the end of the shorter walk nothing is known.
 void widen(Sensitivity& sensitivity, const Walk& motion, const Walk& perturbed);
 
-/// `tolerance`: of the deviation, for a motion that depends on its data mildly.
+/// `tolerance`: of the deviation, for a motion that does not depend strongly on its data.
 [[nodiscard]] Difference difference(const Walk& a, const Walk& b, const Sensitivity& sensitivity, double tolerance);
 
 }  // namespace dualdamp::crosscheck

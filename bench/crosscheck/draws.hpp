@@ -1,6 +1,6 @@
 #pragma once
-/// The random numbers of one case: a stream of its own, so that any case can be drawn again alone; or the bytes of
-/// an input, by which a fuzzer leads the draws.
+/// The random numbers of one case. They are a stream of their own, so that any case can be drawn again alone, or
+/// the bytes of an input, through which a fuzzer controls the draws.
 
 #include <cmath>
 #include <cstdint>
@@ -14,7 +14,7 @@ namespace dualdamp::crosscheck {
 class Draws {
  public:
   Draws(std::uint64_t seed, std::uint32_t index) : stream_{seed, index} {}
-  /// Two bytes make a number; behind their end all numbers are 0.
+  /// Two bytes make a number; after their end all numbers are 0.
   explicit Draws(std::string_view bytes) : bytes_(bytes), is_led_(true) {}
 
   /// In [low, high).

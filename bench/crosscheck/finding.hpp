@@ -1,5 +1,5 @@
 #pragma once
-/// What one comparison of one case found.
+/// The finding of one comparison of one case.
 
 #include <string>
 #include <vector>
@@ -9,8 +9,8 @@ namespace dualdamp::crosscheck {
 enum class Verdict {
   agreed,
   not_compared,  ///< nothing to compare, or too long
-  refused,       ///< the program says why it has no answer
-  exception,     ///< they differ, or could not be compared throughout, for a named mathematical reason
+  refused,       ///< the program gives a reason why it has no answer
+  exception,     ///< a difference, or an incomplete comparison, with a named mathematical reason
   disagree,
 };
 

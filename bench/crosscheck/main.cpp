@@ -73,7 +73,7 @@ std::optional<Call> call_of(int argc, char** argv) {
   return call;
 }
 
-/// A file for each disagreement, crash or hang.
+/// Writes a file for each disagreement, crash or hang.
 void write_faults(const crosscheck::Summary& summary, std::uint64_t seed, const std::filesystem::path& directory) {
   std::filesystem::create_directories(directory);
   for (const auto& [index, fault] : summary.faults()) {

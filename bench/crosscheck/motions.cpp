@@ -22,7 +22,7 @@ constexpr double agreed_tolerance = 1e-7;
 constexpr double energy_tolerance_exact = 1e-10;
 constexpr double energy_tolerance_smooth = 1e-7;
 constexpr double change = 1e-10;
-/// By which the smooth engine shows what it resolves.
+/// Factor on the tolerance of the smooth engine by which its resolution is measured.
 constexpr double looser = 10.0;
 constexpr const char* away = "runs away: the energy has left the range of double precision";
 
@@ -35,7 +35,7 @@ double extent(const Walk& walk) {
   return result;
 }
 
-/// The walk in the units, and in the mirror, of the first.
+/// Transforms a walk of a variant to the units and the sign of the first walk.
 void map_back(Walk& walk, const Scales& scales, double sign) {
   const double length = sign / scales.length;
   const double speed = sign / scales.length * scales.time;
@@ -76,7 +76,7 @@ class Motions {
     compare_variant("other units", scaled(scenario_, odd), odd, 1.0);
     constexpr Scales even = {.force = 0x1p-9, .length = 0x1p-9, .time = 1.0};
     compare_variant("force and length by a power of two", scaled(scenario_, even), even, 1.0);
-    // The intensity of a noise is the square of a force: it would not be a number.
+    // The intensity of a noise is the square of a force and would overflow.
     const bool is_square = scenario_.at("excitation").contains("intensity");
     const double least = is_square ? 0x1p-400 : 0x1p-560;
     const Scales tiny = {.force = least, .length = least, .time = 1.0};
@@ -123,12 +123,12 @@ class Motions {
     findings_.push_back(std::move(finding));
   }
 
-  /// A motion without bound: x is a number still, its square is none.
+  /// Whether the motion grows without bound: x is still finite, its square is not.
   [[nodiscard]] bool runs_away() const {
     return !std::isfinite(first_.energy_scale) || !std::isfinite(first_.energy.defect);
   }
 
-  /// The other way to integrate: explicit steps, implicit ones where these need too many.
+  /// Compares with the other integration: explicit steps, or implicit steps where the explicit ones are too many.
   void compare_engines(const std::string& name) {
     constexpr double tight = 1e-13;
     sim::Model model = model_;
@@ -165,7 +165,7 @@ class Motions {
     }
   }
 
-  /// Beyond the end of one list it counts no more.
+  /// Adds the numbers of two lists; after its end a list counts as 0.
   static void add(std::vector<double>& to, const std::vector<double>& more) {
     to.resize(std::max(to.size(), more.size()));
     for (std::size_t i = 0; i < more.size(); ++i) to[i] += more[i];
@@ -176,7 +176,7 @@ class Motions {
       findings_.push_back({"energy balance", Verdict::exception, 0.0, away});
       return;
     }
-    // Of a walk that is given up where it begins, all energies are rounding.
+    // If a walk is given up at its begin, all its energies are rounding.
     constexpr double begin = 1e-9;
     if (first_.ended_early && first_.end < begin * options_.duration) {
       findings_.push_back({"energy balance", Verdict::not_compared, 0.0, "given up at its begin"});
@@ -186,7 +186,8 @@ class Motions {
     const double allowed = is_exact_ ? energy_tolerance_exact : energy_tolerance_smooth;
     Finding finding{"energy balance", Verdict::agreed, defect, {}};
     if (first_.energy_scale == 0.0) finding.worst = 0.0;
-    // The smooth engine knows positions to its tolerance of a thousandth of what the drive could move the mass by.
+    // The error of positions of the smooth engine is its tolerance times a thousandth of the displacement that the
+    // drive can cause.
     constexpr double unresolved = 1e-12;
     if (!is_exact_ && std::abs(first_.energy.defect) <= unresolved * first_.drive_energy &&
         !(finding.worst <= allowed)) {

@@ -10,10 +10,10 @@
 
 namespace dualdamp::crosscheck {
 
-/// How long the motion of a drawn scenario is followed [s].
+/// Duration of the motion of a drawn scenario [s].
 [[nodiscard]] double duration_of(const scenarios::Json& scenario, const sim::Model& model);
 
-/// `draw`: of the changes of the data that measure how strongly the motion depends on them.
+/// `draw`: seed of the changes of the data that measure how strongly the motion depends on them.
 [[nodiscard]] Findings compare_motions(const scenarios::Json& scenario, std::uint64_t draw);
 
 }  // namespace dualdamp::crosscheck

@@ -16,11 +16,12 @@ namespace dualdamp::crosscheck {
 namespace {
 
 constexpr double closure_tolerance = 1e-7;
-/// Of a transient, forcing periods; the second where by its Floquet multipliers it should be over and is not.
+/// Lengths of a transient in forcing periods; the second one if by the Floquet multipliers it should be over and is
+/// not.
 constexpr int usual_periods = 2'000;
 constexpr int most_periods = 20'000;
 
-/// Of the transient, as of a curve.
+/// Tolerance of the closure of a transient, as for a curve.
 double size_of(const sim::Transient& motion) { return std::max(std::abs(motion.peak), std::abs(motion.trough)); }
 
 double largest_multiplier(const sim::SteadyState& state) {
@@ -29,17 +30,18 @@ double largest_multiplier(const sim::SteadyState& state) {
   return result;
 }
 
-/// Not settled where the largest Floquet multiplier leaves nothing. With one on the unit circle orbits form a
-/// continuum, along which a motion may creep however slowly.
+/// Whether the transient is not settled although by the largest Floquet multiplier nothing of it is left. With a
+/// Floquet multiplier on the unit circle there is a continuum of orbits, along which a motion may creep at any
+/// speed.
 bool contradicts(const sim::SteadyState& state, const sim::Transient& motion) {
   constexpr double safely = 1e-20;
   return state.outcome.ok() && motion.outcome.ok() && !motion.settled && motion.closure > closure_tolerance &&
          std::pow(largest_multiplier(state), motion.periods / state.period_ratio) < safely;
 }
 
-/// Over the periods of the steady state; a subharmonic does not close over a forcing period. Multipliers speak of
-/// motions near the orbit. One that comes from afar, where friction takes little of its energy in each period, is
-/// on its way for longer.
+/// The transient, tested for closure over the periods of the steady state, since a subharmonic does not close over
+/// one forcing period. Floquet multipliers hold near the orbit. A motion from far away, of whose energy friction
+/// takes little in each period, needs more time.
 sim::Transient transient(const sim::Model& model, const sim::SteadyState& state) {
   const Patience patience;
   const auto follow = [&](int periods) {
@@ -51,7 +53,7 @@ sim::Transient transient(const sim::Model& model, const sim::SteadyState& state)
   sim::Transient motion = follow(usual_periods);
   if (!contradicts(state, motion)) return motion;
   sim::Transient longer = follow(most_periods);
-  // What could not be followed further is no excuse: the contradiction stands.
+  // If the motion could not be followed further, the contradiction remains.
   return longer.settled || (longer.outcome.ok() && longer.periods > motion.periods) ? longer : motion;
 }
 
@@ -86,7 +88,7 @@ Finding compare_transient(const sim::SteadyState& state, const sim::Transient& m
                       state.warnings.empty() ? "" : "; warned: " + state.warnings.front())};
 }
 
-/// Why the period map of this model cannot be asked from an arbitrary state; empty: it can.
+/// Why the period map of this model cannot start from an arbitrary state; empty if it can.
 std::string reason_against_map(const sim::Model& model) {
   for (const friction::Law& law : model.friction) {
     if (!law.aperiodic().empty()) return std::string(law.aperiodic());

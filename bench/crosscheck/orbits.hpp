@@ -7,7 +7,7 @@
 
 namespace dualdamp::crosscheck {
 
-/// Of a scenario with a harmonic drive.
+/// For a scenario with a harmonic drive.
 [[nodiscard]] Findings compare_orbits(const scenarios::Scenario& scenario);
 
 }  // namespace dualdamp::crosscheck

@@ -8,7 +8,7 @@ namespace dualdamp::crosscheck {
 /// Work (`sim::Engine::work`) of a transient, and of the periods of a difference quotient: about half a second.
 inline constexpr long most_work = 600'000;
 
-/// From its construction on, in processor time; what takes longer is not compared.
+/// A limit of processor time from its construction on; a comparison that takes longer is given up.
 class Patience {
  public:
   [[nodiscard]] bool is_over() const { return std::clock() > end_; }

@@ -11,8 +11,8 @@ namespace dualdamp::crosscheck {
 
 namespace {
 
-/// Draws laws whose limits are shares of the drive's force, and whose stiffnesses range far around the
-/// oscillator's.
+/// Draws laws. Their force limits are fractions of the drive's force; their stiffnesses lie in a wide range around
+/// the oscillator's.
 class RandomLaws {
  public:
   RandomLaws(Draws& draws, const Sizes& sizes) : draws_(draws), sizes_(sizes) {}
@@ -21,6 +21,7 @@ class RandomLaws {
   using Kind = std::pair<const char*, Draw>;
   static const std::array<Kind, 5> exact;
   static const std::array<Kind, 11> smooth;
+  static const std::array<Kind, 4> late;
   static const Kind beside;
 
   Json law(const Kind& kind) {
@@ -28,6 +29,20 @@ class RandomLaws {
     result.update((this->*kind.second)());
     add_modifiers(result);
     return result;
+  }
+
+  /// In one law of eight. A law that knows neither modifier stays as it is.
+  void add_load(Json& law, bool is_harmonic) {
+    const friction::LawEntry* entry = friction::find_law(law.at("law").get<std::string>());
+    const auto takes = [&](std::string_view modifier) {
+      return std::ranges::find(entry->modifiers, modifier) != entry->modifiers.end();
+    };
+    if (!draws_.chance(0.125)) return;
+    if (takes("load_modulation") && is_harmonic && draws_.chance(0.5))
+      law["load_modulation"] = {
+          {"ratio", draws_.uniform(0.0, 0.99)}, {"order", 1 + draws_.pick(3)}, {"phase", draws_.angle()}};
+    else if (takes("load_gradient") && !law.contains("contact_damping"))
+      law["load_gradient"] = draws_.sign() * draws_.logarithmic(1e-3, 1.5) / sizes_.length();
   }
 
  private:
@@ -40,7 +55,7 @@ class RandomLaws {
     return sizes_.stiffness * (sizes_.wide ? draws_.logarithmic(1e-3, 1e8) : draws_.logarithmic(0.3, 1e4));
   }
 
-  /// Kinetic friction, and mostly a static one above it.
+  /// Kinetic friction, and with this probability a higher static friction.
   Json levels(double chance_of_static) {
     const double kinetic = force();
     Json result = {{"kinetic", kinetic}};
@@ -73,7 +88,7 @@ class RandomLaws {
                           {"limit", limit * draws_.logarithmic(0.1, 1.0)}});
     return {{"elements", elements}};
   }
-  /// Not so short that they snap all the time.
+  /// Bristles long enough not to snap all the time.
   Json bristle() {
     const int count = 1 + draws_.pick(5);
     const double distance = sizes_.length() * draws_.logarithmic(0.2, 2.0);
@@ -94,7 +109,7 @@ class RandomLaws {
     if (form >= 2) result["form"] = form == 2 ? "exponential" : "lorentz";
     return result;
   }
-  /// Bristles: not softer than the spring by much, nor so stiff that only implicit steps pay.
+  /// Bristles not much softer than the spring, nor so stiff that only implicit steps are fast.
   double sigma0(double kinetic) {
     return kinetic /
            (sizes_.length() * (sizes_.wide ? draws_.logarithmic(1e-5, 1.0) : draws_.logarithmic(1e-3, 0.3)));
@@ -172,6 +187,36 @@ class RandomLaws {
             {"reference_velocity", sizes_.speed()},
             {"exponent", draws_.chance(0.3) ? 2.0 : draws_.uniform(0.5, 3.0)}};
   }
+  Json asymmetric_coulomb() {
+    Json result;
+    for (const char* direction : {"_forward", "_backward"}) {
+      const double kinetic = force();
+      result[std::string("kinetic") + direction] = kinetic;
+      if (draws_.chance(0.5)) result[std::string("static") + direction] = kinetic * draws_.uniform(1.0, 2.5);
+      result[std::string("viscous") + direction] =
+          draws_.chance(0.5) ? critical() * draws_.logarithmic(1e-3, 1.0) : 0.0;
+    }
+    return result;
+  }
+  Json free_play() {
+    Json result = levels(0.5);
+    result["play"] =
+        sizes_.length() * (sizes_.wide ? draws_.logarithmic(1e-6, 1e2) : draws_.logarithmic(1e-3, 3.0));
+    return result;
+  }
+  Json gap_spring() {
+    const double stiffness =
+        sizes_.stiffness * (sizes_.wide ? draws_.logarithmic(1e-3, 1e6) : draws_.logarithmic(0.1, 100.0));
+    return {{"stiffness", stiffness},
+            {"gap", draws_.chance(0.1) ? 0.0 : sizes_.length() * draws_.logarithmic(1e-3, 3.0)}};
+  }
+  Json iwan_four_parameter() {
+    return {{"stiffness", contact_stiffness()},
+            {"limit", force()},
+            {"exponent", draws_.uniform(-0.9, 2.0)},
+            {"beta", draws_.chance(0.2) ? 0.0 : draws_.logarithmic(1e-3, 10.0)},
+            {"count", 2 + draws_.pick(30)}};
+  }
   Json attached_mass() {
     const double mass = sizes_.mass * (sizes_.wide ? draws_.logarithmic(1e-5, 1e2) : draws_.logarithmic(1e-3, 2.0));
     const double natural =
@@ -201,7 +246,7 @@ class RandomLaws {
     }
   }
 
-  /// Not those of the list of modifiers: a further one there would change all cases.
+  /// A list of its own: a new modifier in the list of modifiers would change all cases.
   static constexpr std::array<std::string_view, 4> drawn_modifiers = {"drift", "position_slope", "fluctuation",
                                                                       "warming"};
 
@@ -228,9 +273,16 @@ const std::array<RandomLaws::Kind, 11> RandomLaws::smooth = {
      {"viscous_saturating", &RandomLaws::viscous_saturating},
      {"viscous_power", &RandomLaws::viscous_power}}};
 
+/// Laws that the lower seeds do not draw.
+const std::array<RandomLaws::Kind, 4> RandomLaws::late = {
+    {{"asymmetric_coulomb", &RandomLaws::asymmetric_coulomb},
+     {"free_play", &RandomLaws::free_play},
+     {"gap_spring", &RandomLaws::gap_spring},
+     {"iwan_four_parameter", &RandomLaws::iwan_four_parameter}}};
+
 const RandomLaws::Kind RandomLaws::beside = {"attached_mass", &RandomLaws::attached_mass};
 
-/// Laws of the exact engine by how often they are met: rigid friction and contacts most.
+/// Laws of the exact engine, weighted by how common they are: mostly rigid friction and contacts.
 std::size_t exact_kind(Draws& draws) {
   constexpr std::array<std::size_t, 10> kinds = {0, 0, 0, 0, 1, 1, 1, 2, 3, 4};
   return kinds[static_cast<std::size_t>(draws.pick(static_cast<int>(kinds.size())))];
@@ -251,6 +303,16 @@ Json random_friction(Draws& draws, const Sizes& sizes) {
 
 void attach_mass(Draws& draws, const Sizes& sizes, Json& friction) {
   if (draws.chance(0.1)) friction.push_back(RandomLaws(draws, sizes).law(RandomLaws::beside));
+}
+
+void add_late_laws(Draws& draws, const Sizes& sizes, bool is_harmonic, Json& friction) {
+  RandomLaws laws(draws, sizes);
+  if (draws.chance(0.3)) {
+    const std::size_t kind = static_cast<std::size_t>(draws.pick(RandomLaws::late.size()));
+    if (draws.chance(0.5)) friction.clear();
+    friction.push_back(laws.law(RandomLaws::late[kind]));
+  }
+  for (Json& law : friction) laws.add_load(law, is_harmonic);
 }
 
 }  // namespace dualdamp::crosscheck

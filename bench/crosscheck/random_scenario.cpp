@@ -9,8 +9,10 @@ namespace dualdamp::crosscheck {
 
 namespace {
 
-/// Seeds below were run before attached masses were drawn: their cases stay what they were.
+/// Lower seeds draw no attached masses, so that their cases stay the same as in earlier runs.
 constexpr std::uint64_t first_with_attached_mass = 70;
+/// From this seed on `add_late_laws` adds to the laws.
+constexpr std::uint64_t first_with_late_laws = 10'000;
 
 std::string frequency(double omega) { return core::format_number(omega) + " rad/s"; }
 
@@ -61,7 +63,7 @@ Json noise(Draws& draws, const Sizes& sizes) {
           {"seed", draws.pick(1'000'000)}};
 }
 
-/// Samples from node to node; a base with a damper to it may not jump.
+/// Samples at nodes; a base with a damper to it may not jump.
 Json table(Draws& draws, const Sizes& sizes, bool may_jump) {
   const bool moves_base = draws.chance(0.5);
   const double natural_period = 2.0 * std::numbers::pi / sizes.natural;
@@ -85,7 +87,7 @@ Json table(Draws& draws, const Sizes& sizes, bool may_jump) {
           {"repeat", jumps && draws.chance(0.5)}};
 }
 
-/// A sweep through a decade or two, within the time that the motion is followed.
+/// A chirp, up or down by at most a decade, within the duration of the motion.
 Json chirp(Draws& draws, const Sizes& sizes) {
   const bool moves_base = draws.chance(0.5);
   const double from = sizes.natural * draws.logarithmic(0.1, 10.0);
@@ -109,7 +111,7 @@ Json excitation(Draws& draws, const Sizes& sizes, bool may_jump) {
   return {{"type", "none"}};
 }
 
-/// How long a motion without a period is followed [s].
+/// Duration of a motion without a period [s].
 double duration(const Json& excitation, const Sizes& sizes) {
   const double natural_period = 2.0 * std::numbers::pi / sizes.natural;
   double time = 10.0 * natural_period;
@@ -119,8 +121,8 @@ double duration(const Json& excitation, const Sizes& sizes) {
   return time;
 }
 
-/// `more`: draws of an attached mass; none: it is not drawn.
-Json scenario_of(Draws& draws, Draws* more) {
+/// `more`: draws of an attached mass; without them none is drawn. `with_late`: these draw more laws as well.
+Json scenario_of(Draws& draws, Draws* more, bool with_late) {
   Sizes sizes;
   sizes.wide = draws.chance(0.3);
   sizes.mass = draws.logarithmic(1e-3, 1e3);
@@ -138,6 +140,7 @@ Json scenario_of(Draws& draws, Draws* more) {
   const Json drive = excitation(draws, sizes, !system.contains("damper_to"));
   system["friction"] = random_friction(draws, sizes);
   if (more != nullptr) attach_mass(*more, sizes, system["friction"]);
+  if (more != nullptr && with_late) add_late_laws(*more, sizes, drive.contains("frequency"), system["friction"]);
   Json scenario = {{"schema", "dualdamp/1"}, {"system", system}, {"excitation", drive}};
   const bool is_free = drive.at("type") == "none";
   if (is_free || draws.chance(0.4)) {
@@ -156,12 +159,12 @@ Json scenario_of(Draws& draws, Draws* more) {
 Json random_scenario(std::uint64_t seed, std::uint32_t index) {
   Draws draws(seed, index);
   Draws more(~seed, index);
-  return scenario_of(draws, seed >= first_with_attached_mass ? &more : nullptr);
+  return scenario_of(draws, seed >= first_with_attached_mass ? &more : nullptr, seed >= first_with_late_laws);
 }
 
 Json random_scenario(std::string_view bytes) {
   Draws draws(bytes);
-  return scenario_of(draws, &draws);
+  return scenario_of(draws, &draws, true);
 }
 
 std::string yaml(const Json& scenario) {

@@ -9,7 +9,7 @@
 ///   friction over force of the drive   1e-2 to 1.5    1e-6 to 1e3
 ///   static over kinetic friction       1 to 2.5       1 to 5
 ///
-/// The scenario is a valid file (JSON is YAML): what a case runs is what `dualdamp run` would read.
+/// The scenario is a valid file (JSON is YAML): `dualdamp run` can read it.
 
 #include <cstdint>
 #include <string>
@@ -22,7 +22,7 @@ namespace dualdamp::crosscheck {
 
 using scenarios::Json;
 
-/// Sizes against which laws are drawn, SI.
+/// Scales of the drawn values of laws, SI.
 struct Sizes {
   double mass = 1.0;
   double stiffness = 1.0;
@@ -34,16 +34,20 @@ struct Sizes {
   [[nodiscard]] double speed() const { return natural * length(); }
 };
 
-/// Case `index` of a campaign. Seeds from 70 on also draw attached masses.
+/// Case `index` of a campaign. Seeds from 70 on also draw attached masses, from 10,000 on the late laws.
 [[nodiscard]] Json random_scenario(std::uint64_t seed, std::uint32_t index);
-/// The scenario that these bytes lead to: any bytes give one.
+/// The scenario that these bytes give; any bytes give one.
 [[nodiscard]] Json random_scenario(std::string_view bytes);
 
 /// One to four laws in parallel.
 [[nodiscard]] Json random_friction(Draws& draws, const Sizes& sizes);
 
-/// Beside these, in one case of ten: an oscillator attached to the mass.
+/// Adds an oscillator attached to the mass, in one case of ten.
 void attach_mass(Draws& draws, const Sizes& sizes, Json& friction);
+
+/// In three cases of ten one of the laws that the list of `random_friction` lacks, alone or beside the others; and
+/// loads that vary with position or with a harmonic drive.
+void add_late_laws(Draws& draws, const Sizes& sizes, bool is_harmonic, Json& friction);
 
 /// The same scenario as a file that people can read.
 [[nodiscard]] std::string yaml(const Json& scenario);

@@ -1,6 +1,6 @@
 #pragma once
-/// What a campaign found, as text: verdicts, worst errors of every comparison, refusals and exceptions by reason,
-/// what was drawn, and every disagreement.
+/// The findings of a campaign as text: verdicts, worst errors of every comparison, refusals and exceptions by
+/// reason, what was drawn, and every disagreement.
 
 #include <map>
 #include <string>
@@ -14,11 +14,11 @@ namespace dualdamp::crosscheck {
 class Summary {
  public:
   void add(const CaseReport& report);
-  /// A case that had no report.
+  /// A case without a report.
   void add_failure(const Ending& ending);
   void add_time(double seconds);
 
-  /// No disagreement, crash or hang.
+  /// Whether there was no disagreement, crash or hang.
   [[nodiscard]] bool holds() const { return faults_.empty(); }
   [[nodiscard]] std::string text(std::uint64_t seed) const;
   /// "12: exact against smooth engine: apart by ..."

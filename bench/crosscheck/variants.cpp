@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/numbers.hpp"
@@ -37,6 +38,8 @@ Dimension dimension_of(std::string_view unit) {
                                                               {"1/s", {0, 0, -1}},
                                                               {"rad/s", {0, 0, -1}},
                                                               {"W", {1, 1, -1}},
+                                                              {"1/m", {0, -1, 0}},
+                                                              {"rad", {}},
                                                               {"m^2.s", {0, 2, 1}},
                                                               {"N^2.s", {2, 0, 1}}};
   const auto found = units.find(unit);
@@ -46,7 +49,7 @@ Dimension dimension_of(std::string_view unit) {
 
 double factor(const Scales& scales, std::string_view unit) {
   const Dimension d = dimension_of(unit);
-  // By repeated multiplication: a power of two stays one.
+  // By repeated multiplication, which keeps powers of two exact.
   const auto power = [](double base, int exponent) {
     double result = 1.0;
     for (int i = 0; i < std::abs(exponent); ++i) result *= base;
@@ -112,6 +115,23 @@ void negate(Json& section, const char* key) {
   if (section.contains(key)) section[key] = -section[key].get<double>();
 }
 
+/// Names of values by direction: what holds forward holds backward, and the other way round.
+void swap_directions(Json& law) {
+  Json result;
+  for (const auto& [key, value] : law.items()) {
+    constexpr std::string_view forward = "_forward";
+    constexpr std::string_view backward = "_backward";
+    const std::string_view name = key;
+    if (name.ends_with(forward))
+      result[std::string(name.substr(0, name.size() - forward.size())).append(backward)] = value;
+    else if (name.ends_with(backward))
+      result[std::string(name.substr(0, name.size() - backward.size())).append(forward)] = value;
+    else
+      result[key] = value;
+  }
+  law = std::move(result);
+}
+
 }  // namespace
 
 Json scaled(const Json& scenario, const Scales& scales) {
@@ -146,6 +166,11 @@ Json mirrored(const Json& scenario) {
     for (Json& value : excitation["values"]) value = -value.get<double>();
   if (result.contains("initial"))
     for (const char* key : {"position", "velocity"}) negate(result["initial"], key);
+  if (result.at("system").contains("friction"))
+    for (Json& law : result["system"]["friction"]) {
+      negate(law, "load_gradient");
+      swap_directions(law);
+    }
   return result;
 }
 
@@ -153,8 +178,7 @@ bool has_mirror(const Json& scenario) {
   if (scenario.at("excitation").contains("seed")) return false;
   for (const Json& law : scenario.at("system").value("friction", Json::array())) {
     const friction::LawEntry* entry = friction::find_law(law.at("law").get<std::string>());
-    if (entry->is_random || !entry->is_odd) return false;
-    if (law.contains("load_gradient")) return false;
+    if (entry->is_random || (!entry->is_odd && !law.contains("kinetic_backward"))) return false;
     if (law.contains("fluctuation") && law.at("fluctuation").contains("correlation_length")) return false;
   }
   return true;

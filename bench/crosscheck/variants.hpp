@@ -1,5 +1,6 @@
 #pragma once
-/// Other scenarios whose motion is known from that of the first: in other units, in the mirror, or next to it.
+/// Variants of a scenario whose motion follows from that of the first: in other units, mirrored, or slightly
+/// changed.
 
 #include <cstddef>
 
@@ -17,13 +18,13 @@ struct Scales {
   double time = 1.0;
 };
 
-/// Every value by its unit.
+/// Every value multiplied by the factor of its unit.
 [[nodiscard]] Json scaled(const Json& scenario, const Scales& scales);
 
 /// x and y become -x and -y, forces likewise.
 [[nodiscard]] Json mirrored(const Json& scenario);
 
-/// Whether the mirrored scenario has the mirrored motion: no law with a side, no random numbers that have one.
+/// Whether the mirrored scenario has the mirrored motion: no law and no random numbers distinguish the two sides.
 [[nodiscard]] bool has_mirror(const Json& scenario);
 
 /// Every value changed by up to `share` of itself, the initial position by up to `share` of `length` [m], the phase

@@ -10,8 +10,8 @@ namespace dualdamp::crosscheck {
 
 namespace {
 
-/// The largest of what the energy is made of, at samples and at the ends of intervals: a walk that ends early may
-/// have no sample.
+/// The largest terms of the energy, at samples and at the ends of intervals; a walk that ends early may have no
+/// sample.
 struct Extent {
   double x = 0.0;
   double v = 0.0;
@@ -26,7 +26,7 @@ struct Extent {
   }
 };
 
-/// Energy that went to and fro: what rounding of the account is measured by.
+/// Sum of the energies exchanged, the scale for rounding of the energy account.
 double exchanged(const sim::Model& model, const Walk& walk, Extent size) {
   const sim::Oscillator& o = model.oscillator;
   for (const sim::Sample& sample : walk.samples) size.add(sample);
@@ -100,7 +100,7 @@ Walk walk(const sim::Model& model, const WalkOptions& options) {
     }
   }
   result.outcome = engine->outcome();
-  // Velocities are known to the tolerance of the natural frequency times x, of which 1e-4 make 1e-7.
+  // The error of velocities is the tolerance (1e-11) times omega x: 1e-7 of a speed of 1e-4 omega x.
   if (engine->accuracy() > 0.0) result.slowest = 1e-4 * sim::natural_frequency(model.oscillator);
   result.finite = all_finite(result);
   if (options.with_energy) {

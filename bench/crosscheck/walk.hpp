@@ -1,5 +1,5 @@
 #pragma once
-/// A motion as far as a comparison needs it: its events, equally spaced samples, its energy account.
+/// The data of a motion for a comparison: its events, equally spaced samples, its energy account.
 
 #include <string>
 #include <vector>
@@ -11,8 +11,8 @@ namespace dualdamp::crosscheck {
 
 struct WalkOptions {
   double duration = 0.0;  ///< s
-  /// A walk that takes more (`sim::Engine::work`) ends early; so a stiff motion costs a bounded time, the same on
-  /// every machine.
+  /// A walk that takes more work (`sim::Engine::work`) ends early. So a stiff motion has a bounded cost, and ends
+  /// at the same time on every machine.
   long most_work = 150'000;
   bool with_energy = false;
 };
@@ -28,7 +28,7 @@ struct Piece {
 
 struct Walk {
   core::Outcome outcome;
-  bool ended_early = false;  ///< by its work
+  bool ended_early = false;  ///< by `most_work`
   double end = 0.0;          ///< where it ends [s]
   std::vector<sim::Event> events;
   std::vector<sim::Sample> samples;  ///< at duration/walk_samples, ...
@@ -37,10 +37,10 @@ struct Walk {
   double energy_scale = 0.0;  ///< sum of the moduli of all that was exchanged [J]
   double drive_energy = 0.0;  ///< what the largest force of the drive would store in the spring [J]
   bool finite = true;         ///< every event and sample is
-  double slowest = 0.0;  ///< a speed over the size of x that the engine resolves no better [1/s]; 0: to rounding
+  double slowest = 0.0;       ///< resolution of speeds over the size of x [1/s]; 0: rounding
 };
 
-/// Whether |v| <= `speed` throughout, as far as the pieces show it.
+/// Whether |v| <= `speed` in all pieces between the two times.
 [[nodiscard]] bool is_slow(const Walk& walk, double from, double to, double speed);
 
 [[nodiscard]] Walk walk(const sim::Model& model, const WalkOptions& options);

@@ -7,12 +7,12 @@ namespace dualdamp::bench {
 
 namespace {
 
-/// Of cases and cells.
+/// Weights of cases and cells.
 struct Weights {
   std::vector<double> cases;
   std::vector<double> cells;      ///< sums of the weights of their cases
-  std::vector<double> laws;       ///< of the departures; the truth is behind the last
-  std::vector<double> in_family;  ///< of the cells: departures alike, and cells of a departure alike
+  std::vector<double> laws;       ///< of the departures, then of the truth
+  std::vector<double> in_family;  ///< of the cells: equal for departures, and for the cells of each
 };
 
 Weights weights_of(const Plan& plan, const Resample& resample) {
@@ -63,14 +63,15 @@ class MeanMetrics {
   std::array<Mean, metric_count> means_;
 };
 
-/// The mean over families of their means.
+/// The mean over families of the means of the families.
 Metrics over_families(const std::map<Family, MeanMetrics>& families) {
   MeanMetrics all;
   for (const auto& [family, mean] : families) all.add(1.0, mean.value());
   return all.value();
 }
 
-/// Of one interval of an axis: groups are added up within departures, these are averaged within families.
+/// Metrics of one interval of an axis: groups are added up within departures, and departures are averaged within
+/// families.
 Metrics interval_metrics(const Plan& plan, const Weights& weights, const std::vector<MetricMeans>& groups,
                          std::size_t axis, std::size_t interval) {
   const std::vector<Departure>& departures = plan.grid().question().departures;
@@ -86,7 +87,7 @@ Metrics interval_metrics(const Plan& plan, const Weights& weights, const std::ve
   return over_families(families);
 }
 
-/// An area of risk, and the confidence of its last case.
+/// An area of risk under construction, and the confidence of its last case.
 struct OpenArea {
   RiskArea area;
   float confidence = std::numeric_limits<float>::quiet_NaN();
@@ -102,7 +103,7 @@ struct OpenArea {
   }
 };
 
-/// Areas of risk of cells, families and all, in one walk over all cases.
+/// Adds the areas of risk of cells, families and all cases, in one pass over all cases.
 void add_areas(const Plan& plan, const Weights& weights, std::size_t entrant, Aggregate& aggregate) {
   std::map<Family, OpenArea> families;
   std::vector<OpenArea> cells(plan.grid().cells());

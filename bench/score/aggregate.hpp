@@ -1,5 +1,5 @@
 #pragma once
-/// Means of marks: one resample of a stress test, method by method.
+/// Means of marks over one resample of a stress test, method by method.
 ///
 /// Cases that differ by noise alone, those of one motion and set of sensors, are a group. Groups are added up to
 /// cells, and to the intervals of distance and harm; both are averaged within departures, within families, and over
@@ -26,22 +26,22 @@ struct ConsequenceAxis {
   std::vector<double> edges;  ///< ascending; the last interval is open
 
   [[nodiscard]] std::size_t intervals() const { return edges.size(); }
-  /// None below the first edge, or where there is no value: `intervals()`.
+  /// The interval of a value; `intervals()` below the first edge or for NaN.
   [[nodiscard]] std::size_t interval_of(double value) const;
 };
 
 /// Distance, then harm.
 [[nodiscard]] const std::vector<ConsequenceAxis>& consequence_axes();
 
-/// What does not depend on the resample: the groups, their cells and intervals, and the cases in the order of each
-/// method's confidence.
+/// The data that do not depend on the resample: the groups, their cells and intervals, and the cases in the order
+/// of each method's confidence.
 class Plan {
  public:
   Plan(const MarkedCases& cases, const Grid& grid);
 
   struct Group {
     std::size_t cell = 0;
-    std::size_t law = 0;                 ///< among the departures of the question; the truth is behind the last
+    std::size_t law = 0;                 ///< among the departures of the question; the truth comes after the last
     std::vector<std::size_t> intervals;  ///< on each axis
   };
 
@@ -73,7 +73,7 @@ struct Aggregate {
   std::vector<Metrics> cells;
   std::map<Family, Metrics> families;
   Metrics all;
-  /// By axis, interval; departures alone, and without the area of risk.
+  /// By axis, interval; without the truth, and without the area of risk.
   std::vector<std::vector<Metrics>> intervals;
 };
 

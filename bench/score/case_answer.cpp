@@ -16,7 +16,7 @@ bool rejects(const CaseAnswer& answer) {
   return answer.p_value < level;
 }
 
-/// Usable answers lie in [0, 1], others in [-2, -1], none at -3.
+/// Confidence: usable answers in [0, 1], others in [-2, -1], no answer -3.
 double confidence_of(const CaseAnswer& answer) {
   if (!answer.is_given()) return -3.0;
   const double p = std::isnan(answer.p_value) ? 1.0 : std::clamp(answer.p_value, 0.0, 1.0);

@@ -1,14 +1,14 @@
 #pragma once
-/// What a method or a program answers about one case of a stress test, and the scores of one answer.
+/// The answer of a method or a program to one case of a stress test, and the scores of one answer.
 ///
 /// Scores are relative to the truth theta:
 ///
 ///   interval score of a 95 % interval [l, u] = [(u - l) + 40 max(l - theta, 0) + 40 max(theta - u, 0)] / theta,
 ///
 /// where 40 = 2/0.05: a proper score, smallest in expectation for the 2.5 and 97.5 % quantiles of what is known
-/// (gneiting2007strictly). Beyond `worst_score` it counts as that: an interval that lies a whole truth away.
-/// Without an interval, or where the method does not stand by its answer, the score is that of the interval from 0
-/// to twice the truth, which says nothing.
+/// (gneiting2007strictly). It counts as `worst_score` at most, the score of an interval at a distance of one theta.
+/// Without an interval, or if the method does not stand by its answer, the score is that of the interval from 0 to
+/// twice the truth.
 ///
 ///   loss = largest relative error of zeta and F0, 1 at most; 1 without an answer.
 ///
@@ -41,7 +41,7 @@ struct Entry {
   std::vector<CaseAnswer> answers;
 };
 
-/// The parameters that a case was made with; NaN where a departure leaves none (`Rig`).
+/// The true parameters of a case; NaN where the departure leaves no single true value (`Rig`).
 struct TrueParameters {
   double zeta = not_stated;
   double F0 = not_stated;  ///< N
@@ -58,7 +58,7 @@ struct ParameterMark {
   bool covers = false;
 };
 
-/// One answer, marked.
+/// The scores of one answer.
 struct Mark {
   ParameterMark zeta, F0;
   float loss = 1.0F;

@@ -1,5 +1,5 @@
 #pragma once
-/// What a method's answers to many cases are scored by, and sums of weighted answers.
+/// The metrics of a method's answers to many cases, and their weighted means.
 
 #include <algorithm>
 #include <array>
@@ -18,9 +18,9 @@ enum class Metric : std::size_t {
   interval_score_zeta,  ///< mean interval score, relative to the truth; smaller is better
   interval_score_F0,    ///< likewise
   power,                ///< share of cases with a departure that the method rejects
-  attainable_power,     ///< that of the best test which knows the departure
+  attainable_power,     ///< power of the best test that knows the departure
   false_alarm,          ///< share of cases without a departure that the method rejects
-  prediction_error,     ///< mean relative error of amplitudes in tests that were not made
+  prediction_error,     ///< mean relative error of predicted amplitudes (prediction.hpp)
   selective_risk_area,  ///< mean loss over the coverage, the cases in the order of the method's own confidence
 };
 inline constexpr std::size_t metric_count = 9;
@@ -28,14 +28,14 @@ inline constexpr std::array<std::string_view, metric_count> metric_names = {
     "coverage_zeta",    "coverage_F0", "interval_score_zeta", "interval_score_F0",  "power",
     "attainable_power", "false_alarm", "prediction_error",    "selective_risk_area"};
 
-/// NaN: does not exist.
+/// The values of all metrics; NaN: does not exist.
 struct Metrics {
   std::array<double, metric_count> values = filled();
 
   [[nodiscard]] double& operator[](Metric metric) { return values[static_cast<std::size_t>(metric)]; }
   [[nodiscard]] double operator[](Metric metric) const { return values[static_cast<std::size_t>(metric)]; }
 
-  /// What methods are ranked by: the mean of the interval scores of zeta and F0.
+  /// The score of the ranking: the mean of the interval scores of zeta and F0.
   [[nodiscard]] double interval_score() const {
     return 0.5 * ((*this)[Metric::interval_score_zeta] + (*this)[Metric::interval_score_F0]);
   }
@@ -72,7 +72,7 @@ class RiskArea {
   double weight_ = 0.0, loss_ = 0.0, area_ = 0.0, group_weight_ = 0.0, group_loss_ = 0.0;
 };
 
-/// A mean of what exists.
+/// A weighted mean of the values that exist.
 class Mean {
  public:
   void add(double weight, double value) {
@@ -94,7 +94,7 @@ class Mean {
 /// Weighted means over cases of all metrics but the area of risk.
 class MetricMeans {
  public:
-  /// A case of the truth has a false alarm, one of a departure power.
+  /// A case of the truth counts for the false alarms, a case of a departure for the power.
   void add(const Mark& mark, double weight, bool is_truth, double attainable_power) {
     add_parameter(mark.zeta, weight, Metric::coverage_zeta, Metric::interval_score_zeta);
     add_parameter(mark.F0, weight, Metric::coverage_F0, Metric::interval_score_F0);

@@ -14,7 +14,7 @@ namespace {
 
 using identify::Estimate;
 
-/// What the ledger gives to all that it found; 1 where it tested nothing.
+/// The smallest p-value of the ledger; 1 if it tested nothing.
 double least_p_value(const identify::Ledger& ledger) {
   double least = 1.0;
   for (const identify::LedgerEntry& entry : ledger.entries) least = std::min(least, entry.p_value.value_or(1.0));

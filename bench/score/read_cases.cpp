@@ -49,7 +49,7 @@ CaseConsequence consequence_in(const Json& line) {
           .unmeasured = interval_in(line, "unmeasured")};
 }
 
-/// Marks the lines of `cases.jsonl`, many at once: they are independent, and predictions take time.
+/// Scores the lines of `cases.jsonl` in parallel: they are independent, and predictions take time.
 class CaseMarker {
  public:
   explicit CaseMarker(const Grid& grid) : grid_(grid), question_(grid.question()) {
@@ -57,8 +57,8 @@ class CaseMarker {
     marked_.consequences.resize(grid.motions() * question_.sensors.size());
   }
 
-  /// Lines of the cases from `first` on. Returns what is wrong with the first bad one: its place among them, and
-  /// why.
+  /// Adds the lines of the cases from `first` on. Returns the first faulty line, if any: its index among them, and
+  /// the fault.
   [[nodiscard]] std::optional<std::pair<std::size_t, std::string>> add(std::size_t first,
                                                                        const std::vector<std::string>& lines) {
     constexpr std::size_t grain = 16;
@@ -83,7 +83,7 @@ class CaseMarker {
   [[nodiscard]] MarkedCases take() { return std::move(marked_); }
 
  private:
-  /// False where the line is not that of the case. `failed`: no method gives an estimate.
+  /// Returns false if the line is not that of the case. Sets `failed` if no method gives an estimate.
   bool mark(std::size_t number, const Json& line, char& failed) {
     if (line.is_discarded() || line.value("case", grid_.cases()) != number) return false;
     const Grid::Case place = grid_.at(number);

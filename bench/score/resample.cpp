@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::uint32_t stream = 129;
 
-/// `count` draws among `places`, as counts.
+/// `count` draws among `places`, as counts for each place.
 template <typename Draw>
 void draw_with_replacement(const std::vector<std::size_t>& places, std::vector<double>& counts, Draw draw) {
   for (const std::size_t place : places) counts[place] = 0.0;

@@ -4,7 +4,7 @@
 /// Departures are drawn with replacement within their family, rigs among all, and each case counts a Poisson number
 /// of times with mean 1; the weight of a case is the product (the pigeonhole bootstrap of crossed factors,
 /// owen2007pigeonhole). Resample 0 is the stress test itself: everything counts once. All methods share the
-/// resamples, so that their differences have standard errors of their own.
+/// resamples, so that the standard errors of their differences can be computed.
 
 #include <cstddef>
 #include <cstdint>
@@ -20,9 +20,9 @@ class Resample {
  public:
   Resample(const Grid& grid, std::size_t number);
 
-  /// Of all cases, by number; those of their departures are not in them.
+  /// Weights of all cases, by number, without the weights of their departures.
   [[nodiscard]] std::vector<double> case_weights(const Grid& grid) const;
-  /// Of the departures, in the order of the question; the truth counts once.
+  /// Weight of a departure, in the order of the question; the truth counts once.
   [[nodiscard]] double law_weight(std::size_t law) const { return laws_[law]; }
 
  private:

@@ -64,7 +64,7 @@ Table ranking_table(const Scores& scores, const Grid& grid) {
                column("rank_from", "", list, &Rank::from), column("rank_to", "", list, &Rank::to),
                column("interval_score", "", list, &Rank::interval_score),
                column("interval_score_se", "", list, &Rank::interval_score_se)}};
-  table.is_long = true;  // a terminal has the short one
+  table.is_long = true;  // a terminal shows the short table
   add_metrics(table, list);
   table.key = "ranking";
   return table;
@@ -140,7 +140,7 @@ Table departure_table(const Grid& grid) {
   return table;
 }
 
-/// What of the ranking fits a terminal.
+/// The columns of the ranking that fit a terminal.
 Table short_ranking(const Scores& scores, const Grid& grid) {
   const std::vector<Rank>& list = scores.ranking;
   Table table{"ranking",
@@ -178,10 +178,10 @@ void add_metric_fields(std::vector<scenarios::ResultField>& fields, const std::s
       "mean interval score of zeta over the truth; smaller is better",
       "mean interval score of F0 over the truth; smaller is better",
       "share of cases with a departure that the method rejects",
-      "that of the best test which knows the departure",
+      "power of the best test that knows the departure",
       "share of cases without a departure that the method rejects",
       "mean relative error of the amplitudes that the estimate predicts for tests that were not made",
-      "mean loss over coverage, the cases in the order of the method's confidence"};
+      "mean loss of the cases of highest confidence, averaged over their share from 0 to 1"};
   for (std::size_t i = 0; i < metric_count; ++i) {
     const std::string path = list + "[]." + std::string(metric_names.at(i));
     fields.push_back({path, "1", meanings.at(i)});
@@ -191,16 +191,20 @@ void add_metric_fields(std::vector<scenarios::ResultField>& fields, const std::s
 
 void add_consequence_fields(std::vector<scenarios::ResultField>& fields) {
   for (const auto& [name, unit, meaning] :
-       {std::tuple("law", "", "departure, or coulomb_viscous"), std::tuple("severity", "1", "its size"),
+       {std::tuple("law", "", "departure, or coulomb_viscous"),
+        std::tuple("severity", "1", "severity of the departure"),
         std::tuple("rig", "1", "number of the rig, from 0"), std::tuple("range", "", "range of excitation"),
-        std::tuple("sensors", "", "sensors"), std::tuple("zeta", "1", "of the rig"),
-        std::tuple("F0", "N", "of the rig"),
-        std::tuple("distance", "1", "readings to those of the nearest Coulomb + viscous motion, in units of noise"),
+        std::tuple("sensors", "", "sensors"), std::tuple("zeta", "1", "damping ratio of the rig"),
+        std::tuple("F0", "N", "friction force of the rig"),
+        std::tuple("distance", "1",
+                   "distance of the readings from those of the nearest Coulomb and viscous motion, in units of "
+                   "noise"),
         std::tuple("harm", "1", "largest relative error of zeta and F0 of that motion"),
-        std::tuple("harm_zeta", "1", "that of zeta"), std::tuple("harm_F0", "1", "that of F0"),
-        std::tuple("attainable_power", "1", "of the best test which knows the departure"),
-        std::tuple("cramer_rao_zeta", "1", "least relative standard deviation of zeta, the law known"),
-        std::tuple("cramer_rao_F0", "1", "likewise of F0")})
+        std::tuple("harm_zeta", "1", "relative error of zeta of that motion"),
+        std::tuple("harm_F0", "1", "relative error of F0 of that motion"),
+        std::tuple("attainable_power", "1", "power of the best test that knows the departure"),
+        std::tuple("cramer_rao_zeta", "1", "smallest relative standard deviation of zeta if the law is known"),
+        std::tuple("cramer_rao_F0", "1", "the same of F0")})
     fields.push_back({"consequences[]." + std::string(name), unit, meaning});
 }
 
@@ -225,43 +229,45 @@ std::vector<scenarios::ResultField> score_fields() {
       {"cases.rigs", "1", "rigs"},
       {"cases.estimates", "1", "cases times methods and entries"},
       {"ranking[].method", "", "a method or an entry, best first"},
-      {"ranking[].rank_from", "1", "1 + those that are better by more than two standard errors"},
-      {"ranking[].rank_to", "1", "those that are not worse by more"},
-      {"ranking[].interval_score", "1", "mean of the interval scores of zeta and F0: what the ranking goes by"},
+      {"ranking[].rank_from", "1", "1 + number of those that are better by more than two standard errors"},
+      {"ranking[].rank_to", "1", "number of those that are not worse by more than two standard errors"},
+      {"ranking[].interval_score", "1", "mean of the interval scores of zeta and F0, by which the ranking is made"},
       {"ranking[].interval_score_se", "1", "its standard error"}};
   add_metric_fields(fields, "ranking");
-  fields.push_back({"departures[].departure", "", "its name"});
-  fields.push_back({"departures[].family", "", "what it is a departure of"});
-  fields.push_back({"departures[].severity", "", "what its severity is"});
+  fields.push_back({"departures[].departure", "", "name of the departure"});
+  fields.push_back({"departures[].family", "", "what it changes, such as friction or the drive"});
+  fields.push_back({"departures[].severity", "", "what its severity means"});
   fields.push_back({"families[].family", "", "family of departures, or none"});
   fields.push_back({"families[].method", "", "a method or an entry"});
   add_metric_fields(fields, "families");
   for (const auto& [name, unit, meaning] :
        {std::tuple("of", "", "distance or harm"),
-        std::tuple("from", "1", "cases of departures with this distance or harm at least"),
-        std::tuple("to", "1", "and less than this; null: no limit"),
+        std::tuple("from", "1", "smallest distance or harm of these cases"),
+        std::tuple("to", "1", "their distance or harm is below this; null: no limit"),
         std::tuple("method", "", "a method or an entry"),
-        std::tuple("departures", "1", "departures that have such cases"), std::tuple("cases", "1", "these cases")})
+        std::tuple("departures", "1", "departures that have such cases"),
+        std::tuple("cases", "1", "number of these cases")})
     fields.push_back({"by_consequence[]." + std::string(name), unit, meaning});
   add_metric_fields(fields, "by_consequence");
   for (const auto& [name, unit, meaning] :
        {std::tuple("differences[].better", "", "the better of two"),
         std::tuple("differences[].worse", "", "the other"),
-        std::tuple("differences[].difference", "1", "of their interval scores"),
+        std::tuple("differences[].difference", "1", "difference of their interval scores"),
         std::tuple("differences[].difference_se", "1", "its standard error"),
         std::tuple("differences[].significant", "", "whether it exceeds two standard errors"),
         std::tuple("scores[].family", "", "family of the departure, or none"),
         std::tuple("scores[].law", "", "departure, or coulomb_viscous"),
-        std::tuple("scores[].severity", "1", "its size"), std::tuple("scores[].range", "", "range of excitation"),
-        std::tuple("scores[].sensors", "", "sensors"), std::tuple("scores[].method", "", "a method or an entry"),
+        std::tuple("scores[].severity", "1", "severity of the departure"),
+        std::tuple("scores[].range", "", "range of excitation"), std::tuple("scores[].sensors", "", "sensors"),
+        std::tuple("scores[].method", "", "a method or an entry"),
         std::tuple("scores[].cases", "1", "rigs times seeds"),
-        std::tuple("scores[].estimates", "1", "those with a number"),
-        std::tuple("scores[].distance", "1", "mean over the rigs, in units of the sensors' noise"),
-        std::tuple("scores[].harm", "1", "mean over the rigs, relative"),
+        std::tuple("scores[].estimates", "1", "cases with an estimate"),
+        std::tuple("scores[].distance", "1", "mean distance over the rigs, in units of the sensors' noise"),
+        std::tuple("scores[].harm", "1", "mean harm over the rigs"),
         std::tuple("scores[].zeta_bias", "1", "mean error of zeta, relative"),
         std::tuple("scores[].F0_bias", "1", "mean error of F0, relative"),
-        std::tuple("scores[].zeta_error", "1", "median modulus of the error of zeta, relative"),
-        std::tuple("scores[].F0_error", "1", "median modulus of the error of F0, relative")})
+        std::tuple("scores[].zeta_error", "1", "median of the absolute error of zeta, relative"),
+        std::tuple("scores[].F0_error", "1", "median of the absolute error of F0, relative")})
     fields.push_back({name, unit, meaning});
   add_metric_fields(fields, "scores");
   add_consequence_fields(fields);

@@ -48,7 +48,7 @@ void describe_errors(const Plan& plan, const std::vector<std::size_t>& groups, C
   score.harm = harm.value();
 }
 
-/// By resample, method.
+/// Aggregates by resample, method.
 using Aggregates = std::vector<std::vector<Aggregate>>;
 
 Aggregates all_aggregates(const Plan& plan) {

@@ -2,10 +2,10 @@
 /// Scores of a stress test: metrics of each method in each cell, in each family of departures, and over all.
 ///
 /// A cell is a law at one severity, a range and a set of sensors; its cases differ by rig and noise. A family's
-/// metric is the mean over its departures of the mean over their cells, the last one the mean over families: a
-/// family counts once, however many departures it has. The area of selective risk is that of all cases together,
-/// weighted alike. Standard errors: `resample.hpp`. A method ranks before another only where the difference of
-/// their interval scores exceeds twice its standard error.
+/// metric is the mean over its departures of the means over their cells; the metric over all is the mean over
+/// families. So a family counts once, however many departures it has. The area of selective risk is that of all
+/// cases together, with the same weights. Standard errors: `resample.hpp`. A method ranks before another only where
+/// the difference of their interval scores exceeds twice its standard error.
 
 #include <cstddef>
 #include <string>
@@ -48,15 +48,15 @@ struct Rank : Scored {
   int to = 1;    ///< methods that are not worse by more
 };
 
-/// One method less another.
+/// The difference of two methods.
 struct Difference {
   std::size_t better = 0, worse = 0;
   double value = 0.0, se = 0.0;
   bool is_significant = false;
 };
 
-/// One method over the cases whose distance, or harm, lies in one interval: what departures share whose severities
-/// do not compare. The truth is not among them.
+/// One method over the cases whose distance, or harm, lies in one interval. Distance and harm can be compared
+/// between departures, severities cannot. The truth is not among the cases.
 struct ConsequenceScore : Scored {
   std::size_t entrant = 0;
   std::string axis;                    ///< distance or harm
@@ -74,7 +74,7 @@ struct Scores {
   std::size_t failed_cases = 0;                  ///< without an estimate by any method
 };
 
-/// What a departure comes to on one rig with one set of sensors.
+/// The consequence of a departure on one rig with one set of sensors (bench/consequence.hpp).
 struct CaseConsequence {
   double distance = not_stated, harm = not_stated, harm_zeta = not_stated, harm_F0 = not_stated;
   double attainable_power = not_stated;
@@ -82,7 +82,7 @@ struct CaseConsequence {
   UnmeasuredAmplitudes unmeasured = {not_stated, not_stated};
 };
 
-/// All answers to a stress test, marked. Memory is 40 bytes an estimate.
+/// The scores of all answers to a stress test. Memory: 40 bytes an estimate.
 struct MarkedCases {
   std::vector<std::vector<Mark>> marks;       ///< by entrant, case
   std::vector<CaseConsequence> consequences;  ///< by motion, sensors

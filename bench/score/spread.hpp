@@ -10,7 +10,7 @@
 
 namespace dualdamp::bench {
 
-/// Standard deviation over resamples of what exists in most of them.
+/// Standard deviation over the resamples in which the value exists; NaN if these are fewer than half of all.
 class Spread {
  public:
   void add(double value) {

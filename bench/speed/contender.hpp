@@ -1,8 +1,8 @@
 #pragma once
-/// Ways to integrate the standard case. Each one finds every reversal and hands out the amplitude.
+/// Ways to integrate the standard case. Each one finds every reversal and returns the amplitude.
 ///
-/// The general solvers integrate one interval at a time with the sign of the friction frozen. So a step may pass
-/// the reversal and keeps its order. They start anew after the reversal.
+/// The general solvers integrate one interval at a time with the sign of the friction frozen. So a step that passes
+/// the reversal keeps its order. They start anew after the reversal.
 
 #include <functional>
 #include <string>
@@ -12,7 +12,7 @@
 
 namespace dualdamp::bench::speed {
 
-/// What a contender finds over some forcing periods.
+/// The result of a contender over some forcing periods.
 struct IntegratedMotion {
   double amplitude = 0.0;  ///< half the distance between the last two turning points [m]
   long reversals = 0;
@@ -40,7 +40,7 @@ struct Contender {
 [[nodiscard]] std::vector<Contender> odeint_contenders(const StandardCase& work);
 
 /// SUNDIALS CVODE with a root function, at 1e-9 and 1e-12: Adams with fixed-point iteration, BDF with dense Newton
-/// and the exact Jacobian. CVODE chooses its first step behind a reversal. Empty where SUNDIALS is not installed.
+/// and the exact Jacobian. CVODE chooses its first step after a reversal. Empty where SUNDIALS is not installed.
 [[nodiscard]] std::vector<Contender> cvode_contenders(const StandardCase& work);
 
 /// SciPy's solve_ivp, DOP853 with a terminal event, in a child process that times itself.

@@ -1,4 +1,4 @@
-// CVODE under both kinds of work. SUNDIALS belongs into one file.
+// CVODE for both kinds of work. Only this file includes SUNDIALS.
 
 #include <cvode/cvode.h>
 #include <fmt/core.h>
@@ -30,7 +30,7 @@ enum class CvodeMethod {
   bdf,           ///< with dense Newton
 };
 
-/// What CVODE calls. `data` of each: the pointer given beside these.
+/// Functions that CVODE calls, with the pointer given beside them as `data`.
 struct CvodeProblem {
   CVRhsFn rate;
   CVRootFn guard;           ///< one value, positive within an interval
@@ -40,7 +40,7 @@ struct CvodeProblem {
   std::span<const double> absolute_tolerances{};  ///< one for each state
 };
 
-/// One CVODE memory and all that it points to.
+/// One CVODE memory and the objects that it refers to.
 class Cvode {
  public:
   Cvode(CvodeMethod method, const CvodeProblem& problem, void* data)
@@ -65,7 +65,7 @@ class Cvode {
   /// Starts anew from state().
   void restart(double time) { check(CVodeReInit(memory_.get(), time, state_.get()), "CVodeReInit"); }
 
-  /// To the next root, or to `end`; true at a root. `time`: reached.
+  /// Integrates to the next root, or to `end`; true at a root. `time`: the time reached.
   [[nodiscard]] bool advance(double end, double& time) {
     const int status = CVode(memory_.get(), end, state_.get(), &time, CV_NORMAL);
     check(status, "CVode");
@@ -180,7 +180,7 @@ Contender contender(const char* name, const StandardCase& work, double tolerance
 
 // Smooth laws.
 
-/// What CVODE's calls need.
+/// Data of the functions that CVODE calls.
 struct SmoothField {
   StandardCase standard;
   LawResponse (*respond)(double, double, double);

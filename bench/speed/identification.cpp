@@ -20,7 +20,7 @@ namespace dualdamp::bench::speed {
 namespace {
 
 constexpr double sampled = 1000.0;  // Hz
-constexpr int few = 3;              // batches of what takes seconds
+constexpr int few = 3;              // batches for work that takes seconds
 
 /// The bearing of the paper: zeta 0.0987, F0 4.39 N, driven at its natural frequency.
 sim::Model bearing() {
@@ -32,7 +32,7 @@ sim::Model bearing() {
   return model;
 }
 
-/// Lightly damped, released where it swings for long.
+/// A rig with little damping, released so that it swings for long.
 sim::Model released() {
   sim::Model model = bearing();
   model.oscillator.damping = 1.6;
@@ -43,7 +43,7 @@ sim::Model released() {
   return model;
 }
 
-/// What sensors of 20 um make of a motion.
+/// The record of a motion by sensors with a noise of 20 um.
 identify::Record measured(const scenarios::Measurement& measurement, double sample_rate,
                           const sim::Model& model = bearing()) {
   identify::Sensors sensors;
@@ -62,7 +62,7 @@ identify::Record fifty_pairs() {
   return measured(curve, 0.0);
 }
 
-/// Eight levels at resonance; with a sample rate their phases too.
+/// Eight levels at resonance; with a sample rate also their phases.
 identify::Record eight_states(double sample_rate) {
   scenarios::Measurement curve{.kind = scenarios::MeasurementKind::steady_states};
   for (int i = 0; i < 8; ++i) curve.amplitudes.push_back(4.5e-3 + 0.4e-3 * i);

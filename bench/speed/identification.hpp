@@ -1,5 +1,5 @@
 #pragma once
-/// How long identification takes: processor time of one thread, median of several runs [s].
+/// Times of identification: processor time of one thread unless stated otherwise, median of several runs [s].
 
 namespace dualdamp::bench::speed {
 
@@ -18,13 +18,13 @@ enum class AnyLawRecord {
 };
 [[nodiscard]] double seconds_for_any_law(AnyLawRecord record);
 
-/// What to measure after eight amplitudes at resonance, on all cores.
+/// The design of the next measurements after eight amplitudes at resonance, on all cores.
 [[nodiscard]] double seconds_for_design();
 
 /// The ledger of assumptions of 12 s of y, x, v and a at 2 kHz.
 [[nodiscard]] double seconds_for_ledger();
 
-/// The most memory that this program has taken so far [MB].
+/// Peak memory of this program so far [MB].
 [[nodiscard]] double peak_megabytes();
 
 /// `law_selection` on fifty noisy pairs.

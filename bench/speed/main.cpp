@@ -76,7 +76,7 @@ void print(const Row& row, double unit) {
              std::abs(row.motion.amplitude / exact_amplitude - 1.0));
 }
 
-/// Median time of the row of that name, or 0.
+/// Median time of the row with this name, or 0.
 double median_of(const std::vector<Row>& rows, std::string_view name) {
   for (const Row& row : rows) {
     if (row.name == name) return row.time.median;

@@ -15,7 +15,7 @@ namespace {
 namespace odeint = boost::numeric::odeint;
 using State = std::array<double, 2>;
 
-/// How the time of a reversal is found on the dense output of a step.
+/// Method that finds the time of a reversal on the dense output of a step.
 enum class Locator {
   bisection,  ///< until the bracket is 1e-15 of the step
   toms748,    ///< Boost.Math's bracketing solver to the last bits: fewer evaluations

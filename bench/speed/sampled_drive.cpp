@@ -31,7 +31,7 @@ double seconds_for_sampled_drive(const StandardCase& work, int count, sim::Inter
   model.friction.emplace_back(friction::Coulomb(work.friction, work.friction));
   const sim::History history = sim::simulate(model, {.duration = duration});
   const double seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
-  // Two reversals a period, but for the first one from rest.
+  // Two reversals a period, except in the first period, which starts from rest.
   const auto reversals = static_cast<double>(history.events.size());
   if (!history.outcome.ok() || history.certificate.searches < count - 1 ||
       std::abs(reversals - 2.0 * count / 628.0) > 2.0)

@@ -14,7 +14,7 @@ namespace {
 
 constexpr int package_missing = 69 << 8;  // as pclose() returns the script's status
 
-/// What a program prints; `status` as of pclose().
+/// The output of a program; `status` as returned by pclose().
 std::string output_of(const std::string& command, int& status) {
   std::FILE* pipe = popen(command.c_str(), "r");
   if (pipe == nullptr) throw std::runtime_error("cannot start " + command);

@@ -77,7 +77,7 @@ friction::ParameterValues stribeck_values() {
   return {{"kinetic", kinetic}, {"static", static_level}, {"stribeck_velocity", stribeck_velocity}};
 }
 
-/// With the orbit, by steps far finer than any contender's.
+/// Adds the orbit, computed with steps far finer than those of any contender.
 SmoothCase prepared(SmoothCase work) {
   work.model = model_under(work.law, work.values);
   sim::Model fine = work.model;

@@ -1,5 +1,5 @@
 #pragma once
-/// The works under smooth laws: oscillator and drive of the standard case, another law, in steady state.
+/// The work under smooth laws: oscillator and drive of the standard case with another law, in steady state.
 ///
 ///   m x'' + c x' + k x + F(x', z) = k Y cos(w t),   z' = the law's rate
 ///
@@ -25,12 +25,12 @@ struct LawResponse {
 struct SmoothCase {
   std::string law;
   friction::ParameterValues values;
-  /// The law's equations written out for a general solver; sgn v is `direction`.
+  /// The equations of the law for a general solver; sgn v is `direction`.
   LawResponse (*respond)(double v, double z, double direction) = nullptr;
   bool has_state = true;
   double z_scale = 1.0;  ///< size of z
   bool jumps = false;    ///< the force jumps at a reversal: a general solver has to stop there
-  bool stiff = false;    ///< an iteration without Newton's method takes a hundred times as long
+  bool stiff = false;    ///< fixed-point iteration takes a hundred times as long as Newton's method
 
   sim::Model model{};
   sim::State start{};      ///< on the orbit, at t = 0
@@ -40,7 +40,7 @@ struct SmoothCase {
 /// lugre with sigma0 = 1e5 N/m first, then other laws.
 [[nodiscard]] std::vector<SmoothCase> smooth_cases();
 
-/// Of the first of them.
+/// Values of the first of them.
 [[nodiscard]] friction::ParameterValues lugre_values();
 
 /// The standard oscillator and drive under this law, which starts at rest.

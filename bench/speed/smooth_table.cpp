@@ -24,7 +24,7 @@ constexpr int periods_per_start = 10;
 constexpr std::size_t reversals = 2UL * periods_per_start;
 constexpr double error_wanted = 1e-8;
 
-/// From 1e-5 to 1e-12.
+/// Tolerances from 1e-5 to 1e-12.
 constexpr std::array<double, 22> tolerances = {1e-5,  5e-6,  2e-6,  1e-6,  5e-7,  2e-7,  1e-7,  5e-8,
                                                2e-8,  1e-8,  5e-9,  2e-9,  1e-9,  5e-10, 2e-10, 1e-10,
                                                5e-11, 2e-11, 1e-11, 5e-12, 2e-12, 1e-12};
@@ -36,12 +36,12 @@ struct Entry {
   Time time{};
 };
 
-/// Infinite where the contender fails, or loses a reversal.
+/// Error of a contender; infinite where it fails or loses a reversal.
 double error_of(const SmoothCase& work, const SmoothContender& contender) {
   std::vector<double> turning_points;
   try {
     contender.integrate(periods_per_start, turning_points);
-    // The first time the engine found out about stiffness.
+    // In the first run the engine chose between explicit and implicit steps.
     turning_points.clear();
     contender.integrate(periods_per_start, turning_points);
   } catch (const std::runtime_error&) {
@@ -51,7 +51,7 @@ double error_of(const SmoothCase& work, const SmoothContender& contender) {
   return amplitude_error(turning_points, work.amplitude);
 }
 
-/// Times all entries one batch of each after the other.
+/// Times all entries, one batch of each in turn.
 void time(std::span<Entry> entries, int batches, double batch_seconds) {
   std::vector<std::function<void(int)>> works;
   double sink = 0.0;  // used below, so that no work can be dropped
@@ -69,7 +69,7 @@ void time(std::span<Entry> entries, int batches, double batch_seconds) {
                        times[i].high / periods_per_start};
 }
 
-/// The fastest of those that reach the error wanted.
+/// The fastest entry that reaches the wanted error.
 std::optional<Entry> fastest(const SmoothCase& work,
                              const std::function<std::vector<SmoothContender>(double tolerance)>& settings) {
   std::vector<Entry> good;

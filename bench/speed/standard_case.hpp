@@ -22,7 +22,7 @@ struct StandardCase {
   double start_velocity = 0.0;
 };
 
-/// The right side of one interval, per mass: sgn v is `direction` throughout. What every general solver integrates.
+/// The right side of one interval, per mass, for the general solvers: sgn v is `direction` throughout.
 struct IntervalField {
   double damping;
   double stiffness;

@@ -46,7 +46,7 @@ std::vector<double> amplitudes_from(double first, const StandardCase& work, int 
   return amplitudes;
 }
 
-/// Processor seconds on one core; `is_sound`: what the curve must be like.
+/// Processor seconds on one core; `is_sound`: check of the curve.
 double seconds_for_curve(const sim::Model& model, const std::vector<double>& amplitudes, int batches,
                          bool (*is_sound)(const sim::Curve&)) {
   bool sound = true;

@@ -1,11 +1,11 @@
 #pragma once
-/// How fast steady states are found.
+/// Times of steady states.
 
 #include "bench/speed/standard_case.hpp"
 
 namespace dualdamp::bench::speed {
 
-/// Processor seconds for the steady state of the standard case from nothing: transient, Newton's method, energy
+/// Processor seconds for the steady state of the standard case from rest: transient, Newton's method, energy
 /// account.
 [[nodiscard]] double seconds_for_steady_state(const StandardCase& work);
 

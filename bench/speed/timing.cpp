@@ -7,7 +7,7 @@
 namespace dualdamp::bench::speed {
 namespace {
 
-/// Processor time: what other programs on the machine do counts only through shared caches and clocks.
+/// Processor time: other programs on the machine affect it only through shared caches and clock rates.
 double seconds(const std::function<void(int)>& work, int units) {
   const std::clock_t begin = std::clock();
   work(units);

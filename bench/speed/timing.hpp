@@ -1,6 +1,6 @@
 #pragma once
-/// Times of several contenders, one batch of each after the other, so that a slow moment of the machine meets them
-/// all.
+/// Times of several contenders, one batch of each in turn, so that a slow moment of the machine affects all of
+/// them.
 
 #include <functional>
 #include <span>
@@ -18,8 +18,8 @@ struct Time {
 /// Median and quartiles of `times`, which is not empty.
 [[nodiscard]] Time quartiles(std::vector<double> times);
 
-/// Work(units) does that many units. Each work is warmed up, its batch sized to `batch_seconds`, and then timed
-/// `batches` times, one batch of each work after the other.
+/// works[i](units) does that many units of work. Each work is warmed up, its batch sized to `batch_seconds`, and
+/// then timed `batches` times, one batch of each work after the other.
 [[nodiscard]] std::vector<Time> time_alternately(std::span<const std::function<void(int)>> works, int batches,
                                                  double batch_seconds);
 

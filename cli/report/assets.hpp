@@ -1,5 +1,5 @@
 #pragma once
-/// The files that the page is made of, as the build put them into the program.
+/// The files of the page (HTML, CSS, scripts), which the build embeds in the program.
 
 #include <string_view>
 

@@ -1,5 +1,5 @@
 #pragma once
-/// A chart as data: what the SVG writer draws and the page of a comparison gets.
+/// A chart as data, for the SVG writer and for the page of a comparison.
 
 #include <optional>
 #include <string>
@@ -10,27 +10,27 @@ namespace dualdamp::cli {
 
 struct ChartAxis {
   std::string label;
-  std::string unit;     ///< of the numbers; empty: none
-  bool is_log = false;  ///< all numbers are positive, and a factor lies between neighbours rather than a distance
-  bool is_whole = false;
-  /// SI unit, and the factor from it, where the unit is one that the user wrote.
+  std::string unit;       ///< of the numbers; empty: none
+  bool is_log = false;    ///< logarithmic; all numbers must be positive
+  bool is_whole = false;  ///< integers
+  /// SI unit, and the factor from SI to `unit`, if `unit` is one that the user wrote.
   std::optional<std::pair<std::string, double>> written_for = {};
-  bool is_asked = false;  ///< that unit, for numbers of any size
+  bool is_asked = false;  ///< the unit is used for numbers of any size (`--units`)
 };
 
 enum class SeriesKind {
-  line,    ///< broken where a number does not exist
-  dashed,  ///< such a line
+  line,    ///< with a gap where a number does not exist
+  dashed,  ///< a dashed line, with the same gaps
   points,
-  cells,  ///< of a grid, whose lines are the distinct x and y of all series together
+  cells,  ///< cells of a grid; the grid has the distinct x and y of all series
 };
 
 struct ChartSeries {
   std::string label;
   std::vector<double> x;
-  std::vector<double> y;  ///< as many; NaN: no value
+  std::vector<double> y;  ///< of the length of x; NaN: no value
   SeriesKind kind = SeriesKind::line;
-  int colour = 0;  ///< series of one colour belong together
+  int colour = 0;  ///< number of its colour; related series have the same one
 };
 
 struct Chart {
@@ -40,7 +40,7 @@ struct Chart {
   std::vector<ChartSeries> series;
 };
 
-/// Numbers that are spread by a factor rather than by a distance: a logarithmic axis shows them better.
+/// Whether a logarithmic axis suits the numbers: their ratios, rather than their differences, are even.
 [[nodiscard]] bool is_geometric(const std::vector<double>& numbers);
 
 }  // namespace dualdamp::cli

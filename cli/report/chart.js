@@ -7,12 +7,12 @@
 const charts = [];
 
 const ink = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
-/** Of a series: by number, a colour of the page by its name, or any other of CSS. */
+/** The colour of a series: a number, the name of a colour of the page, or any colour of CSS. */
 const colour = (which) => (typeof which === "number" ? `var(--c${which % 7})` : which.startsWith("--") ? `var(${which})` : which);
 
 const isNumber = (value) => value !== null && Number.isFinite(value);
 
-/** Smallest and largest of the finite numbers, with a little room; a factor of room on a logarithmic axis. */
+/** The smallest and the largest finite number, with a margin; on a logarithmic axis the margin is a factor. */
 function extent(lists, isLog) {
   let low = Infinity;
   let high = -Infinity;
@@ -27,10 +27,10 @@ function extent(lists, isLog) {
   return [low - room, high + room];
 }
 
-/** Distinct numbers in order. */
+/** The distinct numbers in ascending order. */
 const distinct = (list) => [...new Set(list)].sort((a, b) => a - b);
 
-/** Numbers spread by a factor rather than by a distance: a logarithmic axis shows them better. */
+/** Whether a logarithmic axis suits the numbers: their ratios, rather than their differences, are even. */
 function isGeometric(list) {
   const steps = distinct(list.filter((v) => v !== null));
   if (steps.length < 4 || steps[0] <= 0 || steps[steps.length - 1] < 8 * steps[0]) return false;
@@ -56,7 +56,7 @@ function scaled(spec) {
   };
 }
 
-/** 1, 2 and 5 times the powers of ten inside a range; only the powers where that would be too many. */
+/** 1, 2 and 5 times the powers of ten inside a range; only the powers if there would be too many. */
 function decades([low, high]) {
   const steps = high / low > 1e4 ? [1] : [1, 2, 5];
   const list = [];
@@ -65,7 +65,7 @@ function decades([low, high]) {
   return list.filter((v) => v >= low && v <= high);
 }
 
-/** Where an axis has its labels: some `count` round numbers. */
+/** The positions of the labels of an axis: about `count` round numbers. */
 function ticksOf(axis, range, count) {
   const places = axis.log ? decades(range) : [];
   if (places.length > 2) return places;
@@ -81,10 +81,10 @@ function tickTexts(splits) {
   return splits.map((v) => (v === null ? "" : Math.abs(v) < 1e-12 * Math.abs(last - first) ? "0" : short(v, digits)));
 }
 
-/** A place on the screen to a hundredth of a pixel; what lies far outside the chart stays a moderate number. */
+/** A coordinate on the screen, to a hundredth of a pixel. Coordinates far outside the chart are limited. */
 const pixel = (v) => Math.max(-1e5, Math.min(1e5, Math.round(100 * v) / 100));
 
-/** The points of a series on the screen: [x, y, index], null where there is none. */
+/** The points of a series on the screen: [x, y, index]; null for a missing point. */
 function places(s, scales) {
   return s.x.map((x, i) => {
     if (!isNumber(x) || !isNumber(s.y[i])) return null;
@@ -93,7 +93,7 @@ function places(s, scales) {
   });
 }
 
-/** Where cell number i of the grid lines begins and ends on the screen: half way to the neighbours. */
+/** Begin and end of cell i of the grid lines on the screen: half way to the neighbours. */
 function sides(lines, i) {
   const before = i > 0 ? (lines[i] + lines[i - 1]) / 2 : lines[i] - (lines[1] - lines[0]) / 2;
   const after = i + 1 < lines.length ? (lines[i] + lines[i + 1]) / 2 : lines[i] + (lines[i] - lines[i - 1]) / 2;
@@ -113,7 +113,7 @@ function cellsPath(s, scales) {
 /** A ring around a point. */
 const circle = ([x, y], r) => `M${x - r},${y}a${r},${r} 0 1,0 ${2 * r},0a${r},${r} 0 1,0 ${-2 * r},0`;
 
-/** The path of a series, the whole of it: 5,000 points are one element of the page. */
+/** The whole path of a series as one element of the page, also for 5,000 points. */
 function pathOf(s, scales) {
   if (s.kind === "cells") return cellsPath(s, scales);
   const at = places(s, scales);
@@ -123,7 +123,7 @@ function pathOf(s, scales) {
   return marks.map((p) => (s.kind === "bars" ? bar(p) : "") + circle(p, s.size ?? 3)).join("");
 }
 
-/** How each kind looks. */
+/** The drawing function of each kind. */
 function styleOf(s) {
   const paint = colour(s.colour);
   const line = { stroke: paint, "stroke-width": s.width ?? 1.6, fill: "none" };
@@ -154,7 +154,7 @@ function drawAxes(svg, shape, ranges, width, height) {
   return { place, scales, inner };
 }
 
-/** The point nearest to a place on the screen, for the readout. */
+/** The point nearest to a position on the screen, for the readout. */
 function nearest(shape, scales, hidden, [left, top]) {
   let best = null;
   for (const s of shape.series) {
@@ -169,10 +169,10 @@ function nearest(shape, scales, hidden, [left, top]) {
 
 const withUnit = (value, { unit }) => short(value) + (unit ? ` ${unit}` : "");
 
-/** Zoom and pan: `ranges` is what the scales show. */
+/** Zoom and pan. `ranges`: the ranges that the scales show. */
 function navigation(shape, ranges, full, redraw) {
   const set = (x, y) => { ranges.x = x; ranges.y = y; redraw(); };
-  // Both act on what the axis is linear in.
+  // Both act on the numbers, or on their logarithms on a logarithmic axis.
   const moved = (k, change) => {
     const isLog = shape[k].log;
     return change(ranges[k].map((v) => (isLog ? Math.log(v) : v))).map((v) => (isLog ? Math.exp(v) : v));
@@ -195,7 +195,7 @@ function listenToKeys(plot, { zoom, pan, all }) {
   plot.addEventListener("dblclick", all);
 }
 
-/** A drag with the mouse selects what to show; a finger scrolls the page. */
+/** A drag with the mouse selects the range to show. A finger scrolls the page. */
 function listenToDrags({ place, scales }, set) {
   const brush = d3.svg.brush().x(scales.x).y(scales.y);
   brush.on("brushend", () => {
@@ -234,7 +234,7 @@ function fillLegend(legend, shape, hidden, redraw) {
   }));
 }
 
-/** The drawing itself, as wide as its place in the page. */
+/** The drawing, as wide as its container. */
 function drawPlot(plot, shape, ranges, hidden, isWide) {
   const width = Math.max(240, plot.clientWidth);
   const height = Math.round(Math.min(420, Math.max(260, width * (isWide ? 0.4 : 0.62))));

@@ -1,4 +1,4 @@
-// Puts the page of a comparison together: one chart, and what differs between the scenarios.
+// Builds the page of a comparison: one chart, and the differences between the scenarios.
 
 function comparison() {
   const { title, chart: drawn, results, differing } = run;

@@ -34,7 +34,7 @@ using Json = StoredRun::Json;
                                           {}});
 }
 
-/// A number of a resolved scenario, which is SI, in the unit the user wrote; in its SI unit where there is none.
+/// A number of a resolved scenario, converted from SI to the unit that the user wrote, if there is one.
 std::string with_unit(double value, const std::string& written, const std::string& si) {
   const std::optional<double> factor = written.empty() ? std::nullopt : core::unit_factor(written, si).value;
   const bool has_factor = factor && *factor > 0.0;
@@ -42,8 +42,8 @@ std::string with_unit(double value, const std::string& written, const std::strin
   return core::format_number(has_factor ? value / *factor : value, 6) + (unit.empty() ? "" : " " + unit);
 }
 
-/// What the values of a scenario look like, by path; a list of numbers is one value.
-/// `written`: the units that the user wrote; `si`: those of the numbers here.
+/// The values of a scenario as text, by path. A list of numbers is one value.
+/// `written`: the units that the user wrote; `si`: the units of the numbers here.
 void flatten(const Json& json, const std::string& path, const Json& written,
              const std::map<std::string, std::string>& si, std::map<std::string, std::string>& values) {
   if (json.is_object()) {
@@ -68,7 +68,7 @@ void flatten(const Json& json, const std::string& path, const Json& written,
   }
 }
 
-/// What a comparison needs of a result.
+/// The parts of a result that a comparison needs.
 struct Compared {
   std::string directory;
   std::string title;
@@ -206,7 +206,7 @@ class Comparison {
         differing_.push_back(key);
   }
 
-  /// Of the keys that differ those that somebody wrote; others follow them, as static friction follows kinetic.
+  /// Of the keys that differ, those that a user wrote. Others follow from them, as static friction from kinetic.
   [[nodiscard]] std::vector<std::string> telling_keys() const {
     std::vector<std::string> keys;
     for (const std::string& key : differing_)
@@ -237,7 +237,7 @@ class Comparison {
     std::map<std::string, int> times;
     for (Compared& one : compared_) {
       one.label = one.directory;
-      // The same directory twice.
+      // The same directory may be named twice.
       if (const int time = ++times[one.directory]; time > 1) one.label += " (" + std::to_string(time) + ")";
     }
   }

@@ -1,5 +1,5 @@
 #pragma once
-/// Several results over each other: one page, one table, one SVG file.
+/// The comparison of several results: one page, one table, one SVG file.
 
 #include <string>
 #include <vector>
@@ -8,10 +8,11 @@
 
 namespace dualdamp::cli {
 
-/// compare.html, compare.csv and compare.svg: the main charts of the result directories in the units the user wrote
-/// in the first one, or in those that `units` asks for, with commas. The legend is by title where titles differ,
-/// else by the keys in which the resolved scenarios differ, else by directory. Errors: `core::InputError` where
-/// there is no result, or no chart, a map, or the result of another analysis than the first one.
+/// The files compare.html, compare.csv and compare.svg, with the main charts of the result directories. The units
+/// are those that the user wrote in the first scenario, or those of `units`, separated by commas. The legend has
+/// the titles if these differ, else the keys in which the resolved scenarios differ, else the directories. Errors:
+/// `core::InputError` if a directory has no result, no chart, a map, or a result of another analysis than the
+/// first.
 [[nodiscard]] std::vector<scenarios::OutputFile> comparison(const std::vector<std::string>& directories,
                                                             const std::string& units = {});
 

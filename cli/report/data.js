@@ -46,29 +46,29 @@ function table({ csv, rows, step }) {
 
 const run = parse("document");
 
-/** SI unit of a number of the result; `otherwise` where x is no angle. */
+/** SI unit of a number of the result; `otherwise` if x is no angle. */
 const unitAt = (path, otherwise) => run.units?.[path] ?? otherwise;
 const tables = Object.fromEntries(Object.entries(parse("tables")).map(([name, text]) => [name, table(text)]));
 
-/** A number as people read it; the exact one stands in the attribute beside it. */
+/** A number with few digits. The exact one is in an attribute of the element. */
 function short(value, digits = 6) {
   if (typeof value !== "number") return value === null || value === undefined ? "–" : String(value);
   const isTiny = value !== 0 && Math.abs(value) < 1e-4;
   const text = isTiny ? value.toExponential(digits - 1) : value.toPrecision(digits);
-  // Zeros go only behind a decimal point: those of 100000 count.
+  // Only zeros after a decimal point are removed.
   return text.replace(/(\.\d*?)0+($|e)/, "$1$2").replace(/\.($|e)/, "$1").replace("-", "−").replace("e−", "e-");
 }
 
 const prefixes = [[1, ""], [1e-3, "m"], [1e-6, "µ"], [1e-9, "n"]];
 
-/** The unit that the user wrote for such quantities, if numbers up to `largest` can be read in it. */
+/** The unit that the user wrote for such quantities, if numbers up to `largest` are legible in it. */
 function written(unit, largest) {
   const told = run.shown_units?.[unit];
   const most = told ? largest * told.factor : 0;
   return told && (told.asked || most === 0 || (most >= 1e-3 && most < 1e6)) ? told : null;
 }
 
-/** Unit and factor for numbers up to `largest`: as the user wrote it, else with a prefix, 0.004 m is 4 mm. */
+/** Unit and factor for numbers up to `largest`: the unit that the user wrote, else a prefix: 0.004 m becomes 4 mm. */
 function readable(unit, largest) {
   const told = written(unit, largest);
   if (told) return told;

@@ -9,7 +9,7 @@ function make(name, attributes = {}, ...children) {
   return element;
 }
 
-/** A name that may break behind its underscores. */
+/** A name that may break after its underscores. */
 const breakable = (name) => String(name).split(/(?<=_)/).flatMap((part, i) => (i ? [make("wbr"), part] : [part]));
 
 const heading = (text) => make("h2", {}, text);
@@ -44,7 +44,7 @@ function grid(head, rows, { tall = false, caption } = {}) {
       make("tbody", {}, rows.map((row) => make("tr", {}, row.map((content, i) => cell(content, "td", texts[i])))))));
 }
 
-/** A table of the run, folded; long ones show their beginning. */
+/** A table of the run, folded. A long table shows only its first rows. */
 function folded(name, { columns, rows, step }, most = 500) {
   const shown = Math.min(columns[0]?.values.length ?? 0, most);
   const all = shown === rows;

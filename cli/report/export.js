@@ -10,7 +10,7 @@ const svgElement = (name, attributes, text) => {
   return element;
 };
 
-/** What style sheets say becomes part of each element. */
+/** Copies the styles of the style sheets into each element. */
 function withStyles(original) {
   const copy = original.cloneNode(true);
   const [from, to] = [original, copy].map((root) => [root, ...root.querySelectorAll("*")]);
@@ -23,7 +23,7 @@ function withStyles(original) {
   return copy;
 }
 
-/** The whole picture: ground, title, drawing, legend. */
+/** The whole picture: background, title, drawing, legend. */
 function picture(plot, legend, title) {
   const drawing = withStyles(plot.querySelector("svg"));
   const [width, inner] = ["width", "height"].map((name) => Number(drawing.getAttribute(name)));

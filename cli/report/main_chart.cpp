@@ -27,7 +27,7 @@ constexpr double none = std::numeric_limits<double>::quiet_NaN();
 /// The units in which a run's numbers are shown.
 scenarios::ShownUnits shown_units_of(const StoredRun& run) { return scenarios::shown_units(written_units(run)); }
 
-/// A prefix that makes numbers up to `largest` pleasant to read: 0.004 m is 4 mm.
+/// The prefix for numbers up to `largest`: 0.004 m becomes 4 mm.
 ShownUnit readable(const std::string& unit, double largest) {
   constexpr std::array scalable = {"m", "m/s", "s", "N", "N.m", "J"};
   constexpr std::array<std::pair<double, const char*>, 4> prefixes = {
@@ -52,14 +52,14 @@ std::vector<double> all_of(const std::vector<ChartSeries>& series, std::vector<d
   return all;
 }
 
-/// A column that every run writes. Errors: as of `StoredRun::read`, where somebody has changed the table.
+/// A column that every run writes. Throws `ChangedResult` if the table was changed.
 const StoredColumn& needed(const StoredTable& table, const std::string& name) {
   const StoredColumn* column = table.find(name);
   if (column == nullptr) throw ChangedResult("a table has no column '" + name + "'");
   return *column;
 }
 
-/// Rows that belong to one value of a column, in order.
+/// The rows with one value of a column, in order.
 struct Group {
   std::string label;
   std::vector<std::size_t> rows;
@@ -89,7 +89,7 @@ std::vector<std::size_t> rows_of(const StoredColumn& column) {
   return rows;
 }
 
-/// Empty in the document of a scenario that was refused.
+/// Empty if the document is that of a scenario that was refused.
 std::string name_of_analysis(const StoredRun& run) {
   const Json& analysis = run.document().at("analysis");
   return analysis.is_string() ? analysis.get<std::string>() : std::string();
@@ -124,7 +124,7 @@ class ChartMaker {
     return excitation.value("type", "").starts_with("force") ? "N" : "m";
   }
 
-  /// Numbers, in SI so far, in a unit for people.
+  /// Converts numbers in SI to the unit that is shown.
   void show(ChartAxis& axis, const std::string& unit, std::vector<double> ChartSeries::* list) {
     axis.unit = unit;
     const auto shown = units_.find(unit);
@@ -136,7 +136,7 @@ class ChartMaker {
       for (double& value : series.*list) value *= shown->second.factor;
   }
 
-  /// `breaks`: a line has a gap where rows in between belong to another series.
+  /// `breaks`: the line gets a gap where rows of another series lie between.
   void add(std::string label, const StoredColumn& x, const StoredColumn& y, SeriesKind kind,
            const std::vector<std::size_t>& rows, bool breaks) {
     ChartSeries series{.label = std::move(label), .kind = kind, .colour = static_cast<int>(chart_.series.size())};
@@ -181,7 +181,7 @@ class ChartMaker {
     return true;
   }
 
-  /// Data come in any order, a line through them does not.
+  /// Sorts the points, because data may be in any order and a line needs them in order.
   void sort_lines() {
     for (ChartSeries& series : chart_.series) {
       if (series.kind == SeriesKind::points) continue;
@@ -200,7 +200,7 @@ class ChartMaker {
     show(chart_.y, unit_of(y), &ChartSeries::y);
   }
 
-  /// Of an analysis that names no chart: the first two columns of numbers of its first table.
+  /// The chart of an analysis that names none: the first two columns of numbers of its first table.
   bool first_columns() {
     for (const std::filesystem::path& path : run_.tables()) {
       const StoredTable table = run_.table(path.stem().string());
@@ -225,7 +225,7 @@ class ChartMaker {
     return keys;
   }
 
-  /// `point`: its number in the table of curves.
+  /// `point`: number of the point in the table of curves.
   [[nodiscard]] std::string label_of(const StoredTable& sweep, const std::string& point) const {
     std::string label;
     for (const std::string& key : swept_keys()) {
@@ -240,7 +240,7 @@ class ChartMaker {
     return label;
   }
 
-  /// Curves over curves, or a number over a swept key.
+  /// The chart of a sweep: the curves of its points, or a number over a swept key.
   bool sweep() {
     const StoredTable points = run_.table("sweep");
     if (points.columns.empty()) return false;
@@ -252,7 +252,7 @@ class ChartMaker {
     return are_curves ? curves(points, rows, *x, *y) : numbers(points);
   }
 
-  /// Where curves are many, some of them.
+  /// A selection of the curves, if there are many.
   bool curves(const StoredTable& points, const StoredTable& rows, const StoredColumn& x, const StoredColumn& y) {
     constexpr std::size_t most = 12;
     const std::vector<Group> all = groups_of(rows, "point");

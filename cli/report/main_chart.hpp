@@ -1,5 +1,5 @@
 #pragma once
-/// The main chart of a result directory, in the units the user wrote where a quantity of the scenario tells one.
+/// The main chart of a result directory, in the units that the user wrote in the scenario.
 
 #include <optional>
 
@@ -9,21 +9,21 @@
 
 namespace dualdamp::cli {
 
-/// `units_of`: the run whose written units are taken, this one or one that it is compared with; other numbers are
-/// SI. Nothing where the result has no chart.
+/// `units_of`: the run whose written units are used, this one or the one that it is compared with. Other numbers
+/// are in SI. Nothing if the result has no chart.
 [[nodiscard]] std::optional<Chart> main_chart(const StoredRun& run, const StoredRun& units_of);
 
-/// Why a result has no chart: its analysis has none, or the table that is drawn is not beside it.
+/// Why a result has no chart: its analysis has none, or the table with the data is missing.
 [[nodiscard]] core::Diagnostic without_chart(const StoredRun& run);
 
-/// Numbers in SI get a prefix that makes them pleasant to read: 0.004 m is 4 mm.
+/// Chooses prefixes for numbers in SI: 0.004 m becomes 4 mm.
 void make_readable(Chart& chart);
 
-/// The readable chart of a directory. Errors: `core::InputError` when there is no result, or it has no chart.
-/// `units`: those that somebody asks for, with commas.
+/// The chart of a directory, with prefixes chosen. `units`: stated units, separated by commas. Errors:
+/// `core::InputError` if there is no result, or no chart.
 [[nodiscard]] Chart main_chart(const std::string& directory, const std::string& units = {});
 
-/// The file, or the scenario's title.
+/// The title of the scenario, or the name of the result directory.
 [[nodiscard]] std::string title_of(const StoredRun& run);
 
 }  // namespace dualdamp::cli

@@ -14,7 +14,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// JSON inside a script element: nothing in it may look like the end of one.
+/// JSON inside a script element, escaped so that nothing looks like the end of the element.
 std::string embedded(const Json& json) {
   const std::string text = json.dump(-1, ' ', false, Json::error_handler_t::replace);
   std::string result;
@@ -28,10 +28,10 @@ std::string embedded(const Json& json) {
   return result;
 }
 
-/// The digest of `core::sha256` as a content security policy states it.
+/// The digest of `core::sha256` in base 64, as a content security policy states it.
 std::string base64_of(const std::string& hexadecimal) {
   static constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  // Three hexadecimal digits are two of base 64; 64 of them leave one, with four bits.
+  // Three hexadecimal digits are two digits of base 64. Of 64 digits, one with four bits is left.
   std::string result;
   for (std::size_t i = 0; i < hexadecimal.size(); i += 3) {
     const std::string group = (hexadecimal.substr(i, 3) + "00").substr(0, 3);
@@ -43,7 +43,7 @@ std::string base64_of(const std::string& hexadecimal) {
   return result;
 }
 
-/// The template with its places filled; what fills one is not looked through again.
+/// The template with its placeholders replaced. Replaced text is not searched again.
 void fill(std::ostream& out, const std::map<std::string, std::string>& fillings) {
   std::string_view page = assets::page_html;
   while (true) {

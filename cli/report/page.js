@@ -1,6 +1,6 @@
-// Puts the page together.
+// Builds the page.
 
-/** Scalars of the result with their path, lists and the certificate left out. */
+/** Scalars of the result with their paths, without lists and the certificate. */
 function scalars(value, path = "") {
   if (value === null || typeof value !== "object") return [{ name: path, value, path }];
   if (Array.isArray(value)) return [];
@@ -33,11 +33,11 @@ function head() {
 
 function checks() {
   if (!run.checks.length) return [];
-  return [heading("Checks"), grid(["value", "expected", "here", "difference", "", "source"], run.checks.map((c) => [
+  return [heading("Checks"), grid(["value", "expected", "found", "difference", "", "source"], run.checks.map((c) => [
     c.value, c.expected, { text: c.found, title: String(c.found) }, c.difference ?? null, { text: c.ok ? "✓" : "✗ off", class: c.ok ? "good" : "bad" }, { text: c.source ?? "", class: "long" }]))];
 }
 
-/** What a second computation says, where one was asked for. */
+/** The outcome of the verification, if there is one. */
 function verification() {
   const v = run.verification;
   if (!v) return [];

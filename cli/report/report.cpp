@@ -20,7 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-/// A table as the page gets it: its text without the lines of provenance, all rows or every `step`-th.
+/// A table for the page: its text without the lines of provenance, with all rows or every `step`-th one.
 Json table(const StoredRun& run, const fs::path& path) {
   const std::size_t most_rows = path.stem() == "map" ? 200'000 : 50'000;
   std::vector<std::string> lines;
@@ -40,7 +40,7 @@ Json tables(const StoredRun& run) {
   return json;
 }
 
-/// The result with the units in which the page shows its numbers.
+/// The document with the units in which the page shows its numbers.
 Json document(const StoredRun& run) {
   Json json = run.document();
   run.read([&] {
@@ -68,12 +68,12 @@ std::optional<StoredResult> stored_result(const std::string& directory) {
     StoredResult stored;
     if (const auto identity = identity_of(run.document()); identity.contains("source"))
       stored.source = identity.at("source");
-    for (const fs::path& path : run.tables())  // one that the user has changed is his
+    for (const fs::path& path : run.tables())  // a table that the user has changed is the user's file
       if (run.is_as_written(path, scenarios::read_file(path.string(), std::numeric_limits<std::size_t>::max())))
         stored.tables.push_back(path.filename().string());
     return stored;
   } catch (const core::InputError&) {
-    return std::nullopt;  // no result of ours
+    return std::nullopt;  // no result of this program
   }
 }
 

@@ -1,6 +1,5 @@
 #pragma once
-/// The page of a result directory: one HTML file that opens offline, made from result.json and the tables beside
-/// it.
+/// The page of a result directory, made from result.json and the tables beside it.
 
 #include <optional>
 #include <string>
@@ -10,18 +9,18 @@
 
 namespace dualdamp::cli {
 
-/// report.html of `directory`. Lists in result.json beyond 5000 items, and rows of a table beyond 50,000 (200,000
-/// of a map), are thinned out and the page says so. Errors: `core::InputError` when there is no result.json or it
-/// is none of ours; raised when the file is written. Tables that another run or program left there are not shown.
+/// The file report.html of `directory`. Lists in result.json with more than 5000 items, and tables with more than
+/// 50,000 rows (200,000 of a map), are thinned out, and the page says so. Tables of another run or program are not
+/// shown. Errors: `core::InputError`, thrown when the file is written, if there is no result.json of this program.
 [[nodiscard]] scenarios::OutputFile report_page(const std::string& directory, const std::string& units = {});
 
-/// What a directory holds of the run whose result.json stands there.
+/// The files in a directory that belong to the run of its result.json.
 struct StoredResult {
   std::string source;               ///< scenario or data file
   std::vector<std::string> tables;  ///< names of their files
 };
 
-/// Nothing where there is no result of ours.
+/// Nothing if the directory has no result of this program.
 [[nodiscard]] std::optional<StoredResult> stored_result(const std::string& directory);
 
 }  // namespace dualdamp::cli

@@ -17,7 +17,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A table of an earlier run may be what was read: history.csv of a simulation, identified in its own directory.
+/// Whether a table of an earlier run was read by this run: history.csv of a simulation may be identified in its own
+/// directory.
 bool is_data(const fs::path& path, const std::vector<std::string>& data_sha256) {
   if (data_sha256.empty()) return false;
   const std::string sum =
@@ -31,11 +32,11 @@ void remove_stale(const fs::path& directory, const StoredResult& before,
     const bool is_written = std::ranges::find(files, name, &scenarios::OutputFile::name) != files.end();
     if (is_written || is_data(directory / name, data_sha256)) continue;
     std::error_code error;
-    fs::remove(directory / name, error);  // a table that stays is told from ours by its provenance
+    fs::remove(directory / name, error);  // if it cannot be removed, its provenance still shows the other run
   }
 }
 
-/// What every file of this kind begins with that the program writes.
+/// The text with which every file of this kind begins, if the program wrote it.
 std::string_view mark_of(const fs::path& path) {
   if (path.extension() == ".csv") return "# program: dualdamp ";
   if (path.extension() == ".json") return "{\n  \"program\": {\n    \"name\": \"dualdamp\"";
@@ -51,7 +52,7 @@ bool is_ours(const fs::path& path) {
   return begin == mark_of(path);
 }
 
-/// Gives a file another name, which no file has. Returns what to tell.
+/// Gives a file a new name that is not in use. Returns a message.
 std::string set_aside(const fs::path& path) {
   fs::path other = path;
   std::error_code error;
@@ -72,7 +73,7 @@ std::vector<std::string> write_keeping(const std::string& directory,
   std::vector<std::string> messages;
   for (const scenarios::OutputFile& file : files) {
     const fs::path path = fs::path(directory) / file.name;
-    std::error_code unseen;  // a place that cannot be looked at cannot be written either: that is told below
+    std::error_code unseen;  // a path that cannot be examined cannot be written either; the write reports it
     if (fs::is_regular_file(path, unseen) && (!is_ours(path) || is_data(path, data_sha256)))
       messages.push_back(set_aside(path));
   }

@@ -1,5 +1,5 @@
 #pragma once
-/// A result directory that another run wrote before: what of it goes, and what the user is told.
+/// Writes results to a directory that may hold files of an earlier run or of the user.
 
 #include <string>
 #include <vector>
@@ -8,15 +8,15 @@
 
 namespace dualdamp::cli {
 
-/// Writes the files of a run and its page. Tables of the run before it that this one does not write are removed;
-/// files of others stay, and so does a table that was this run's data; one whose name is needed is renamed. Returns
-/// what to tell: that the result of another input was replaced, what was renamed.
+/// Writes the files of a run and its page. Tables of the earlier run that this run does not write are removed.
+/// Files of others are kept, and so is a table that this run has read; if its name is needed, it is renamed.
+/// Returns messages: the result of another input was replaced, a file was renamed.
 [[nodiscard]] std::vector<std::string> write_results(const std::string& directory, const std::string& source,
                                                      const std::vector<std::string>& data_sha256,
                                                      const std::vector<scenarios::OutputFile>& files);
 
-/// Writes files of results. One that is there and that the program did not write is renamed, and so is data that a
-/// run has read. Returns what to tell. Errors: `scenarios::OutputError`.
+/// Writes files of results. An existing file of the same name is renamed if the program did not write it, or if it
+/// is data that a run has read. Returns messages. Errors: `scenarios::OutputError`.
 [[nodiscard]] std::vector<std::string> write_keeping(const std::string& directory,
                                                      const std::vector<scenarios::OutputFile>& files,
                                                      const std::vector<std::string>& data_sha256 = {});

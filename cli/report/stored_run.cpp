@@ -28,7 +28,7 @@ constexpr double missing = std::numeric_limits<double>::quiet_NaN();
   throw core::InputError(std::move(problem));
 }
 
-/// The document without the far end of long lists: their rows are in the tables.
+/// The document with long lists cut off. The tables have all rows.
 Json read_document(const fs::path& path) {
   constexpr int depth_of_items = 3;  // {result: {points: [item
   constexpr std::size_t most_items = 5000;
@@ -45,7 +45,7 @@ Json read_document(const fs::path& path) {
   for (const char* key : {"program", "analysis", "status", "result", "warnings", "checks", "errors"})
     if (!json.is_object() || !json.contains(key))
       refuse(path, std::string("this is no result of dualdamp: there is no '") + key + "'");
-  // What the points of a sweep hold is in its tables.
+  // The results of the points of a sweep are in its tables.
   if (!json["result"].is_object() || !json["result"].contains("sweep")) return json;
   if (!json["result"]["sweep"].is_array()) refuse(path, as_no_run_writes);
   for (Json& point : json["result"]["sweep"]) {
@@ -55,7 +55,7 @@ Json read_document(const fs::path& path) {
   return json;
 }
 
-/// Was the table written by this run? What somebody else put into the directory was not.
+/// Whether this run wrote the table. Other files in the directory may come from elsewhere.
 bool belongs_to(const std::map<std::string, std::string>& identity, const fs::path& path) {
   std::size_t found = 0;
   std::ifstream file(path);
@@ -71,7 +71,7 @@ bool belongs_to(const std::map<std::string, std::string>& identity, const fs::pa
   return !identity.empty() && found == identity.size();
 }
 
-/// SHA-256 of the tables by name; empty: the run states none.
+/// SHA-256 of the tables by name; empty if the run states none.
 std::map<std::string, std::string> sums_of(const fs::path& directory, const Json& document) {
   const Json& provenance = document.value("provenance", Json());
   if (!provenance.is_object() || !provenance.contains("tables")) return {};
@@ -88,7 +88,7 @@ std::vector<fs::path> tables_of(const fs::path& directory, const Json& document,
                                 const std::map<std::string, std::string>& sums) {
   const std::map<std::string, std::string> identity = identity_of(document);
   std::vector<fs::path> paths;
-  std::error_code error;  // what cannot be read is no table
+  std::error_code error;  // a file that cannot be read is no table
   for (const fs::directory_entry& entry : fs::directory_iterator(directory, error))
     if (entry.path().extension() == ".csv" && entry.is_regular_file(error) &&
         (sums.contains(entry.path().filename().string()) || belongs_to(identity, entry.path())))

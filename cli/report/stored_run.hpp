@@ -1,5 +1,5 @@
 #pragma once
-/// A result directory as it stands on disk: result.json and the tables beside it.
+/// Reads a result directory: result.json and the tables beside it.
 
 #include <filesystem>
 #include <functional>
@@ -15,7 +15,7 @@ namespace dualdamp::cli {
 struct StoredColumn {
   std::string name;
   std::string unit;             ///< empty: none
-  std::vector<double> numbers;  ///< NaN: none, or no number
+  std::vector<double> numbers;  ///< NaN: empty field, or no number
   std::vector<std::string> texts;
   bool is_text = false;
 };
@@ -23,11 +23,12 @@ struct StoredColumn {
 struct StoredTable {
   std::vector<StoredColumn> columns;
 
-  /// nullptr when there is none.
+  /// nullptr if there is none.
   [[nodiscard]] const StoredColumn* find(std::string_view name) const;
 };
 
-/// A result that is not as a run writes it. `StoredRun::read` turns it into a refusal.
+/// Thrown if a result does not have the form that a run writes. `StoredRun::read` turns it into a
+/// `core::InputError`.
 class ChangedResult : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -37,24 +38,25 @@ class StoredRun {
  public:
   using Json = nlohmann::ordered_json;
 
-  /// Lists of the document beyond 5000 items are cut: their rows are in the tables. Errors: `core::InputError` when
-  /// there is no result.json or it is none of ours.
-  /// `units`: to show numbers in, before those the user wrote (`--units`).
+  /// Lists of the document are cut after 5000 items; the tables have all rows. `units`: units of the numbers that
+  /// are shown (`--units`); they precede those that the user wrote. Errors: `core::InputError` if there is no
+  /// result.json of this program.
   explicit StoredRun(const std::string& directory, const std::string& units = {});
 
   [[nodiscard]] const std::filesystem::path& directory() const { return directory_; }
   [[nodiscard]] const Json& document() const { return document_; }
-  /// The tables of this run, sorted; not those that somebody else put there.
+  /// The tables of this run, sorted. Other tables in the directory are not included.
   [[nodiscard]] const std::vector<std::filesystem::path>& tables() const { return tables_; }
-  /// The text of one of them. Errors: `core::InputError` where somebody has changed it since the run.
+  /// The text of a table. Errors: `core::InputError` if the table was changed after the run.
   [[nodiscard]] std::string text_of(const std::filesystem::path& table) const;
-  /// Has a table this text since the run? Of a run that states no sums nobody knows.
+  /// Whether `text` is the text that the run wrote to this table. True if the run states no SHA-256 sums.
   [[nodiscard]] bool is_as_written(const std::filesystem::path& table, std::string_view text) const;
-  /// Reads a table, as `text_of` does; one without columns when the run has none of that name.
+  /// A table of this run; without columns if the run has no table of this name. Errors: as `text_of`.
   [[nodiscard]] StoredTable table(std::string_view name) const;
-  /// Does work that reads the document. Errors: `core::InputError` where it is not of the form that a run writes.
+  /// Calls `work`, which reads the document. Errors: `core::InputError` if the document does not have the form that
+  /// a run writes.
   void read(const std::function<void()>& work) const;
-  /// A list of records of the result, such as fit.points, as a table; units are those of `result.units`, or empty.
+  /// A list of records of the result, such as fit.points, as a table. Units are those of `result.units`, or empty.
   [[nodiscard]] StoredTable list(std::string_view path) const;
 
  private:
@@ -64,13 +66,13 @@ class StoredRun {
   std::vector<std::filesystem::path> tables_;
 };
 
-/// A name of a file as text: bytes that are not UTF-8 and line breaks are replaced.
+/// The name of a file as text. Line breaks and bytes that are not UTF-8 are replaced.
 [[nodiscard]] std::string shown(const std::filesystem::path& path);
 
-/// The units of quantities as the user wrote them, by path.
+/// The units that the user wrote, by the path of the quantity.
 [[nodiscard]] std::map<std::string, std::string> written_units(const StoredRun& run);
 
-/// What identifies a run, as its tables state it above their header.
+/// The facts that identify a run, as its tables state them above their header.
 [[nodiscard]] std::map<std::string, std::string> identity_of(const StoredRun::Json& document);
 
 }  // namespace dualdamp::cli

@@ -21,10 +21,10 @@ constexpr double width = 720.0;
 constexpr double plot_height = 380.0;
 constexpr double top = 40.0;
 constexpr double right = 20.0;
-constexpr double letter = 6.8;  ///< of a letter of 12 px, nearly
+constexpr double letter = 6.8;  ///< width of a letter of 12 px, approximately
 constexpr double line_height = 20.0;
 
-/// Those of the page, on a light and on a dark ground (page.css).
+/// The colours of the page on a light and on a dark background (page.css).
 struct Paint {
   std::string_view light;
   std::string_view dark;
@@ -52,13 +52,13 @@ std::string escaped(std::string_view text) {
   return result;
 }
 
-/// Characters, not bytes.
+/// Number of characters, not bytes.
 double text_width(std::string_view text) {
   return letter * static_cast<double>(std::ranges::count_if(
                       text, [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
 }
 
-/// From numbers to pixels.
+/// Conversion of numbers to pixels.
 class Scale {
  public:
   Scale(const ChartAxis& axis, double low, double high, double from, double to)
@@ -76,7 +76,7 @@ class Scale {
  private:
   [[nodiscard]] double linear(double value) const { return axis_.is_log ? std::log(value) : value; }
 
-  /// 1, 2 and 5 times the powers of ten; only the powers where that would be too many.
+  /// Ticks at 1, 2 and 5 times the powers of ten; only at the powers if there would be too many.
   [[nodiscard]] std::vector<double> decades() const {
     std::vector<double> list;
     for (double power = std::floor(std::log10(low_)); power <= std::log10(high_); ++power)
@@ -103,7 +103,7 @@ class Scale {
   double low_, high_, from_, to_;
 };
 
-/// Smallest and largest finite number, with a little room.
+/// The smallest and the largest finite number, with a margin.
 std::pair<double, double> extent(const Chart& chart, std::vector<double> ChartSeries::* list,
                                  const ChartAxis& axis) {
   double low = std::numeric_limits<double>::infinity();
@@ -164,7 +164,7 @@ class Drawing {
     return result;
   }
 
-  /// Series of one label have one key.
+  /// The keys of the legend. Series of the same label share a key.
   [[nodiscard]] std::vector<const ChartSeries*> keys() const {
     std::vector<const ChartSeries*> list;
     for (const ChartSeries& series : chart_.series)
@@ -173,7 +173,7 @@ class Drawing {
     return list.size() > 1 ? list : std::vector<const ChartSeries*>();
   }
 
-  /// Where each key of the legend stands.
+  /// The position of each key of the legend.
   [[nodiscard]] std::vector<std::pair<double, double>> places(double left) const {
     std::vector<std::pair<double, double>> list;
     double x = left;
@@ -264,7 +264,7 @@ class Drawing {
     out_ << "\"/>\n";
   }
 
-  /// Of points in a row in one column of half pixels: the first, the lowest and the highest, and the last.
+  /// The first, lowest, highest and last one of consecutive points in the same column of half a pixel.
   void line(const ChartSeries& series, const Scale& x, const Scale& y) {
     std::vector<std::pair<double, double>> column;
     bool is_open = false;
@@ -305,7 +305,7 @@ class Drawing {
     return lines;
   }
 
-  /// Where a cell begins and ends: half way to its neighbours.
+  /// Begin and end of a cell: half way to its neighbours.
   [[nodiscard]] static std::pair<double, double> sides(const std::vector<double>& lines, double value,
                                                        const Scale& scale) {
     const auto at = static_cast<std::size_t>(std::ranges::lower_bound(lines, value) - lines.begin());

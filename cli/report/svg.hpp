@@ -1,6 +1,6 @@
 #pragma once
-/// A chart as an SVG file: axes with units and ticks, series, a legend. Light where nothing else is known, as on
-/// paper; dark where the viewer asks for it. Series differ in colour and in their dashes.
+/// Writes a chart as an SVG file: axes with units and ticks, series, a legend. Its colours are light by default, as
+/// on paper, and dark if the viewer asks for a dark scheme. Series differ in colour and in their dashes.
 
 #include <iosfwd>
 
@@ -8,7 +8,7 @@
 
 namespace dualdamp::cli {
 
-/// Long lines are thinned out to what can be seen: first, last, lowest and highest point of each half pixel.
+/// Long lines are thinned out to the visible points: the first, last, lowest and highest one of each half pixel.
 void write_svg(std::ostream& out, const Chart& chart);
 
 }  // namespace dualdamp::cli

@@ -1,12 +1,12 @@
-// A sweep: single numbers over the swept key, or as maps over two; curves of all points over each other.
+// A sweep: single numbers over the swept key, or as maps over two keys; curves of all points in one chart.
 
 /** The swept keys that have more than one value; columns of sweep.csv. */
 const sweptKeys = () => Object.keys(run.scenario.sweep).filter((key) => distinct(values("sweep", key)).length > 1);
 
-/** Swept numbers stand in the unit that the user wrote. */
+/** Swept numbers are in the unit that the user wrote. */
 const sweptAxis = (key) => ({ label: key, unit: unitOf("sweep", key), asWritten: true, log: isGeometric(values("sweep", key)) });
 
-/** The first columns with numbers that change; those by which the analysis is drawn stand first. */
+/** The first columns with numbers that change; those that the chart of the analysis shows come first. */
 function sweptNumbers() {
   const swept = Object.keys(run.scenario.sweep);
   const numbers = tables.sweep.columns.slice(swept.length + 1).filter(({ name, isText, values: list }) => !isText && name !== "reason" && !name.startsWith("certificate.") && list.some(isNumber));
@@ -37,7 +37,7 @@ function overTwoKeys(keys) {
   return curvesOverKeys(counts[0] < counts[1] ? [keys[1], keys[0]] : keys);
 }
 
-/** From violet to yellow for 0 to 1, light and dark enough on any ground. */
+/** Colour from violet to yellow for 0 to 1, visible on light and dark backgrounds. */
 const ramp = (t) => `hsl(${Math.round(265 - 210 * t)} 60% ${Math.round(35 + 25 * t)}%)`;
 
 /** A number over two keys, as cells in steps of colour. */
@@ -71,7 +71,7 @@ function curveTables() {
   }).filter(Boolean);
 }
 
-/** Where curves are many, some of them. */
+/** A selection of the curves, if there are many. */
 function curvesOf({ name, x, y }) {
   const most = 12;
   const swept = Object.keys(run.scenario.sweep);

@@ -1,11 +1,11 @@
-// Views: what the page of an analysis shows. Each is a file of the analysis' name beside its pair and puts itself here:
-// {before, charts, after, said}, functions of the result. `before` and `after` return elements above and below the charts;
-// `said` returns warnings that stand elsewhere on the page. All but `charts` may be absent. They are not asked where there
-// is no result.
+// Views: the parts of the page of an analysis. Each view is a file with the name of the analysis, beside its header and
+// source, and adds itself here: {before, charts, after, said}, functions of the result. `before` and `after` return elements
+// above and below the charts; `said` returns the warnings that another part of the page shows. All but `charts` may be absent.
+// Without a result they are not called.
 
 const values = (name, column) => tables[name]?.get(column)?.values;
 
-/** A series from two columns of a table; nothing when one is missing or no text would be a number. */
+/** A series from two columns of a table; nothing if a column is missing or holds texts. */
 function series(name, x, y, more = {}) {
   const [xs, ys] = [values(name, x), values(name, y)];
   return xs && ys ? { label: y, x: xs, y: ys, ...more } : { label: y, x: [], y: [], ...more };
@@ -18,7 +18,7 @@ function part(name, x, y, keep, more) {
   return { x: rows.map((i) => xs[i]), y: rows.map((i) => ys[i]), ...more };
 }
 
-/** A line broken where it jumps from one row to the next: what lies between two samples is not known. */
+/** A line with a gap where it jumps from one row to the next, since the motion between two samples is not known. */
 function broken({ x, y, ...more }) {
   const [low, high] = y.reduce(([a, b], v) => (v === null ? [a, b] : [Math.min(a, v), Math.max(b, v)]), [Infinity, -Infinity]);
   const line = { x: [], y: [], ...more };
@@ -33,7 +33,7 @@ function broken({ x, y, ...more }) {
 const unitOf = (name, column) => tables[name]?.get(column)?.unit ?? "";
 const axis = (name, column, label = column) => ({ label, unit: unitOf(name, column) });
 
-/** A curve that was stepped through: the way up and the way down, with their points. */
+/** A stepped curve: the way up and the way down, with their points. */
 function steppedView(name, over, label) {
   const ways = [["up", 0, "line"], ["down", 1, "dashed"]].filter(([way]) => tables[name].get("direction").texts.includes(way));
   const ofBoth = (column) => ways.flatMap(([way, colour, kind]) => {
@@ -48,7 +48,7 @@ function steppedView(name, over, label) {
     }));
 }
 
-/** Output amplitude over a column, points with sticks apart from those without, unstable ones dashed. */
+/** Output amplitude over a column. Points with sticks are a series of their own; unstable parts are dashed. */
 function curveView(name, over, label) {
   const directions = tables[name]?.get("direction")?.texts;
   if (directions) return steppedView(name, over, label);
@@ -85,7 +85,7 @@ function branchView(over, label) {
   }), ...curveView("branch", over, label).slice(1)];
 }
 
-/** Of an analysis without a view of its own: each table's first column against the next one that is numbers. */
+/** The view of an analysis without its own: for each table, the next column of numbers over the first column. */
 function viewOfTables() {
   return Object.entries(tables).flatMap(([name, { columns }]) => {
     const [x, y] = columns.filter(({ isText }) => !isText);

@@ -11,8 +11,8 @@ namespace dualdamp::core {
 
 namespace {
 
-/// exp(rate s). Far down a decay the rounding of the exponent would cost as many roundings of the result: it is
-/// given back.
+/// exp(rate s). For a large negative exponent, its rounding would be |exponent| roundings of the result; the last
+/// line corrects this.
 double real_exponential(double rate, double s) {
   const double exponent = rate * s;
   const double result = std::exp(exponent);
@@ -44,12 +44,12 @@ Nodes without(const Nodes& nodes, int removed) {
 }
 
 /// Close nodes: Taylor series about the first one. With w_i = (z_i - z_0) s the divided difference is
-/// s^n exp(z_0 s) sum_k h_k(w)/(n + k)!, h_k the complete homogeneous symmetric polynomials, built up column by
+/// s^n exp(z_0 s) sum_k h_k(w)/(n + k)!. The complete homogeneous symmetric polynomials h_k are formed column by
 /// column of the bidiagonal matrix that has the nodes on its diagonal.
 Complex close_nodes(const Nodes& nodes, double s) {
   const int n = nodes.count - 1;
   const Complex first = nodes.z[0];
-  // power[i] = h_k of the first i + 1 nodes; starts as h_0 = 1.
+  // power[i] = h_k of the first i + 1 nodes, at first h_0 = 1.
   std::array<Complex, max_nodes> power;
   power.fill(1.0);
   double factorial = 1.0;
@@ -67,7 +67,7 @@ Complex close_nodes(const Nodes& nodes, double s) {
   return sum * exponential(first, s) * std::pow(s, n);
 }
 
-/// exp(w) - 1, relative to |w| exact to a few roundings.
+/// exp(w) - 1, with an error of a few roundings of |w|.
 Complex exponential_less_one(Complex w) {
   if (w.imag() == 0.0) return std::expm1(w.real());
   const double half = std::sin(0.5 * w.imag());
@@ -75,16 +75,17 @@ Complex exponential_less_one(Complex w) {
   return {growth * std::cos(w.imag()) - 2.0 * half * half, (growth + 1.0) * std::sin(w.imag())};
 }
 
-/// Two nodes: exp(a s) (exp((b - a) s) - 1)/(b - a), a the slower decay.
+/// Two nodes: exp(a s) (exp((b - a) s) - 1)/(b - a), where a is the slower decay.
 Complex divided_pair(Complex a, Complex b, double s) {
   if (a.real() < b.real()) std::swap(a, b);
   const Complex gap = b - a;
-  // So close that the gap is lost beside 1: the limit.
+  // The gap is lost beside 1: take the limit.
   if (std::norm(gap * s) < 1e-34) return exponential(a, s) * s;
   return exponential(a, s) * (exponential_less_one(gap * s) / gap);
 }
 
-/// The farthest pair is taken apart as long as that loses no digits.
+/// The recursion of divided differences over the farthest pair, while the difference loses no digits; else the
+/// series.
 Complex divided(const Nodes& nodes, double s) {
   if (nodes.count == 1) return exponential(nodes.z[0], s);
   if (nodes.count == 2) return divided_pair(nodes.z[0], nodes.z[1], s);

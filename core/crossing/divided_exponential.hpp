@@ -9,13 +9,14 @@ namespace dualdamp::core {
 
 using Complex = std::complex<double>;
 
-/// Nodes that one divided difference can have; a mode needs four: constant, ramp and the oscillator's own two.
+/// Largest number of nodes of one divided difference; a mode needs four: constant, ramp and the oscillator's two.
 inline constexpr std::size_t max_nodes = 6;
 
-/// exp(z s), with the last digits of the modulus far down a decay.
+/// exp(z s); the modulus keeps its last digits even if it has decayed far.
 [[nodiscard]] Complex exponential(Complex z, double s);
 
-/// Over one to `max_nodes` nodes, equal ones allowed; s >= 0. Throws std::length_error for more.
+/// The divided difference over one to `max_nodes` nodes, which may be equal; s >= 0. Throws std::length_error for
+/// more nodes.
 [[nodiscard]] Complex divided_exponential(std::span<const Complex> nodes, double s);
 
 }  // namespace dualdamp::core

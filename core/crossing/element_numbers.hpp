@@ -1,10 +1,11 @@
 #pragma once
 /// One complex number for each element of an exponential basis.
 ///
-/// The basis of nearly every mode is small: its numbers lie in place and are left unset until they are written. A
-/// basis with more than `in_place` elements (many damped contacts, many harmonics) has its numbers on the heap.
+/// The basis of nearly every mode is small: its numbers are stored in the object and are unset until they are
+/// written. A basis with more than `in_place` elements (many damped contacts, many harmonics) stores them on the
+/// heap.
 ///
-/// Cost: no allocation up to `in_place` elements, one for each object beyond.
+/// Cost: no allocation up to `in_place` elements, one for each object above.
 
 #include <algorithm>
 #include <cstddef>
@@ -16,7 +17,7 @@ class ElementNumbers {
   /// Constant, ramp, own motion, drive and eight harmonics, each perhaps with a chain.
   static constexpr std::size_t in_place = 40;
 
-  /// All real or all imaginary parts; as constant as the object that holds them.
+  /// All real or all imaginary parts; const if the object that holds them is const.
   class Part {
    public:
     double& operator[](std::size_t k) { return first_[k]; }
@@ -46,7 +47,7 @@ class ElementNumbers {
     return *this;
   }
 
-  /// Makes room for `size` numbers; those held so far are lost where they must move.
+  /// Makes room for `size` numbers. The present numbers are lost if the storage changes.
   void fit(std::size_t size) {
     if (size > room_) [[unlikely]]
       grow(size);

@@ -12,16 +12,17 @@ namespace dualdamp::core {
 
 namespace {
 
-/// Panel width times the fastest |z|: just over half a period, so that a resonant half period is one panel; the
-/// remainder of the quintic interpolant is then 2 % of the amplitude, small against the arch between two zeros.
+/// Panel width times the fastest |z|: just over half a period, so that a resonant half period is one panel. The
+/// remainder of the quintic interpolant is then 2 % of the amplitude, small beside the arch between two zeros.
 constexpr double panel_angle = 3.2;
 
-/// Below this |z delta| ten Taylor terms of exp(z delta) - 1 are exact to rounding of exp.
+/// Below this |z delta| ten Taylor terms give exp(z delta) - 1 to the rounding of exp.
 constexpr double shift_limit = 0.1;
 
-/// exp(w) - 1 for |w| < shift_limit; odd and even powers apart, which wait less for each other.
+/// exp(w) - 1 for |w| < shift_limit. Odd and even powers are summed separately: the processor then works on both at
+/// once.
 Complex small_exponential(Complex w, double size) {
-  // w^3/6 adds nothing to 1.
+  // Beside 1 the term w^3/6 is lost.
   if (size < 5e-6) return w * (1.0 + 0.5 * w);
   const Complex square = w * w;
   if (size < 1e-3) return w * (1.0 + square * (1.0 / 6.0)) + square * (1.0 / 2.0 + square * (1.0 / 24.0));
@@ -51,7 +52,7 @@ int ExponentialBasis::add(Complex exponent, int parent) {
   return size_++;
 }
 
-/// Chains of zeros.
+/// Finds the elements s^n/n!, which are chains of zeros.
 void ExponentialBasis::find_powers() {
   power_.assign(index(size_), 0);
   for (int k = 0; k < size_; ++k) {
@@ -62,7 +63,7 @@ void ExponentialBasis::find_powers() {
   }
 }
 
-/// A chain that begins with two exponents whose sum and product are real and goes on with zeros.
+/// Finds a chain of two exponents, whose sum and product are real, followed by zeros.
 void ExponentialBasis::find_short_chain() {
   short_order_.assign(index(size_), -1);
   for (int k = 0; k < size_; ++k) {
@@ -167,9 +168,9 @@ void ExponentialBasis::step_panel(const Values& from, Values& to) const {
 
 namespace {
 
-/// Bound of the chain element k. Two hold and the smaller is taken:
-///   Hermite and Genocchi:  |E| <= s^n/n! max exp(Re z s) over the nodes, good while s is small;
-///   E' = z E + E_parent:   |E| <= G |E(begin)| + max |E_parent| int exp(Re z u) du, good behind a fast decay.
+/// Bound of the chain element k, the smaller of two bounds:
+///   Hermite and Genocchi:  |E| <= s^n/n! max exp(Re z s) over the nodes, sharp while s is small;
+///   E' = z E + E_parent:   |E| <= G |E(begin)| + max |E_parent| int exp(Re z u) du, sharp after a fast decay.
 double chain_bound(const ExponentialBasis& basis, int k, double at_begin, double parent_bound, double begin,
                    double width) {
   double slowest = basis.exponent(k).real();

@@ -1,7 +1,7 @@
 #pragma once
-/// The exponentials that every quantity of one mode is made of.
+/// The exponentials of which every quantity of one mode is a sum.
 ///
-/// Inside a mode the oscillator is linear with constant coefficients, so position, velocity and every guard are
+/// Within a mode the oscillator is linear with constant coefficients, so position, velocity and every guard are
 ///
 ///     f(s) = Re sum_k c_k E_k(s),      s = time since the mode began [s],
 ///
@@ -9,16 +9,16 @@
 ///   * without a parent   E_k = exp(z_k s), E_k(0) = 1;
 ///   * with a parent      E_k = the divided difference of z -> exp(z s) at z_k and the exponents of its ancestors,
 ///                        E_k(0) = 0.
-/// Chains cover what plain exponentials cannot: powers of s (all exponents 0), critical damping, resonance without
-/// damping, a vanishing stiffness; and they stay accurate where two exponents nearly coincide, because the two
+/// Chains represent what plain exponentials cannot: powers of s (all exponents 0), critical damping, resonance
+/// without damping, a vanishing stiffness. They stay accurate if two exponents nearly coincide, because the two
 /// exponentials are never subtracted (opitz1964; mccurdy1984 for the evaluation).
 /// The set is closed under addition, scaling and differentiation.
 ///
-/// Any number of elements. Where some of them grow, one that has left the range of double precision has no part in
-/// a sum unless its coefficient differs from zero.
+/// A basis may have any number of elements. An element that grows may leave the range of double precision; it then
+/// counts only in sums in which its coefficient is not zero.
 ///
-/// Cost: one exp and one sincos a plain element; a chain costs some tens of flops more. Less: powers of s (chains
-/// of zeros), and one chain on two exponents and zeros for times that are short beside both
+/// Cost: one exp and one sincos for each plain element; a chain costs some tens of flops more. Cheaper are powers
+/// of s (chains of zeros), and one chain on two exponents and zeros for times that are short for both
 /// (`core/crossing/short_chain.hpp`). No allocation for functions on up to 40 elements
 /// (`core/crossing/element_numbers.hpp`).
 
@@ -41,8 +41,8 @@ class ExponentialBasis {
   /// One complex number for each element.
   struct Values : ElementNumbers {};
 
-  /// Appends exp(exponent s), or a divided difference on top of `parent`; returns its index. Throws
-  /// std::length_error where a chain becomes too long.
+  /// Appends exp(exponent s), or a divided difference whose chain goes on from `parent`. Returns the index of the
+  /// element. Throws std::length_error if the chain becomes too long.
   int add(Complex exponent, int parent = no_parent);
 
   [[nodiscard]] int size() const { return size_; }
@@ -57,26 +57,26 @@ class ExponentialBasis {
   /// E_k(s) for all k; s >= 0.
   void evaluate(double s, Values& values) const;
 
-  /// E_k(s + delta) from E_k(s), exact to rounding, for |z_k delta| < 0.1.
-  /// Returns false, values untouched, when delta is larger or the basis has chains.
+  /// Changes E_k(s) to E_k(s + delta), exact to rounding, for |z_k delta| < 0.1. Returns false and leaves `values`
+  /// as they are if delta is larger or the basis has chains.
   [[nodiscard]] bool shift(double delta, Values& values) const;
 
-  /// The width [s] of a search panel that suits the fastest element, and the step over it:
-  /// E_k(s + panel()) from E_k(s) by one complex product each. For a basis without chains.
+  /// The width [s] of a search panel that suits the fastest element. In a basis without chains step_panel() takes
+  /// E_k(s) to E_k(s + panel()) by one complex product for each element.
   [[nodiscard]] double panel() const { return panel_; }
   /// Largest |z_k| [1/s].
   [[nodiscard]] double fastest() const { return fastest_; }
-  /// The largest |Im z| or growth: rounding of z s costs eps turning() s of an element's modulus.
+  /// The largest |Im z| or growth [1/s]: rounding of z s is an error of eps turning() s of an element's modulus.
   [[nodiscard]] double turning() const { return turning_; }
   void step_panel(const Values& from, Values& to) const;
-  /// E_k(panel()), likewise.
+  /// E_k(panel()), for a basis without chains.
   [[nodiscard]] const Values& over_panel() const { return rotor_; }
 
-  /// Fixes the panel and finds the quick ways to evaluate; call once after the last add(). `expected`: the time [s]
-  /// after which a guard that starts at zero most likely crosses, 0 for none. It saves the search work and has no
-  /// part in what the search proves.
+  /// Sets the width of the panel and finds the quick ways to evaluate; call once after the last add(). `expected`:
+  /// the time [s] after which a guard that starts at zero most likely crosses, 0 for none. It saves work of the
+  /// search and does not affect what the search proves.
   void finish(double expected = 0.0);
-  /// That time on an even basis, else 0; and E_k there.
+  /// `expected` of finish() on an even basis, else 0; and E_k at that time.
   [[nodiscard]] double expected() const { return expected_; }
   [[nodiscard]] const Values& at_expected() const { return expected_values_; }
 
@@ -88,7 +88,7 @@ class ExponentialBasis {
   [[nodiscard]] double square(int k) const { return square_[index(k)]; }
   /// |z_k/fastest()|^2: powers of it stay in range.
   [[nodiscard]] double relative_square(int k) const { return relative_square_[index(k)]; }
-  /// max(0, Re z_k): how fast the element can grow [1/s].
+  /// max(0, Re z_k): the rate at which the element can grow [1/s].
   [[nodiscard]] double growth(int k) const { return re_[index(k)] > 0.0 ? re_[index(k)] : 0.0; }
 
  private:
@@ -102,11 +102,11 @@ class ExponentialBasis {
   std::vector<int> parent_;
   std::vector<double> square_;
   std::vector<double> relative_square_;
-  std::vector<int> power_;        ///< n of s^n/n!, 0 for all else
-  std::vector<int> short_order_;  ///< in the short chain: 0 of exp(a s), m of G_m; else -1
+  std::vector<int> power_;        ///< n of s^n/n!; 0 for other elements
+  std::vector<int> short_order_;  ///< in the short chain: 0 for exp(a s), m for G_m; else -1
   ShortChain short_chain_;
   double short_rate_ =
-      std::numeric_limits<double>::infinity();  ///< it serves while this times s is at most 1 [1/s]
+      std::numeric_limits<double>::infinity();  ///< the short chain is used while this times s is at most 1 [1/s]
   Values rotor_;
   Values expected_values_;
   double panel_ = 0.0;
@@ -119,7 +119,7 @@ class ExponentialBasis {
   bool even_ = false;
 };
 
-/// Coefficients of one quantity on a basis; the first size() entries count.
+/// Coefficients of one quantity on a basis; only the first size() entries are used.
 struct ModeFunction : ElementNumbers {};
 
 /// f = factor g.
@@ -148,7 +148,7 @@ inline void clear(const ExponentialBasis& basis, ModeFunction& f) {
     f.re[static_cast<std::size_t>(k)] = f.im[static_cast<std::size_t>(k)] = 0.0;
 }
 
-/// Copies the entries that count.
+/// Copies the entries that are used.
 inline void copy(const ExponentialBasis& basis, const ExponentialBasis::Values& from,
                  ExponentialBasis::Values& to) {
   to.fit(static_cast<std::size_t>(basis.size()));
@@ -159,8 +159,8 @@ inline void copy(const ExponentialBasis& basis, const ExponentialBasis::Values& 
   }
 }
 
-/// df/ds on the same basis; not in place. E_k' holds one E_parent, so a parent's coefficient gains its child's;
-/// parents stand before their children.
+/// df/ds on the same basis; f and the derivative must be two objects. E_k' contains one E_parent, so the child's
+/// coefficient is added to that of its parent; parents stand before their children.
 inline void differentiate(const ExponentialBasis& basis, const ModeFunction& f, ModeFunction& derivative) {
   derivative.fit(static_cast<std::size_t>(basis.size()));
   for (int k = 0; k < basis.size(); ++k) {
@@ -176,12 +176,12 @@ inline void differentiate(const ExponentialBasis& basis, const ModeFunction& f, 
   }
 }
 
-/// Whether element k has a part in f.
+/// Whether the coefficient of element k in f differs from zero.
 [[nodiscard]] inline bool takes_part(const ModeFunction& f, std::size_t k) {
   return f.re[k] != 0.0 || f.im[k] != 0.0;
 }
 
-/// The sum of `evaluate` without elements that take no part.
+/// The sum of `evaluate` over the elements that take part.
 [[nodiscard]] double evaluate_with_growth(const ExponentialBasis& basis, const ModeFunction& f,
                                           const ExponentialBasis::Values& values);
 
@@ -207,8 +207,8 @@ inline void differentiate(const ExponentialBasis& basis, const ModeFunction& f, 
   return sum;
 }
 
-/// An upper bound of |re + i im|, sharp but where squares get lost. std::abs of a complex number is sharp there
-/// too, but costs more than the rest of a bound.
+/// An upper bound of |re + i im|, sharp unless the squares underflow. std::abs of a complex number is sharp in that
+/// case too, but costs more than the rest of a bound.
 [[nodiscard]] inline double modulus_bound(double re, double im) {
   const double square = re * re + im * im;
   return square > 1e-290 && square < 1e300 ? std::sqrt(square) : std::abs(re) + std::abs(im);

@@ -13,8 +13,8 @@ namespace dualdamp::core {
 namespace {
 
 /// Panels widen where the fast elements have died out: the remainder stays below 1e-3 of the amplitudes at a.
-/// Without chains and growth the bound of the sixth derivative does not depend on the width, which so follows at
-/// once.
+/// Without chains and growth the bound of the sixth derivative does not depend on the width, so one step gives the
+/// width.
 double panel_width(const ExponentialBasis& basis, std::span<const Guard> guards,
                    const ExponentialBasis::Values& values, double a, double longest) {
   if (basis.even()) return basis.fastest() > 0.0 ? basis.panel() : std::numeric_limits<double>::infinity();
@@ -28,7 +28,7 @@ double panel_width(const ExponentialBasis& basis, std::span<const Guard> guards,
   double width = longest;
   for (const Guard& guard : guards) {
     const double allowed = 14.4 * bound(basis, guard.value, here);
-    // The width allowed by the bound over the present one; narrower panels have smaller bounds.
+    // The width that the bound over the present width allows; narrower panels have smaller bounds.
     const auto allows = [&] {
       return std::cbrt(std::sqrt(allowed / bound(basis, guard.sixth, *bounds))) / basis.fastest();
     };
@@ -41,7 +41,8 @@ double panel_width(const ExponentialBasis& basis, std::span<const Guard> guards,
   return std::max(width, basis.panel());
 }
 
-/// Panels meet where every guard is decided beyond rounding; moves an undecided inner end b and evaluates there.
+/// Panels meet where the sign of every guard is clear of rounding. If it is not at the inner end b, moves b and
+/// evaluates the basis there.
 double clear_panel_end(const ExponentialBasis& basis, std::span<const Guard> guards, double a, double b,
                        const ExponentialBasis::Values*& values, ExponentialBasis::Values& room) {
   for (int attempt = 0; attempt < 4; ++attempt) {
@@ -59,7 +60,7 @@ double clear_panel_end(const ExponentialBasis& basis, std::span<const Guard> gua
   return b;
 }
 
-/// Tries a lone guard that starts at zero where the basis expects its next crossing: one panel from the start to
+/// Tries whether a lone guard that starts at zero crosses where the basis expects it: one panel from the start to
 /// the root, no transcendental function.
 inline bool crosses_as_expected(const ExponentialBasis& basis, const Guard& guard, double horizon,
                                 Crossing& crossing, SearchGrazings& grazings, SearchCount& count) {
@@ -84,7 +85,7 @@ struct Panel {
   bool is_last = false;  ///< b is the horizon
 };
 
-/// The panel that begins at a; `room` takes the values at its end where the basis has none ready.
+/// The panel that begins at a. `room` holds the values at its end unless the basis has them ready.
 Panel next_panel(const ExponentialBasis& basis, std::span<const Guard> guards, double a, double horizon,
                  const ExponentialBasis::Values& at_a, ExponentialBasis::Values& room) {
   const double width = panel_width(basis, guards, at_a, a, horizon - a);
@@ -113,7 +114,7 @@ PanelResult search_guard(PanelSearch& search, const Panel& panel, double& root) 
   const bool touched = search.is_rounding(end);
   if (touched && !panel.is_last) end = as_grazing(end);
   if (touched && panel.is_last) {
-    end.value = 0.0;  // reached at the horizon: left to the next search
+    end.value = 0.0;  // a zero at the horizon belongs to the next search
     end.zeros = 1;
   }
   root = search.first_root(begin, end);
@@ -128,7 +129,7 @@ PanelResult search_panel(const ExponentialBasis& basis, std::span<const Guard> g
   ++count.panels;
   PanelResult result = PanelResult::none;
   for (std::size_t g = 0; g < guards.size(); ++g) {
-    if (guards[g].amplitude == 0.0) continue;  // identically zero never crosses
+    if (guards[g].amplitude == 0.0) continue;  // a guard that is identically zero never crosses
     PanelSearch search(basis, guards[g], static_cast<int>(g), grazings, count);
     double root = 0.0;
     const PanelResult of_guard = search_guard(search, panel, root);
@@ -143,7 +144,7 @@ PanelResult search_panel(const ExponentialBasis& basis, std::span<const Guard> g
   return result;
 }
 
-/// Removes grazings behind the crossing that ends the search, and those that are not over there.
+/// Removes grazings after the crossing that ends the search, and those that still last there.
 void drop_unfinished(const ExponentialBasis& basis, std::span<const Guard> guards, const Crossing& crossing,
                      SearchGrazings& grazings) {
   grazings.drop_after(crossing.s);
@@ -153,11 +154,11 @@ void drop_unfinished(const ExponentialBasis& basis, std::span<const Guard> guard
   }
 }
 
-/// So many panels are searched before a wider stretch is tried.
+/// Number of panels searched before a wider stretch is tried.
 constexpr long fewest_panels = 64;
 
-/// What is left of a guard's constant beside the largest values of all its other elements: below this it does not
-/// fall while the bounds hold.
+/// The guard's constant less the largest moduli of all its other elements: a lower bound of the guard where the
+/// bounds hold.
 double least(const ExponentialBasis& basis, const Guard& guard, const ElementNumbers& bounds) {
   double constant = 0.0;
   double moduli = 0.0;
@@ -170,14 +171,14 @@ double least(const ExponentialBasis& basis, const Guard& guard, const ElementNum
   return constant + moduli - bound(basis, guard.value, bounds);
 }
 
-/// How far from a on, at least fewest_panels, no guard comes near zero; 0: that is not seen. So a guard that turns
-/// a million times far from zero is passed in a few steps, each half as long as what is left.
+/// A time from a on, at least fewest_panels long, in which no guard comes near zero; 0 if the bounds show none. So
+/// the search passes a guard that turns a million times far from zero in a few steps.
 double quiet_stretch(const ExponentialBasis& basis, std::span<const Guard> guards,
                      const ExponentialBasis::Values& values, double a, double horizon) {
   ElementNumbers bounds;
   for (double width = horizon - a; width > static_cast<double>(fewest_panels) * basis.panel(); width *= 0.5) {
     bound_elements(basis, values, a, width, bounds);
-    // What counts as zero grows with time, as in GuardJets: a tangency within it is to be reported.
+    // The rounding of zero grows with time, as in GuardJets. A tangency within it must be reported.
     const double rounding = guard_rounding + std::numeric_limits<double>::epsilon() * basis.turning() * (a + width);
     if (std::ranges::all_of(
             guards, [&](const Guard& guard) { return least(basis, guard, bounds) > rounding * guard.amplitude; }))
@@ -186,7 +187,7 @@ double quiet_stretch(const ExponentialBasis& basis, std::span<const Guard> guard
   return 0.0;
 }
 
-/// Beyond these a guard is searched multiplied by a power of two.
+/// Outside this range a guard is searched multiplied by a power of two.
 constexpr double smallest_amplitude = 0x1p-200;
 constexpr double largest_amplitude = 0x1p200;
 
@@ -195,12 +196,12 @@ bool needs_scaling(const Guard& guard) {
          (guard.amplitude < smallest_amplitude && guard.amplitude > 0.0);
 }
 
-/// The guards with amplitudes near 1 where they need it: their zeros are the same.
+/// The guards, scaled to amplitudes near 1 if they need it: the zeros stay the same.
 [[gnu::noinline]] std::vector<Guard> scaled(const ExponentialBasis& basis, std::span<const Guard> guards) {
   std::vector<Guard> list(guards.begin(), guards.end());
   for (Guard& guard : list) {
     if (!needs_scaling(guard)) continue;
-    // In two steps: the factor for a denormal amplitude is out of range itself.
+    // In two steps, because the factor for a denormal amplitude would overflow.
     const int half = -std::ilogb(guard.amplitude) / 2;
     assign(basis, std::ldexp(1.0, half), guard.value, guard.value);
     assign(basis, std::ldexp(1.0, half), guard.value, guard.value);
@@ -215,7 +216,7 @@ bool needs_scaling(const Guard& guard) {
   std::array<ExponentialBasis::Values, 2> ends;
   if (!basis.even()) basis.start(ends[0]);
   const ExponentialBasis::Values* left = &ends[0];
-  constexpr long split = 16;  // panels that take as long
+  constexpr long split = 16;  // a split takes as long as this many panels
   const auto cost = [&] { return count.panels + split * count.splits; };
   const long last = cost() + most_panels;
   long next_try = count.panels + fewest_panels;

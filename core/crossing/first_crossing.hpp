@@ -14,33 +14,30 @@
 ///   s = horizon  Belongs to the next search: a guard that reaches zero there within rounding is not reported here
 ///                and the caller's check at the start of the next mode finds it. The same holds for a grazing of
 ///                one guard that is not over where another guard crosses.
-/// Grazing. A guard whose value is within its rounding (`core/crossing/guard_jets.hpp`) grazes zero: that is
-/// reported and is
-///   not a crossing. A deeper dip is two crossings, of which the first is returned. Where g stays within that
-///   rounding for a while there is one grazing; where that while ends with a crossing there is none
+/// Grazing. A guard whose value is within its rounding (`core/crossing/guard_jets.hpp`) grazes zero. A grazing is
+///   reported and is not a crossing. A deeper dip is two crossings, of which the first is returned. If g stays
+///   within its rounding for some time, this is one grazing; if that time ends with a crossing, it is none
 ///   (`core/crossing/grazing.hpp`).
 /// Range. A guard that leaves the range of double precision ends the search with SearchEnd::left_range. Elements
-///   that are not in a guard have no part in that. A guard with amplitudes beyond 1e60 or below 1e-60 is searched
-///   multiplied by a power of two; one whose amplitudes have decayed by 1e-220 has no zeros any more.
+///   that are in no guard may leave it. A guard with amplitudes beyond 1e60 or below 1e-60 is searched multiplied
+///   by a power of two; one whose amplitudes have decayed by 1e-220 has no zeros any more.
 /// Length. A search of more than `most_panels` panels ends with SearchEnd::too_long: the guard turns too often
-/// before
-///   the horizon, or a panel is divided without end.
-/// Why nothing can be missed (`core/crossing/panel_search.hpp`). The interval is covered by panels. On a panel of
-/// width h
+///   before the horizon, or a panel is divided without end.
+/// Why nothing can be missed (`core/crossing/panel_search.hpp`). Panels cover the interval. On a panel of width h
 ///   the quintic Hermite interpolant H of (g, g', g'') at both ends obeys
 ///       |g - H| <= M6 t^3 (1-t)^3 h^6 / 720,   M6 >= |g^(6)| on the panel,
-///   M6 from the amplitudes, since every element's modulus is known. In Bernstein form of degree six that remainder
-///   changes one coefficient only: L = H - remainder. All coefficients of L positive: no zero on the panel. Where a
-///   panel ends negative, a root of g is found by Halley's method and the panel from its begin to that root is
-///   examined in the same way, with the zero at its end factored out: positive coefficients show that it is the
-///   first one. It is a change of sign when g'^2 there exceeds 4 M2 times the rounding of g, M2 >= |g''|. Any other
-///   panel is split, at the minimum where there is one, until one of these cases holds.
-///   Where a lone guard starts at zero and Halley's method finds a root beside the crossing that the basis expects
-///   (ExponentialBasis::expected), the panel from the start to that root is tried before all others, by the same
-///   two conditions.
-///
-///   Where a search has taken 64 panels wider stretches are tried: where the constant of each guard outweighs the
-///   largest moduli of all its other elements there is no zero.
+///   M6 from the amplitudes, since every element's modulus is known. In Bernstein form of degree six this remainder
+///   changes one coefficient only: L = H - remainder. There are three cases.
+///   1. All coefficients of L are positive: the panel has no zero.
+///   2. The panel ends negative: Halley's method finds a root of g. The panel from its start to that root is
+///      examined in the same way, with the zero at its end factored out: positive coefficients show that the root
+///      is the first one. It is a change of sign if g'^2 there exceeds 4 M2 times the rounding of g, M2 >= |g''|.
+///   3. Any other panel is split, at the minimum if there is one, until case 1 or 2 holds.
+///   Expected crossing: if a lone guard starts at zero and Halley's method finds a root near the crossing that the
+///   basis expects (ExponentialBasis::expected), the panel from the start to that root is tried before all others,
+///   by the two conditions of case 2.
+///   Wide stretches: a search that has taken 64 panels also tries wider stretches. A stretch has no zero if in each
+///   guard the constant outweighs the largest moduli of all other elements.
 ///
 /// Cost: on a basis without chains a panel costs a few dozen multiplications and no transcendental function; a
 /// crossing costs one evaluation of the basis, none where it was expected. No allocation unless guards graze.

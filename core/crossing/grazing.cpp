@@ -9,7 +9,7 @@ bool is_within_rounding(GuardJets& jets, double s) { return std::abs(jets.at(s).
 
 namespace {
 
-/// Whether the guard, within rounding of zero at s < t, stays there in between.
+/// Whether the guard, which is within rounding of zero at s, stays so until t > s.
 bool stays_within_rounding(GuardJets& jets, double s, double t) {
   return is_within_rounding(jets, 0.5 * (s + t)) && is_within_rounding(jets, s + 0.25 * (t - s)) &&
          is_within_rounding(jets, s + 0.75 * (t - s));

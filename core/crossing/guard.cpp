@@ -11,7 +11,7 @@ void prepare(const ExponentialBasis& basis, Guard& guard) {
 
 namespace {
 
-/// Sums of the moduli times powers of the relative rates.
+/// Fills the bounds: sums of the moduli times powers of the rates.
 template <class Modulus>
 void measure(const ExponentialBasis& basis, Guard& guard, Modulus modulus_of) {
   guard.amplitude = guard.curvature_bound = guard.sixth_bound = 0.0;
@@ -32,7 +32,7 @@ void measure(const ExponentialBasis& basis, Guard& guard, Modulus modulus_of) {
 void prepare_with_slope(const ExponentialBasis& basis, Guard& guard) {
   differentiate(basis, guard.slope, guard.curvature);
   measure(basis, guard, [](double re, double im) { return std::sqrt(re * re + im * im); });
-  // Squares that are lost beside larger ones do not matter.
+  // Within this range no square overflows, and one that underflows is lost beside larger ones.
   if (!(guard.amplitude > 1e-140 && guard.amplitude < 1e140)) [[unlikely]]
     measure(basis, guard, modulus_bound);
   if (basis.even()) return;

@@ -15,18 +15,18 @@ struct Guard {
   // Filled by prepare().
   ModeFunction slope;
   ModeFunction curvature;
-  ModeFunction sixth;            ///< sixth derivative by fastest() s; unused on an even basis
+  ModeFunction sixth;            ///< d^6 g/d(fastest() s)^6; unused on an even basis
   double amplitude = 0.0;        ///< sum of |c_k|
-  double curvature_bound = 0.0;  ///< of |g''|, on an even basis for all s
-  double sixth_bound = 0.0;      ///< of that sixth derivative, likewise
+  double curvature_bound = 0.0;  ///< of |g''| for all s; on an even basis only
+  double sixth_bound = 0.0;      ///< of |sixth|, likewise
 };
 
 /// Fills the derived members of `guard` from `value`.
 void prepare(const ExponentialBasis& basis, Guard& guard);
-/// The same where `slope` is known already.
+/// The same if `slope` is already filled in.
 void prepare_with_slope(const ExponentialBasis& basis, Guard& guard);
 
-/// Relative rounding of a guard's value, in parts of the sum of its amplitudes.
+/// Rounding of a guard's value, relative to the sum of its amplitudes.
 inline constexpr double guard_rounding = 16.0 * std::numeric_limits<double>::epsilon();
 
 }  // namespace dualdamp::core

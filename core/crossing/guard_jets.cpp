@@ -10,7 +10,7 @@ double GuardJets::rounding(double s) const {
   return slack(s, bound(basis_, guard_.value, values, there, 0.0));
 }
 
-/// Elements that have left the range of double precision count only where the guard has them.
+/// Elements that have left the range of double precision count only if the guard contains them.
 void GuardJets::take_with_growth(const ExponentialBasis::Values& values, Jet& j) {
   j.value = evaluate(basis_, guard_.value, values);
   j.slope = evaluate(basis_, guard_.slope, values);

@@ -1,8 +1,9 @@
 #pragma once
-/// A guard along one search: its value and first two derivatives at a time, and how much of the value is rounding.
+/// A guard during one search: its value and first two derivatives at a time, and how much of the value is rounding.
 ///
-/// Rounding of g at s is taken as (16 eps + eps max|Im z| s) times the sum of the guard's amplitudes |c_k E_k(s)|,
-/// the second part from the angles z s; with n known zeros and s < T/2, T = 1/max|z|, as that at T times (s/T)^n.
+/// Rounding of g at s is taken as (16 eps + eps max|Im z| s) times the sum of the guard's amplitudes |c_k E_k(s)|;
+/// the second part comes from the angles z s. With n known zeros and s < T/2, T = 1/max|z|, it is the rounding at T
+/// times (s/T)^n.
 /// Close to a known zero at s = 0 the derivatives come from the Taylor series, which has that zero exactly.
 
 #include <array>
@@ -26,7 +27,7 @@ class GuardJets {
  public:
   GuardJets(const ExponentialBasis& basis, const Guard& guard) : basis_(basis), guard_(guard) {}
 
-  /// At s, from the values of the basis there.
+  /// The jet at s, from the values of the basis there.
   [[nodiscard]] Jet at(double s, const ExponentialBasis::Values& values) {
     Jet j;
     take(s, values, j);
@@ -37,19 +38,19 @@ class GuardJets {
     if (!near_start(s)) basis_.evaluate(s, values);
     return at(s, values);
   }
-  /// In place: the processor waits when a jet just written is copied as a whole.
+  /// The same, written in place: copying a jet that was just written stalls the processor.
   void take(double s, const ExponentialBasis::Values& values, Jet& j);
-  /// At s = 0, with the known zeros.
+  /// The jet at s = 0, with the known zeros.
   [[nodiscard]] Jet at_begin() const;
 
-  /// Rounding allowance of the value at s for amplitudes that add up to `amplitude`.
+  /// Allowed rounding of the value at s for amplitudes whose sum is `amplitude`.
   [[nodiscard]] double slack(double s, double amplitude) const {
     double allowance = (guard_rounding + std::numeric_limits<double>::epsilon() * basis_.turning() * s) * amplitude;
     const double angle = s * basis_.fastest();
     for (int i = 0; i < guard_.known_zeros && angle < taylor_angle; ++i) allowance *= angle;
     return allowance;
   }
-  /// The same from the amplitudes at s alone, which decides what is a grazing; costs an evaluation.
+  /// The same from the amplitudes at s. It decides what is a grazing. Costs an evaluation of the basis.
   [[nodiscard]] double rounding(double s) const;
 
   /// Whether s is so near a known zero that the Taylor series is used.
@@ -61,7 +62,8 @@ class GuardJets {
   [[nodiscard]] const Guard& guard() const { return guard_; }
 
  private:
-  /// Near a known zero the guard is its Taylor series: 0.5^18/18! of its scale is left out.
+  /// Up to this angle fastest() s the guard is its Taylor series near a known zero; the rest of the series is
+  /// 0.5^18/18! of the guard's scale.
   static constexpr double taylor_angle = 0.5;
   static constexpr int taylor_terms = 18;
 

@@ -7,12 +7,12 @@ namespace dualdamp::core {
 
 namespace {
 
-/// Whether a Taylor coefficient stands out of rounding.
+/// Whether a Taylor coefficient is clear of rounding.
 bool stands_out(const ExponentialBasis& basis, const ModeFunction& f, double value, double tolerance) {
   return std::abs(value) > guard_rounding * start_amplitude(basis, f) + tolerance;
 }
 
-/// How fast a tolerance grows from one derivative to the next.
+/// Factor of the tolerance from one derivative to the next [1/s].
 double rate(const ExponentialBasis& basis) { return basis.fastest() > 0.0 ? basis.fastest() : 1.0; }
 
 }  // namespace

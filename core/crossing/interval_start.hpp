@@ -1,25 +1,25 @@
 #pragma once
-/// How a function on an exponential basis begins: its sign just after the start of an interval, from its Taylor
-/// coefficients. An interval often starts where a guard is zero, and rounding must not decide its sign there.
+/// The sign of a function on an exponential basis just after the start of an interval, from its Taylor
+/// coefficients. An interval often starts where a guard is zero, and rounding must not decide the guard's sign.
 
 #include "core/crossing/guard.hpp"
 
 namespace dualdamp::core {
 
-/// What the coefficients of f are worth at the start: the sum of their moduli, each element of a chain by what it
-/// grows to within 1/fastest(), for at s = 0 it is zero. A coefficient of s^n, of a drive in short pieces say, may
-/// be larger than f by any factor.
+/// The size of f at the start: the sum of the moduli of its coefficients. An element of a chain is zero at s = 0,
+/// so its coefficient counts times the value that the element reaches within 1/fastest(). Without that factor a
+/// coefficient of s^n (of a drive in short pieces, for example) may be larger than f by any factor.
 [[nodiscard]] double start_amplitude(const ExponentialBasis& basis, const ModeFunction& f);
 
-/// The sign of a function just after s = 0 and the order of its zero there; a Taylor coefficient within 16 eps
-/// times its own start amplitude plus `tolerance` times the basis' rate counts as zero.
+/// The sign of a function just after s = 0 and the order of its zero there. The n-th derivative counts as zero if
+/// it is within 16 eps times its own start amplitude plus `tolerance` times the n-th power of the basis' rate.
 struct Germ {
-  int sign = 0;   ///< 0: zero to the order examined
+  int sign = 0;   ///< 0: all examined coefficients vanish
   int zeros = 0;  ///< number of leading Taylor coefficients that vanish
 };
 
 [[nodiscard]] Germ germ(const ExponentialBasis& basis, const ModeFunction& f, double tolerance);
-/// Of a prepared guard whose first `from` Taylor coefficients are known to vanish.
+/// The germ of a prepared guard whose first `from` Taylor coefficients are known to vanish.
 [[nodiscard]] Germ germ(const ExponentialBasis& basis, const Guard& guard, double tolerance, int from = 0);
 
 }  // namespace dualdamp::core

@@ -9,10 +9,11 @@ namespace {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 constexpr int max_depth = 60;
-/// How far beside the expected crossing Halley's method is worth a trial: it then takes two steps.
+/// Halley's method is tried if its first step from the expected crossing is below this part of 1/fastest(): it then
+/// takes two steps.
 constexpr double beside = 0.05;
 
-/// Squares of a slope between these are neither lost nor infinite.
+/// A square of a slope between these is neither lost nor infinite.
 constexpr double small_square = 1e-200;
 constexpr double large_square = 1e200;
 
@@ -30,7 +31,8 @@ inline double halley(const Jet& j) {
   return halley_by_ratios(j);
 }
 
-/// Whether slope^2 > 4 error curvature: a function that is known to `error` is monotone as far as that reaches.
+/// Whether slope^2 > 4 error curvature: a function known to `error` is then monotone within the time in which it
+/// changes by `error`.
 bool is_steep(double slope, double error, double curvature) {
   const double square = slope * slope;
   if (square > small_square && square < large_square) [[likely]]
@@ -47,7 +49,7 @@ struct Bernstein {
     const double bend = 0.05 * h * h;
     const double left_rise = 0.2 * h * left.slope;
     const double right_rise = 0.2 * h * right.slope;
-    // Degree five, raised to six.
+    // Degree five, elevated to six.
     const double b1 = left.value + left_rise;
     const double b2 = b1 + left_rise + bend * left.curvature;
     const double b4 = right.value - right_rise;
@@ -61,8 +63,8 @@ struct Bernstein {
     b[6] = right.value;
   }
 
-  /// Whether all coefficients exceed a rounding allowance but those that a factored zero at an end makes exactly
-  /// zero.
+  /// Whether all coefficients exceed the allowed rounding, except those that a factored zero at an end makes
+  /// exactly zero.
   [[nodiscard]] bool exceeds(double allowance, int left_zeros, int right_zeros) const {
     for (int i = left_zeros; i <= 6 - right_zeros; ++i) {
       if (!(b[static_cast<std::size_t>(i)] > allowance)) return false;
@@ -92,8 +94,8 @@ struct Interpolant {
     return c1 + t * (2.0 * c2 + t * (3.0 * c3 + t * (4.0 * c4 + t * 5.0 * c5)));
   }
 
-  /// The root of an interpolant that starts positive and ends negative, from a guess: Newton with bisection as a
-  /// safeguard. Two more digits than the interpolant itself has are enough.
+  /// The root of an interpolant that starts positive and ends negative, from a guess: Newton's method with
+  /// bisection as a safeguard. The root needs only two digits more than the interpolant itself has.
   [[nodiscard]] double root(double t) const {
     double low = 0.0;
     double high = 1.0;
@@ -112,7 +114,7 @@ struct Interpolant {
 
 }  // namespace
 
-/// Bounds for [a, b] alone: where elements decay they are smaller than the panel's.
+/// Computes the bounds for [a, b] alone: if elements decay, they are smaller than those of the whole panel.
 void PanelSearch::narrow(double a, double b) {
   ExponentialBasis::Values values;
   basis_.evaluate(a, values);
@@ -137,13 +139,13 @@ void PanelSearch::bound_locally(double a, double h, const ExponentialBasis::Valu
   bound_elements(basis_, values, a, h, bounds);
   sixth_ = bound(basis_, guard_.sixth, bounds);
   curvature_ = bound(basis_, guard_.curvature, bounds);
-  // Beside a known zero amplitudes count as far as its scale reaches: chains have not grown yet at s = 0.
+  // Near a known zero the amplitudes up to 1/fastest() count: at s = 0 chains have not grown yet.
   const double reach = jets_.near_start(a) && basis_.fastest() > 0.0 ? 1.0 / basis_.fastest() - a : 0.0;
   amplitude_ = reach > h ? bound(basis_, guard_.value, values, a, reach) : bound(basis_, guard_.value, bounds);
 }
 
-/// Halley's iteration from a good guess; the basis is evaluated once and then shifted. Leaves the elements' values
-/// at the result in root_values_. `polished_` tells where it has converged.
+/// Halley's iteration from a good guess; the basis is evaluated once and then shifted. Afterwards root_values_ are
+/// the elements at the result, and polished_ is the time at which the iteration has converged, or `none`.
 Jet PanelSearch::polish(double s) {
   basis_.evaluate(s, root_values_);
   Jet j;
@@ -152,7 +154,7 @@ Jet PanelSearch::polish(double s) {
   return j;
 }
 
-/// The same from a jet and root_values_ there.
+/// The same from a jet, for which root_values_ hold the elements.
 void PanelSearch::polish(Jet& j) {
   double s = j.s;
   for (int i = 0; i < 8; ++i) {
@@ -161,7 +163,7 @@ void PanelSearch::polish(Jet& j) {
     polished_ = s;
     if (!(size > 2.0 * epsilon * s)) return;
     if (!(s - step >= 0.0)) break;
-    // Convergence is cubic on the guard's own scales: behind so small a step nothing is left to correct.
+    // Convergence is cubic on the guard's own scales: after such a small step the error is below rounding.
     const bool last = size * basis_.fastest() < 5e-6 && size * std::abs(j.curvature) < 5e-6 * std::abs(j.slope) &&
                       basis_.fastest() > 0.0;
     s -= step;
@@ -173,19 +175,19 @@ void PanelSearch::polish(Jet& j) {
   polished_ = none;
 }
 
-/// The root of g near that of the interpolant, when g is certified positive before it.
+/// The root of g near that of the interpolant, if g is certified positive before it; else `none`.
 double PanelSearch::accept_root(const Jet& a, const Jet& b) {
   const double width = b.s - a.s;
-  // Seen from the far end, where the guard is negative.
+  // Halley's step from the far end, where the guard is negative.
   const double guess = 1.0 - halley(b) / width;
   Jet root = polish(a.s + width * Interpolant(a, b).root(guess > 0.0 && guess <= 1.0 ? guess : 1.0));
   return root.s <= b.s && is_first_crossing(a, root) ? root.s : none;
 }
 
-/// Whether g, polished at `root`, changes its sign there for the first time behind a.
+/// Whether g, polished at `root`, changes its sign there for the first time after a.
 bool PanelSearch::is_first_crossing(const Jet& a, Jet& root) const {
   if (polished_ != root.s || !(root.s > a.s) || !(root.slope < 0.0)) return false;
-  // Monotone as far as rounding of the value reaches: g does change its sign there.
+  // g is monotone where it is within rounding of zero: so its sign does change.
   const double reach = slack(root.s);
   if (!(std::abs(root.value) <= reach) || !is_steep(root.slope, reach, curvature_)) return false;
   root.zeros = 1;
@@ -199,12 +201,12 @@ double PanelSearch::expected_root(double horizon) {
   jets_.take(basis_.expected(), root_values_, root);
   if (!(std::abs(halley(root)) * basis_.fastest() < beside)) return none;
   polish(root);
-  // The horizon lies behind the rounding of the crossing, which is so not the next search's.
+  // The horizon must be clear of the rounding of the crossing; else the crossing belongs to the next search.
   if (!((root.s - horizon) * root.slope > 4.0 * slack(root.s))) return none;
   return is_first_crossing(jets_.at_begin(), root) ? root.s : none;
 }
 
-/// Whether L shows that g has no zero between the ends but the known ones.
+/// Whether L shows that g has no zero between the ends except the known ones.
 bool PanelSearch::positive_between(const Jet& a, const Jet& b) const {
   Bernstein low(a, b);
   low.b[3] -= remainder(b.s - a.s);
@@ -229,7 +231,8 @@ Jet PanelSearch::minimum(const Jet& a, const Jet& b) {
   return j;
 }
 
-/// Where the value turns negative between low and high, by bisection: for a crossing too flat for Newton's method.
+/// The time between low and high at which the value becomes negative, by bisection: for a crossing that is too flat
+/// for Newton's method.
 double PanelSearch::sign_change(double low, double high) {
   for (int i = 0; i < 60 && high - low > 2.0 * epsilon * high; ++i) {
     const double s = 0.5 * (low + high);
@@ -238,12 +241,12 @@ double PanelSearch::sign_change(double low, double high) {
   return high;
 }
 
-/// A point inside (a, b) whose value is decided beyond rounding, where there is one.
+/// A point inside (a, b) whose value is clear of rounding, if there is one.
 Jet PanelSearch::split_point(const Jet& a, const Jet& b) {
   Jet j;
   if (b.value > 0.0 && a.slope < 0.0 && b.slope > 0.0) {
     j = minimum(a, b);
-    // A minimum well above zero beside an end would leave the panel as it was.
+    // A split at a minimum well above zero close to an end would leave nearly the same panel.
     const double margin = j.value > 0.0 && !is_rounding(j) ? 0.05 * (b.s - a.s) : 0.0;
     if (j.s > a.s + margin && j.s < b.s - margin) return j;
   }
@@ -270,7 +273,7 @@ double PanelSearch::split(const Jet& a, const Jet& b, int depth) {
   return first_root(middle, b, depth + 1);
 }
 
-/// Whether g stays within rounding of zero.
+/// Whether g stays within rounding of zero on the whole panel.
 bool PanelSearch::flat(const Jet& a, const Jet& b) const {
   const double widest = std::max(slack(a.s), slack(b.s));
   const double left_out = remainder(b.s - a.s);
@@ -296,7 +299,7 @@ double PanelSearch::first_root(const Jet& a, const Jet& b, int depth) {
     return none;
   }
   if (depth >= max_depth || b.s - a.s <= 4.0 * epsilon * b.s || flat(a, b)) {
-    // Nowhere on the panel does the guard stand out of rounding: a flat crossing, or one flat grazing.
+    // The guard is within rounding of zero on the whole panel: a flat crossing, or one flat grazing.
     if (crosses) return sign_change(a.s, b.s);
     const Jet middle = jets_.at(0.5 * (a.s + b.s));
     if (a.zeros == 0 && is_rounding(middle)) record_grazing(middle.s);

@@ -1,6 +1,6 @@
 #pragma once
-/// The search for the first root of one guard on one panel, with the proof that none is missed
-/// (`core/crossing/first_crossing.hpp` states it).
+/// The search for the first root of one guard on one panel. `core/crossing/first_crossing.hpp` states the proof
+/// that none is missed.
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +13,7 @@ namespace dualdamp::core {
 
 class PanelSearch {
  public:
-  /// `index`: of the guard among those searched.
+  /// `index`: position of the guard in the list of guards that are searched.
   PanelSearch(const ExponentialBasis& basis, const Guard& guard, int index, SearchGrazings& grazings,
               SearchCount& count)
       : basis_(basis),
@@ -26,7 +26,7 @@ class PanelSearch {
 
   [[nodiscard]] GuardJets& jets() { return jets_; }
 
-  /// Bounds for the panel [a, a + h] from the values of the basis at a.
+  /// Computes the bounds for the panel [a, a + h] from the values of the basis at a.
   void bound_panel(double a, double h, const ExponentialBasis::Values& values) {
     if (basis_.even()) {
       sixth_ = guard_.sixth_bound;
@@ -37,23 +37,23 @@ class PanelSearch {
     bound_locally(a, h, values);
   }
 
-  /// False when the panel leaves the range of double precision.
+  /// False if the guard leaves the range of double precision on the panel.
   [[nodiscard]] bool finite(const Jet& end) const {
     return std::isfinite(sixth_ + std::abs(end.value) + std::abs(end.slope) + std::abs(end.curvature));
   }
-  /// Whether a jet's value is rounding.
+  /// Whether a jet's value is within rounding of zero.
   [[nodiscard]] bool is_rounding(const Jet& j) const {
     return std::abs(j.value) <= slack(j.s) && std::abs(j.value) <= jets_.rounding(j.s);
   }
   void record_grazing(double s) { grazings_.record(jets_, index_, s); }
 
-  /// The panel was divided more often than is allowed: what was found, or not, means nothing.
+  /// The panel was divided more often than is allowed: the result of the search then means nothing.
   [[nodiscard]] bool is_too_long() const { return count_.splits > last_; }
   /// First root in (a, b), or a negative number.
   [[nodiscard]] double first_root(const Jet& a, const Jet& b, int depth = 0);
-  /// The same in (0, horizon), where it lies beside the one that the basis expects; else a negative number.
+  /// The same in (0, horizon), if the root lies near the one that the basis expects; else a negative number.
   [[nodiscard]] double expected_root(double horizon);
-  /// The elements at the root last returned.
+  /// The elements at the root that was returned last.
   void values_at(double root, ExponentialBasis::Values& values) const {
     if (root == polished_) {
       copy(basis_, root_values_, values);
@@ -64,14 +64,14 @@ class PanelSearch {
 
  private:
   static constexpr double none = -1.0;
-  /// Of one panel: about a second.
+  /// Largest number of splits of one panel: about a second.
   static constexpr long most_splits = 500'000;
 
   // Bounds and rounding.
   void narrow(double a, double b);
   void bound_locally(double a, double h, const ExponentialBasis::Values& values);
   [[nodiscard]] double slack(double s) const { return jets_.slack(s, amplitude_); }
-  /// What the remainder takes from the middle coefficient of L on a panel of width h.
+  /// The part of the remainder in the middle coefficient of L, on a panel of width h.
   [[nodiscard]] double remainder(double h) const {
     const double angle = h * basis_.fastest();
     const double cube = angle * angle * angle;
@@ -102,15 +102,15 @@ class PanelSearch {
   GuardJets jets_;
   SearchGrazings& grazings_;
   SearchCount& count_;
-  long last_;           ///< count of splits behind which no panel is divided
-  double sixth_ = 0.0;  ///< bounds on the panel: of |g^(6)| by fastest() s, of |g''|, and the sum of amplitudes
+  long last_;           ///< count of splits after which no panel is divided
+  double sixth_ = 0.0;  ///< bounds on the panel: d^6 g/d(fastest() s)^6, |g''|, the sum of amplitudes
   double curvature_ = 0.0;
   double amplitude_ = 0.0;
-  double polished_ = -1.0;  ///< where Halley's iteration has converged; root_values_ belong to it
+  double polished_ = -1.0;  ///< time at which Halley's iteration has converged; root_values_ belong to it
   ExponentialBasis::Values root_values_;
 };
 
-/// At a grazing two panels meet: the guard counts as positive on both sides of it.
+/// The jet at a grazing where two panels meet: the guard counts as positive on both sides of it.
 [[nodiscard]] inline Jet as_grazing(const Jet& touched) {
   return {touched.s, 0.0, 0.0, std::max(touched.curvature, 0.0), 2};
 }

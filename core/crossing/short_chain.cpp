@@ -9,7 +9,7 @@ namespace {
 
 constexpr double smallest_share = std::numeric_limits<double>::epsilon();
 
-/// (k + 1) (m!/(m + k)!) is below rounding behind this many terms of G_m, m >= 2.
+/// After this many terms of G_m, m >= 2, the factor (k + 1) (m!/(m + k)!) is below rounding.
 constexpr std::size_t longest = 24;
 
 /// 1/n
@@ -41,7 +41,7 @@ std::array<double, ShortChain::most> ShortChain::at(double s) const {
     const double term = here * share;
     high += term;
     low += term * order;
-    // Every other h_k may vanish.
+    // Every second h_k may vanish, so two terms in a row must be small.
     const double left = std::abs(term) * order;
     if (left < smallest_share && last < smallest_share) break;
     last = left;

@@ -14,13 +14,13 @@ namespace dualdamp::friction {
   return {.constant = -limit.rate / stiffness, .velocity = side - limit.position / stiffness};
 }
 
-/// The slider stops at a guard of its own; otherwise it stops exactly when the mass does.
+/// Whether the slider stops at a guard of its own; otherwise it stops exactly when the mass does.
 [[nodiscard]] inline bool stops_by_itself(const Affine& limit, double stiffness) {
   return limit.rate != 0.0 || std::abs(limit.position) >= stiffness;
 }
 
-/// The slider slides against the motion of the mass, after a step of the force limit downward; it then stops at
-/// once.
+/// Whether the slider slides against the motion of the mass, as after a step of the force limit downward; it then
+/// stops at once.
 [[nodiscard]] constexpr bool is_left_behind(int side, Direction direction) { return sign(direction) == -side; }
 
 }  // namespace dualdamp::friction

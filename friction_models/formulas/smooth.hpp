@@ -1,15 +1,14 @@
 #pragma once
-/// What smooth laws share: formulas that stay finite and smooth a little beyond the interval for which the
-/// direction of slip is frozen.
+/// Formulas shared by smooth laws. They stay finite and smooth a little beyond the interval for which the direction
+/// of slip is frozen.
 
 #include <algorithm>
 #include <cmath>
 
 namespace dualdamp::friction {
 
-/// base^exponent for base >= 0, exponent > 0. Below zero: the analytic continuation where there is one,
-/// base^exponent of a whole exponent; else that of an odd exponent, which has as many continuous derivatives as the
-/// power.
+/// base^exponent for base >= 0, exponent > 0. For base < 0: base^exponent if the exponent is whole, which is the
+/// analytic continuation; else -|base|^exponent, which has as many continuous derivatives as the power.
 [[nodiscard]] inline double continued_power(double base, double exponent) {
   if (exponent == 1.0) return base;
   if (exponent == 2.0) return base * base;

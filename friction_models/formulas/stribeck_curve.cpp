@@ -36,12 +36,12 @@ std::vector<Parameter> StribeckCurve::shape_parameters() {
        .unit = "1",
        .fallback = 2.0,
        .range = {.low = 0.0, .low_open = true},
-       .meaning = "exponent of the speed ratio in the form gaussian"},
+       .meaning = "exponent of r in the form gaussian"},
       {.name = "form",
        .kind = ParameterKind::choice,
        .words = {"gaussian", "exponential", "lorentz"},
        .fallback = "gaussian",
-       .meaning = "how the level falls: exp(-r^exponent), exp(-r), 1/(1 + r^2)"},
+       .meaning = "how the level falls with r = speed/stribeck_velocity: exp(-r^exponent), exp(-r), 1/(1 + r^2)"},
   };
 }
 

@@ -6,9 +6,9 @@
 ///
 /// The speed of slip is u = sign(direction) v, which is >= 0 throughout an interval. For u < 0 the formula is
 /// continued analytically, so that a step may go beyond the reversal that ends its interval. An exponent below 1
-/// gives an infinite slope at v = 0, which costs the integrator small steps, and which nothing continues: there the
-/// level of |u| holds. A mass is then released at the static level, whatever rounding makes of the net force: a
-/// level that rose for u < 0 would hold it as soon as its velocity is rounded below zero.
+/// gives an infinite slope at v = 0: the integrator takes small steps there, and there is no continuation, so the
+/// level of |u| is used for u < 0. Then a mass is released at the static level in spite of rounding; a level that
+/// rose for u < 0 would hold the mass again as soon as rounding makes its velocity negative.
 ///
 /// Source: armstrong1994, bo1982 in `docs/refs.bib`. Shared by all laws with such a level.
 
@@ -25,11 +25,11 @@ class StribeckCurve {
  public:
   enum class Form { gaussian, exponential, lorentz };
 
-  /// kinetic, static, stribeck_velocity; with the kinetic level in this range.
+  /// The parameters kinetic, static and stribeck_velocity, with this range of the kinetic level.
   static std::vector<Parameter> parameters(const Range& kinetic);
-  /// exponent, form.
+  /// The parameters exponent and form.
   static std::vector<Parameter> shape_parameters();
-  /// An exponent beside a form that has none.
+  /// The fault of an exponent beside a form that has none.
   static std::vector<ParameterFault> check_shape(const ParameterValues& values);
 
   /// N, N, m/s; 0 <= kinetic <= static_level, 0 < velocity, 0 < exponent.

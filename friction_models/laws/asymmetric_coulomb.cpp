@@ -14,11 +14,11 @@ const std::vector<Parameter>& AsymmetricCoulomb::parameters() {
       {.name = "kinetic_forward",
        .unit = "N",
        .range = {.low = 0.0},
-       .meaning = "friction force while slipping forward (v > 0), at vanishing speed"},
+       .meaning = "friction force while slipping forward (v > 0), in the limit of zero speed"},
       {.name = "kinetic_backward",
        .unit = "N",
        .range = {.low = 0.0},
-       .meaning = "friction force while slipping backward (v < 0), at vanishing speed"},
+       .meaning = "friction force while slipping backward (v < 0), in the limit of zero speed"},
       {.name = "static_forward",
        .unit = "N",
        .same_as = "kinetic_forward",
@@ -60,7 +60,7 @@ Affine AsymmetricCoulomb::affine_limit(const Memory&, const Instant& now) const 
 
 namespace {
 
-/// Modifiers act on the levels; the viscous part is then a law beside them.
+/// Modifiers act only on the levels; with modifiers the viscous part is a law of its own.
 std::vector<Law> make_asymmetric_coulomb(const ParameterValues& p) {
   AsymmetricCoulomb::Side forward{p.number("kinetic_forward"), p.number("static_forward"),
                                   p.number("viscous_forward")};
@@ -81,7 +81,7 @@ std::vector<Law> make_asymmetric_coulomb(const ParameterValues& p) {
 
 LawEntry asymmetric_coulomb_entry() {
   return {.name = "asymmetric_coulomb",
-          .summary = "Coulomb and viscous friction with values of their own in each direction",
+          .summary = "Coulomb and viscous friction with separate values for each direction",
           .equation =
               "slip: F = kinetic_forward + viscous_forward v for v > 0, -kinetic_backward + viscous_backward v "
               "for v < 0;  stick: F = pull while -static_backward <= pull <= static_forward",

@@ -1,5 +1,5 @@
 #pragma once
-/// Coulomb and viscous friction with values of their own in each direction.
+/// Coulomb and viscous friction with separate values for each direction.
 ///
 ///   slip forward   F =  kinetic_forward + viscous_forward v            [N]
 ///   slip backward  F = -kinetic_backward + viscous_backward v          [N]

@@ -9,7 +9,7 @@ const std::vector<Parameter>& AttachedMass::parameters() {
       {.name = "mass",
        .unit = "kg",
        .range = {.low = 0.0, .low_open = true},
-       .meaning = "attached mass, beside that of the oscillator"},
+       .meaning = "attached mass, in addition to that of the oscillator"},
       {.name = "stiffness",
        .unit = "N/m",
        .range = {.low = 0.0, .low_open = true},
@@ -18,7 +18,7 @@ const std::vector<Parameter>& AttachedMass::parameters() {
        .unit = "N.s/m",
        .fallback = 0.0,
        .range = {.low = 0.0},
-       .meaning = "damper beside that spring"},
+       .meaning = "damper in parallel with that spring"},
   };
   return table;
 }

@@ -1,16 +1,16 @@
 #pragma once
-/// An oscillator attached to the mass: a second mode of the structure, or a tuned mass damper. It is at z [m] and
-/// moves with the velocity w [m/s].
+/// An oscillator attached to the mass: a second mode of the structure, or a tuned mass damper. The attached mass is
+/// at z [m] and moves with the velocity w [m/s].
 ///
 ///   F       = stiffness (x - z) + damping (v - w)          [N]
 ///   mass z'' = F,   z = x and w = v at the start
 ///
 /// `mass` of the law is not part of that of the oscillator: a structure of the total mass M has the oscillator's
-/// mass M - mass. There is no friction in it. It stores energy, that of its motion at the start included, and turns
-/// damping (v - w)^2 to heat.
+/// mass M - mass. The law has no friction. It stores energy, including the kinetic energy of the attached mass at
+/// the start, and turns damping (v - w)^2 to heat.
 ///
 /// Source: ormondroyd1928 in `docs/refs.bib`. Smooth engine: two states that follow the mass are no affine function
-/// of time. Cost: a few operations a call; steps as short as the faster of the two modes asks for.
+/// of time. Cost: a few operations a call; the length of steps follows the faster of the two modes.
 
 #include <span>
 #include <vector>

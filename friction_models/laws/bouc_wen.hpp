@@ -5,10 +5,11 @@
 ///   F  = stiffness (alpha x + (1 - alpha) z)       [N]
 ///   z' = v (1 - |z/z0|^exponent (b sgn(v z) + 1 - b)),   z0 = limit/stiffness
 ///
-/// alpha is `ratio`, b is `beta_share`: beta/(beta + gamma) in the usual letters, with A = 1. With b = 1/2
+/// alpha is `ratio`, b is `beta_share`: beta/(beta + gamma) in the usual notation, with A = 1. With b = 1/2
 /// unloading is elastic. A large exponent gives contact_compliance; exponent 1 with b = 1 gives dahl. The law is
 /// passive for b >= 1/2; below 1/2 unloading gives out work (erlicher2004). A loop of unloading and reloading does
-/// not close: the force is lower when the mass is back at the same place (no return-point memory, unlike `iwan`).
+/// not close: the force is lower when the mass is back at the same position (no return-point memory, unlike
+/// `iwan`).
 ///
 /// The mode is the sign of z, so that |z| is analytic; 0: the mass has not moved yet.
 ///
@@ -27,7 +28,7 @@ namespace dualdamp::friction {
 class BoucWen {
  public:
   static const std::vector<Parameter>& parameters();
-  /// That these values are not passive.
+  /// A warning if these values are not passive.
   static std::vector<std::string> warnings(const ParameterValues& values);
 
   /// N > 0, N/m > 0, exponent >= 1, 0 <= ratio < 1, beta_share >= 0.
@@ -44,7 +45,7 @@ class BoucWen {
   }
   void jump(Memory& memory, Trigger trigger, const Instant&, Direction direction) const;
   void scales(const Memory&, std::span<double> scales) const { scales[0] = limit_ / stiffness_; }
-  /// F v minus the power that both springs store.
+  /// F v minus the power stored in both springs.
   [[nodiscard]] double dissipation(const Memory& memory, const Instant& now, Direction direction) const;
 
  private:

@@ -10,7 +10,8 @@ namespace dualdamp::friction {
 
 namespace {
 
-/// Bristles this close to their limit, relative, are at it: rounding must not tell equal ones apart.
+/// Bristles this close to their limit, relative, count as at the limit, so that rounding does not separate equal
+/// ones.
 constexpr double same_place = 1.0 - 1e-12;
 
 }  // namespace
@@ -69,8 +70,8 @@ void Bristle::jump(Memory& memory, Trigger trigger, const Instant& now, Directio
   std::vector<double>& places = memory.state;
   if (trigger.cause == Trigger::limit_change && !has_length(now)) std::ranges::fill(places, now.x);
   if (trigger.cause < 0) return;
-  // All bristles at this end that are beyond the limit snap together: those in one place, and those that a fall of
-  // the limit has put beyond it.
+  // All bristles at this end that are beyond the limit snap together: those at one position, and those that are
+  // beyond the limit because it fell.
   const double limit = same_place * now.force_limit_now(snap_distance_);
   const bool rear = trigger.cause == 0;
   do {

@@ -5,10 +5,10 @@
 ///   F = sum over the bristles of stiffness (x - b_i)     [N]
 ///   a bristle with |x - b_i| = d snaps to b_i = x + d u, u uniform in (-1, 1)
 ///
-/// d is `snap_distance`. The places b_i at the start are drawn in the same way, so the force does not start at
+/// d is `snap_distance`. The positions b_i at the start are drawn in the same way, so the force does not start at
 /// zero. After a long slip in one direction the stretch e of a bristle has the density (e + d)/(2 d^2), so the mean
-/// force is count stiffness d/3. Each draw depends on the seed and its number only. A modifier multiplies d; while
-/// d is zero there is no force.
+/// force is count stiffness d/3. Each draw depends only on the seed and on its number. A modifier multiplies d;
+/// while d is zero there is no force.
 ///
 /// Source: haessig1991 in `docs/refs.bib`. Exact engine between snaps. Cost: about one event for each bristle and
 /// length d travelled, an event costs O(count).
@@ -38,7 +38,7 @@ class Bristle {
   [[nodiscard]] std::string_view aperiodic() const { return "its bristles snap at random"; }
 
  private:
-  // State: the places b_i in ascending order, so that the next to snap is the first or the last. Indices: the
+  // State: the positions b_i in ascending order, so that the next to snap is the first or the last. Indices: the
   // number of draws so far.
   [[nodiscard]] bool has_length(const Instant& now) const;
   [[nodiscard]] double draw_place(Memory& memory, const Instant& now) const;

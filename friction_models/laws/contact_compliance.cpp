@@ -15,10 +15,10 @@ namespace dualdamp::friction {
 
 namespace {
 
-/// A creeping slider has stopped when the force that drives it is this part of the static friction.
+/// A creeping slider counts as stopped when the force that drives it is this fraction of the static friction.
 constexpr double stopped = 1e-12;
-/// A force that differs from its limit by this part of the limit, and by this part of the terms that x and a make,
-/// is at its limit.
+/// A force is at its limit if it differs from it by less than the sum of the first fraction of the limit and the
+/// second fraction of the terms of x and a.
 constexpr double at_limit = 3e-10;
 constexpr double rounded = 1e-13;
 
@@ -41,7 +41,7 @@ const std::vector<Parameter>& ContactCompliance::parameters() {
        .unit = "N.s/m",
        .fallback = 0.0,
        .range = {.low = 0.0},
-       .meaning = "damper beside the contact spring"},
+       .meaning = "damper in parallel with the contact spring"},
   };
   return table;
 }
@@ -87,21 +87,21 @@ void ContactCompliance::affine_guards(const Memory& memory, const Instant& now, 
   const int side = sliding_side(memory);
   if (side == 0) {
     Affine force = affine_force(memory, now, direction);
-    // The difference from a force limit of nearly the same slope over position is small; its rounding error is not.
+    // The force limit may have nearly the same slope over position: then the difference is small, its rounding
+    // error not.
     force.cancelled = std::abs(force.constant);
     guards.push_back(break_away(memory, now, 1) - force);
     guards.push_back(break_away(memory, now, -1) + force);
   } else if (slider_stops_by_itself(now) || is_left_behind(side, direction)) {
     guards.push_back(slider_speed(memory, now));
-    // Under a limit that falls the slider of a mass at rest creeps on, from no speed at its break-away.
+    // Under a falling limit the slider creeps on beside a mass at rest, from zero speed at its break-away.
     const bool comes_to_rest = memory.mode == side * creeping && now.force_limit(kinetic_).rate >= 0.0;
     if (comes_to_rest) guards.back().constant -= slowest_creep(now.force_limit_now(static_));
   }
 }
 
-/// u' just after a break-away: u is continuous. The force is at its limit, and what is left of it beyond is
-/// rounding of x: divided by the damping it could be more than v. Only a step of the limits leaves the force well
-/// beyond.
+/// u' just after a break-away: u is continuous. The force is at its limit; a small excess is rounding of x, which
+/// divided by the damping could exceed v, so it is dropped. Only a step of the limits leaves a clear excess.
 double ContactCompliance::stretching_at_break_away(const Memory& memory, const Instant& now, int side) const {
   const double level = value(break_away(memory, now, side), now);
   const double beyond = side * value(affine_force(memory, now, {}), now) - level;
@@ -181,13 +181,13 @@ void ContactCompliance::advance(Memory& memory, const Instant& begin, const Inst
   if (sliding_side(memory) == 0 || !is_damped()) return;
   const Relaxation q = relaxation(memory, begin);
   const double left = q.relaxing * std::exp(-q.decay * duration);
-  // Subnormal numbers have fewer digits.
+  // Zero instead of subnormal numbers, which have fewer digits.
   memory.state[0] = q.settled + (std::abs(left) < std::numeric_limits<double>::min() ? 0.0 : left);
 }
 
 LawEntry contact_compliance_entry() {
   return {.name = "contact_compliance",
-          .summary = "Coulomb slider behind a contact spring, which may be damped",
+          .summary = "Coulomb slider in series with a contact spring, which may be damped",
           .equation =
               "stuck: F = contact_stiffness (x - a) + contact_damping v, |F| < static;  slipping: F = +-kinetic",
           .states = "position of the slider",

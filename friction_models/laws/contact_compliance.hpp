@@ -9,16 +9,16 @@
 ///     with damping      u' = q, contact_damping q = s kinetic - contact_stiffness u; ends when the slider's speed
 ///                       v - q is 0, not when v is
 ///
-/// Beside a mass at rest the speed of a damped slider falls towards 0 and never gets there: the slider creeps. It
-/// has stopped when the spring pulls it with less than 1e-12 static beyond kinetic, that is at the speed 1e-12
-/// static/contact_damping. So the next release meets static friction, and the limit of no damping is the motion
-/// without damping.
+/// Beside a mass at rest the speed of a damped slider falls towards 0 and never reaches it: the slider creeps. It
+/// counts as stopped when the spring pulls it with less than 1e-12 static beyond kinetic, that is at the speed
+/// 1e-12 static/contact_damping. So the next release must overcome static friction, and for vanishing damping the
+/// motion tends to that without damping.
 ///
 /// With static > kinetic the slider jumps at break-away: the force falls to kinetic, x and v do not change. The
 /// spring starts unstretched. Under force limits that vary with time or position the slip ends when the slider
-/// stops, which is not the instant at which the mass stops. A step of the force limits upward halts a slider that
-/// slides; it breaks away again at the kinetic limit, because no time has passed in which static friction could
-/// build up. Holds for contacts whose asperities deform elastically before sliding.
+/// stops, which is not the instant at which the mass stops. A step of the force limits upward halts a sliding
+/// slider; it breaks away again at the kinetic limit, because static friction had no time to build up. Holds for
+/// contacts whose asperities deform elastically before sliding.
 ///
 /// Source: liang2004identifying, jenkins1962 in `docs/refs.bib`. Exact engine; with damping not under
 /// limits that vary with position. Cost: two events a stroke.
@@ -44,17 +44,18 @@ class ContactCompliance {
   void affine_guards(const Memory& memory, const Instant& now, Direction, std::vector<Affine>& guards) const;
   void jump(Memory& memory, Trigger trigger, const Instant& now, Direction direction) const;
   void rates(const Memory& memory, const Instant& now, Direction, std::span<double> rates) const;
-  /// Of the slider and the damper.
+  /// Heat of the slider and the damper [W].
   [[nodiscard]] double dissipation(const Memory& memory, const Instant& now, Direction) const;
-  /// Of a: the stretch at break-away. Of q: that of v; of a slider that creeps, the speed at which it has stopped.
+  /// Size of a: the stretch at break-away. Size of q: that of v; for a creeping slider, the speed at which it
+  /// counts as stopped.
   void scales(const Memory& memory, std::span<double> scales) const;
   void advance(Memory& memory, const Instant& begin, const Instant& end, double duration, Direction) const;
 
  private:
   /// Modes; all but stuck are multiplied by the direction of the force, +1 or -1. Creeping: the slider of a damped
   /// contact slides beside a mass at rest. State: a when stuck or halted; q = u' when slipping with damping and
-  /// when creeping, because u would have to be known to the rounding of v times contact_damping/contact_stiffness;
-  /// none when slipping without damping.
+  /// when creeping, because from u the rate would be known only to the rounding of u times
+  /// contact_stiffness/contact_damping; none when slipping without damping.
   enum : int { stuck = 0, slipping = 1, halted = 2, creeping = 3 };
   /// The rate q [m/s] at which the spring of a damped contact that slips is stretched, as a function of time s
   /// since the interval began: settled + relaxing exp(-decay s).
@@ -64,7 +65,7 @@ class ContactCompliance {
     double decay = 0.0;
   };
 
-  /// In which direction the slider slides, +1 or -1; 0: it does not.
+  /// The direction in which the slider slides, +1 or -1; 0 if it does not slide.
   [[nodiscard]] static int sliding_side(const Memory& memory);
   [[nodiscard]] int sliding_mode(Direction direction) const {
     return is_damped() && direction == Direction::none ? creeping : slipping;

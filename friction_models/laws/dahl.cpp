@@ -14,7 +14,7 @@ const std::vector<Parameter>& Dahl::parameters() {
       {.name = "kinetic",
        .unit = "N",
        .range = {.low = 0.0, .low_open = true},
-       .meaning = "friction force of a long slip"},
+       .meaning = "friction force after a long slip"},
       {.name = "sigma0",
        .unit = "N/m",
        .range = {.low = 0.0, .low_open = true},
@@ -23,7 +23,7 @@ const std::vector<Parameter>& Dahl::parameters() {
        .unit = "1",
        .fallback = 1.0,
        .range = {.low = 1.0},
-       .meaning = "shape of the approach to the kinetic level"},
+       .meaning = "exponent of the approach to the kinetic friction force"},
   };
   return table;
 }

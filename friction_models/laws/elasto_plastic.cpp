@@ -71,7 +71,7 @@ double ElastoPlastic::dissipation(const Memory& memory, const Instant& now, Dire
 
 LawEntry elasto_plastic_entry() {
   return {.name = "elasto_plastic",
-          .summary = "LuGre bristles with an elastic range, which do not drift (Dupont and others)",
+          .summary = "LuGre bristles with an elastic range, so that they do not drift (Dupont and others)",
           .equation =
               "F = sigma0 z + sigma1 z' + sigma2 v;  z' = v (1 - alpha(z, v) sigma0 sgn(v) z/g(v)), alpha = 0 up "
               "to elastic_limit, g as in lugre",

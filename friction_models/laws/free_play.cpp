@@ -21,7 +21,7 @@ const std::vector<Parameter>& FreePlay::parameters() {
       {.name = "play",
        .unit = "m",
        .range = {.low = 0.0, .low_open = true},
-       .meaning = "way from one stop of the element to the other"},
+       .meaning = "distance from one stop of the element to the other"},
   };
   return table;
 }
@@ -66,7 +66,7 @@ void FreePlay::jump(Memory& memory, Trigger trigger, const Instant& now, Directi
 
 LawEntry free_play_entry() {
   return {.name = "free_play",
-          .summary = "Coulomb friction behind free play: no friction until the play is crossed",
+          .summary = "Coulomb friction with free play: no friction until the play is crossed",
           .equation =
               "free: F = 0 while |x - a| < play/2;  pushing: F = s kinetic, at v = 0 F = pull while 0 <= s pull "
               "<= static",

@@ -6,8 +6,8 @@
 ///   pushing   x = a + s play/2, s = +-1         F = s kinetic while slipping in direction s
 ///             at v = 0 the mass sticks while 0 <= s pull <= static
 ///
-/// a is the position of the element, which has no mass and moves with the mass while it is pushed. Where the mass
-/// turns, it leaves the stop and crosses the play without friction, by a pull of any size. The element starts in
+/// a is the position of the element, which has no mass and moves with the mass while it is pushed. At a reversal
+/// the mass leaves the stop under a pull of any size and crosses the play without friction. The element starts in
 /// the middle of its play. For play -> 0 the law is `coulomb`.
 ///
 /// Holds for backlash in a coupling to a damper, a seal in a wide groove, a worn pin. Loop of amplitude A > play/2:

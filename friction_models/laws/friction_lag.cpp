@@ -20,7 +20,7 @@ const std::vector<Parameter>& FrictionLag::parameters() {
     list.push_back({.name = "delay",
                     .kind = ParameterKind::flag,
                     .fallback = false,
-                    .meaning = "whether the lag is a pure delay instead of one of first order"});
+                    .meaning = "true: the lag is a pure delay; false: it is of first order"});
     return list;
   }();
   return table;
@@ -51,7 +51,7 @@ std::vector<Law> make_friction_lag(const ParameterValues& p) {
 
 LawEntry friction_lag_entry() {
   return {.name = "friction_lag",
-          .summary = "force against the motion that lags the speed",
+          .summary = "friction force that follows the speed with a lag",
           .equation =
               "slip: F = level sgn v;  stick: F = pull while |pull| <= level, level = g(|w|), w' = (v - w)/lag, or "
               "with delay g(|v(t - lag)|), g as the level of stribeck",

@@ -24,7 +24,7 @@
 
 namespace dualdamp::friction {
 
-/// The lag is one of first order. Mode: the sign of w, 0 before the first motion.
+/// A lag of first order. Mode: the sign of w, 0 before the first motion.
 class FrictionLag {
  public:
   static const std::vector<Parameter>& parameters();
@@ -40,7 +40,7 @@ class FrictionLag {
   }
   [[nodiscard]] double static_limit(const Memory& memory, const Instant& now) const { return level(memory, now); }
   void scales(const Memory&, std::span<double> scales) const { scales[0] = curve_.velocity(); }
-  /// |w|: the level has a kink where w changes its sign, which happens some time after v changes its sign.
+  /// |w|: the level has a kink where w changes its sign, some time after v does.
   void guards(const Memory& memory, const Instant&, Direction, std::vector<double>& values) const {
     if (memory.mode != 0) values.push_back(memory.mode * memory.state[0]);
   }
@@ -55,7 +55,7 @@ class FrictionLag {
   double lag_;
 };
 
-/// The lag is a pure delay.
+/// A pure delay.
 class DelayedFriction {
  public:
   /// s > 0.

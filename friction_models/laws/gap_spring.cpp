@@ -13,7 +13,7 @@ const std::vector<Parameter>& GapSpring::parameters() {
       {.name = "gap",
        .unit = "m",
        .range = {.low = 0.0},
-       .meaning = "way from x = 0 to the spring, on either side"},
+       .meaning = "distance from x = 0 to the spring, on either side"},
   };
   return table;
 }

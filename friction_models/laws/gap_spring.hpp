@@ -3,9 +3,9 @@
 ///
 ///   F = stiffness (x - s gap)  for s x > gap, s = +-1;   F = 0 for |x| <= gap            [N]
 ///
-/// As the only stiff spring it is a spring with backlash; beside another one, elastic stops. It stores energy and
-/// gives all of it back; in the energy account it counts as friction. Source: shaw1983 in `docs/refs.bib`. Exact
-/// engine. Cost: four events a period.
+/// As the only stiff spring it is a spring with backlash; beside another spring it is a pair of elastic stops. It
+/// stores energy and gives all of it back; in the energy account it counts as friction. Source: shaw1983 in
+/// `docs/refs.bib`. Exact engine. Cost: four events a period.
 
 #include <vector>
 

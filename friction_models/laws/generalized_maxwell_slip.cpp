@@ -99,8 +99,8 @@ void GeneralizedMaxwellSlip::guards(const Memory& memory, const Instant& now, Di
 }
 
 void GeneralizedMaxwellSlip::jump(Memory& memory, Trigger trigger, const Instant& now, Direction) const {
-  // Where there was no force limit no spring is stretched: what is left of F_i, the quotient of two vanishing
-  // numbers, is not carried on.
+  // Where there was no force limit no spring is stretched. F_i is set to zero, since it would be a quotient of two
+  // vanishing numbers.
   if (trigger.cause == Trigger::limit_change && curve_.level(now, 0.0) == 0.0) memory = start(now);
   if (trigger.cause == Trigger::direction_change) std::ranges::fill(memory.indices, stuck);
   if (trigger.cause < 0) return;

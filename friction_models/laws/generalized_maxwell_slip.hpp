@@ -38,7 +38,7 @@ class GeneralizedMaxwellSlip {
   static const std::vector<Parameter>& parameters();
   /// The fault of shares that do not add to 1.
   static std::vector<ParameterFault> check(const ParameterValues& values);
-  /// That these values are not passive.
+  /// A warning if these values are not passive.
   static std::vector<std::string> warnings(const ParameterValues& values);
 
   /// attraction > 0 [N/s]
@@ -52,7 +52,7 @@ class GeneralizedMaxwellSlip {
   void guards(const Memory& memory, const Instant& now, Direction direction, std::vector<double>& values) const;
   void jump(Memory& memory, Trigger trigger, const Instant&, Direction) const;
   void scales(const Memory&, std::span<double> scales) const;
-  /// F v minus the power that the springs store.
+  /// F v minus the power stored in the springs.
   [[nodiscard]] double dissipation(const Memory& memory, const Instant& now, Direction direction) const;
 
  private:

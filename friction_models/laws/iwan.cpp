@@ -16,9 +16,9 @@ namespace {
 /// Slip distances that differ by less than this, relative, count as equal: they may differ by the rounding of f/k.
 constexpr double equal = 1e-12;
 
-/// The stack of segments in a Memory. Mode: the direction in which elements slide, 0 when none does. Indices: two
+/// The stack of segments in a Memory. Mode: the direction in which elements slide, 0 if none slides. Indices: two
 /// for each segment, from the bottom up. State: the reversal point of each segment. All elements before the first
-/// one of the top segment slide.
+/// element of the top segment slide.
 class Segments {
  public:
   struct Segment {
@@ -152,7 +152,7 @@ Affine Iwan::affine_force(const Memory& memory, const Instant&, Direction) const
   return force;
 }
 
-/// The next element to slide is the stuck one of the smallest slip distance.
+/// The next element to slide is the stuck one with the smallest slip distance.
 void Iwan::affine_guards(const Memory& memory, const Instant&, Direction direction,
                          std::vector<Affine>& guards) const {
   const Segments segments(memory, count());

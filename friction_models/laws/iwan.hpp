@@ -36,15 +36,15 @@ class Iwan {
   };
 
   static const std::vector<Parameter>& parameters();
-  /// From `elements`, or else `stiffness`, `limit`, `count`.
+  /// From the values of `elements`, or of `stiffness`, `limit` and `count`.
   [[nodiscard]] static std::vector<Element> elements(const ParameterValues& values);
   /// Slip distances spread evenly from 0 to 2 limit/stiffness: k_i = stiffness/n, f_i = 2 limit (i + 1/2)/n^2.
   [[nodiscard]] static std::vector<Element> uniform(double stiffness, double limit, int count);
 
   /// The modifiers that elements in parallel take.
   [[nodiscard]] static std::vector<std::string_view> modifiers() { return {"drift", "fluctuation"}; }
-  /// The elements as one law, or under modifiers among `values` as many: limits that vary change the order in which
-  /// the elements slide, so each is then a law of its own.
+  /// The elements as one law. With modifiers among `values` each element is a law of its own, since varying limits
+  /// change the order in which the elements slide.
   [[nodiscard]] static std::vector<Law> laws(std::vector<Element> elements, const ParameterValues& values);
 
   /// At least one element, in any order.
@@ -55,7 +55,7 @@ class Iwan {
   void affine_guards(const Memory& memory, const Instant& now, Direction, std::vector<Affine>& guards) const;
   void jump(Memory& memory, Trigger trigger, const Instant& now, Direction direction) const;
   void rates(const Memory& memory, const Instant& now, Direction, std::span<double> rates) const;
-  /// Of positions that matter to the parts of the smallest slip distance.
+  /// The smallest slip distance, for every state.
   void scales(const Memory& memory, std::span<double> scales) const;
 
  private:

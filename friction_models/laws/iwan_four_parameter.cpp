@@ -20,11 +20,11 @@ const std::vector<Parameter>& IwanFourParameter::parameters() {
        .unit = "1",
        // Beyond 20 powers of small slip distances leave double precision; joints have -1 to 0.
        .range = {.low = -1.0, .high = 20.0, .low_open = true},
-       .meaning = "chi: the work of a loop goes by the power chi + 3 of its amplitude"},
+       .meaning = "chi: the work of a loop is proportional to the power chi + 3 of its amplitude"},
       {.name = "beta",
        .unit = "1",
        .range = {.low = 0.0, .high = 1e6},
-       .meaning = "stiffness of the element that slides last over that of all others"},
+       .meaning = "stiffness of the element that slides last, divided by that of all others"},
       {.name = "count",
        .kind = ParameterKind::count,
        .fallback = 100.0,
@@ -34,7 +34,8 @@ const std::vector<Parameter>& IwanFourParameter::parameters() {
        .unit = "1",
        .fallback = 1e-4,
        .range = {.low = 1e-12, .high = 1.0, .high_open = true},
-       .meaning = "slip distance down to which the elements resolve the power law, over the largest one"},
+       .meaning = "smallest slip distance at which the elements resolve the power law, relative to the largest "
+                  "one"},
   };
   return table;
 }
@@ -61,7 +62,7 @@ std::vector<Iwan::Element> IwanFourParameter::elements(int count, double smalles
     const double k = spread * (std::pow(edge, power) - std::pow(below, power));
     const double f =
         spread * largest * power / (power + 1.0) * (std::pow(edge, power + 1.0) - std::pow(below, power + 1.0));
-    // A steep power leaves nothing in the smallest cells.
+    // With a steep power the smallest cells may be empty.
     if (k > 0.0 && f > 0.0) elements.push_back({k, f});
     below = edge;
   }

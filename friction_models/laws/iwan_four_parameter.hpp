@@ -14,14 +14,14 @@
 ///   first loading        F = K_T x - R x^(exponent+2)/((exponent+1)(exponent+2)),            x <= phi_max      [N]
 ///   work of a loop       W = 4 R A^(exponent+3)/((exponent+2)(exponent+3)),   amplitude A <= phi_max           [J]
 ///
-/// The dissipation goes by the power exponent + 3 of the amplitude, between 2 and 3 as joints do in tests.
+/// The dissipation grows with the power exponent + 3 of the amplitude; joints in tests have powers between 2 and 3.
 ///
 /// Discretisation: `count` elements take the cells of a grid over phi and one takes S. The first cell reaches from
 /// 0 to smallest phi_max, the edges of the others grow by the same ratio q to phi_max. An element has the stiffness
 /// and the limit of its cell, so that
-///   * what sliding takes from the first loading, K_T x - F, is exact where x is an edge, and between edges it is
-///     too small by the part (exponent + 1)(exponent + 2)(ln q)^2/8 at most;
-///   * the work of a loop is too large by the part
+///   * the force that sliding takes away in first loading, K_T x - F, is exact where x is an edge, and between
+///     edges too small by at most the fraction (exponent + 1)(exponent + 2)(ln q)^2/8;
+///   * the work of a loop is too large by the fraction
 ///         (exponent + 2)(ln q)^2/12 + (smallest phi_max/A)^(exponent+3)/(exponent+2)
 ///     where A is an edge;
 /// both to the leading order of ln q. With 100 elements down to 1e-4, ln q = 0.093: less than 0.3 % each for an

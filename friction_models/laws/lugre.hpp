@@ -11,8 +11,8 @@
 ///
 /// The model has two known faults. Under a load that oscillates below break-away about a mean value the mass drifts
 /// (dupont2002; under `elasto_plastic` it does not). And the law may give out more work than it took in, if and
-/// only if sigma2 < sigma1 (static - kinetic)/kinetic (barabanov2000): bristles that were loaded slowly beyond the
-/// kinetic level and are released in a fast stroke push the mass by sigma1 z'.
+/// only if sigma2 < sigma1 (static - kinetic)/kinetic (barabanov2000): bristles that are loaded slowly beyond the
+/// kinetic level and released in a fast stroke push the mass by sigma1 z'.
 ///
 /// Source: canudas1995, barabanov2000, dupont2002 in `docs/refs.bib`. Smooth engine; z is fast, at a rate of sigma0
 /// |v|/g. Cost: one exponential a call.
@@ -39,7 +39,7 @@ class Lugre {
     [[nodiscard]] double force(double z, double rate, double v) const {
       return sigma0 * z + sigma1 * rate + sigma2 * v;
     }
-    /// F v minus the power that the bristles store [W].
+    /// F v minus the power stored in the bristles [W].
     [[nodiscard]] double heat(double z, double rate, double v) const {
       return force(z, rate, v) * v - sigma0 * z * rate;
     }
@@ -47,7 +47,7 @@ class Lugre {
 
   static const std::vector<Parameter>& parameters();
   [[nodiscard]] static Bristles bristles(const ParameterValues& values);
-  /// That these values are not passive.
+  /// A warning if these values are not passive.
   static std::vector<std::string> warnings(const ParameterValues& values);
 
   Lugre(const StribeckCurve& curve, const Bristles& bristles) : curve_(curve), bristles_(bristles) {}

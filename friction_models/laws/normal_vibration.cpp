@@ -29,8 +29,8 @@ const std::vector<Parameter>& NormalVibration::parameters() {
       {.name = "normal_damping_ratio",
        .unit = "1",
        .range = not_negative,
-       .meaning = "damping of small normal vibrations relative to critical"},
-      {.name = "lift", .unit = "N.s/m", .range = not_negative, .meaning = "lift per speed at low speed"},
+       .meaning = "damping ratio of small normal vibrations"},
+      {.name = "lift", .unit = "N.s/m", .range = not_negative, .meaning = "lift force per speed at low speed"},
       {.name = "lift_velocity",
        .unit = "m/s",
        .range = positive,
@@ -77,7 +77,7 @@ double NormalVibration::respond(const Memory& memory, const Instant& now, Direct
 LawEntry normal_vibration_entry() {
   return {
       .name = "normal_vibration",
-      .summary = "Coulomb friction under a normal load that vibrates, lifted by slip",
+      .summary = "Coulomb friction under a vibrating normal load, with a lift that grows with the speed",
       .equation =
           "F = mu N sgn v, N = weight (1 - y/h0)^2 while y < h0;  normal_mass y'' + d y' = N - weight + lift "
           "|v|/(1 + |v|/lift_velocity);  stick: F = pull while |pull| <= mu_static N",

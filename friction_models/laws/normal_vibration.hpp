@@ -10,8 +10,8 @@
 /// may open; it then has no friction. At constant speed N = weight - lift: the level falls with speed, with a lag
 /// of about one period of the contact. Without lift the law is exactly coulomb.
 ///
-/// A reduction of our own: the contact spring of exponent 2 and the free normal motion are those of oden1985, that
-/// slip lifts the rider is the finding of tolstoi1967. Tangential bristles are left out
+/// A reduction of our own: the contact spring of exponent 2 and the free normal motion are those of oden1985;
+/// tolstoi1967 found that slip lifts the rider. Tangential bristles are left out
 /// (`docs/decisions/018-normal-vibration.md`). Smooth engine; the contact may be fast, at sqrt(k/normal_mass).
 /// Cost: one division a call.
 
@@ -39,7 +39,7 @@ class NormalVibration {
   };
 
   static const std::vector<Parameter>& parameters();
-  /// That the lift at high speed exceeds the weight.
+  /// A warning if the lift at high speed exceeds the weight.
   static std::vector<std::string> warnings(const ParameterValues& values);
 
   explicit NormalVibration(const Rider& rider);

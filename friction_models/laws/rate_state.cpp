@@ -11,12 +11,12 @@ namespace dualdamp::friction {
 
 namespace {
 
-/// asinh(ratio exp(exponent)), where the exponential alone may overflow.
+/// asinh(ratio exp(exponent)); the exponential alone may overflow.
 double asinh_scaled(double ratio, double exponent) {
   constexpr double largest = 300.0;
   if (exponent < largest) return std::asinh(ratio * std::exp(exponent));
   if (ratio == 0.0) return 0.0;
-  // asinh y = ln 2y + O(1/y^2); below that y is so small that the speed is none.
+  // asinh y = ln 2y + O(1/y^2), used where y itself may overflow.
   const double logarithm = exponent + std::log(std::abs(ratio));
   if (logarithm < largest) return std::copysign(std::asinh(std::exp(logarithm)), ratio);
   return std::copysign(logarithm + std::numbers::ln2, ratio);
@@ -55,14 +55,14 @@ const std::vector<Parameter>& RateState::parameters() {
 }
 
 std::vector<std::string> RateState::warnings(const ParameterValues& values) {
-  // While the mass creeps its contacts age. Up to 40 such motions are followed. Beyond, some are given up, and from
-  // 60 on reversals of a creep have been listed that a run at a tighter tolerance does not have.
+  // While the mass creeps its contacts age. Up to mu0/a = 40 such motions are computed. Above, some are given up,
+  // and from 60 on some runs had reversals of a creep that a run with a tighter tolerance does not have.
   constexpr double largest = 40.0;
   const double ratio = values.number("mu0") / values.number("a");
   if (ratio <= largest) return {};
   return {
-      "at a reversal the force turns over within exp(-mu0/a) = exp(-" + core::format_number(ratio, 3) +
-      ") of the reference velocity: a motion that creeps may be given up, and how often it turns while it creeps "
+      "at a reversal the force changes its sign within exp(-mu0/a) = exp(-" + core::format_number(ratio, 3) +
+      ") of the reference velocity: a creeping motion may be given up (status 4), and the number of its reversals "
       "is uncertain"};
 }
 
@@ -89,7 +89,8 @@ double RateState::respond(const Memory& memory, const Instant& now, Direction di
 
 LawEntry rate_state_entry() {
   return {.name = "rate_state",
-          .summary = "friction that rises with ln of speed immediately and falls with it over a slip distance",
+          .summary =
+              "friction that rises with ln of speed immediately, and falls with ln of speed over a slip distance",
           .equation =
               "F = a normal_force asinh(v/(2 V0) exp((mu0 + b psi)/a));  aging: psi' = (V0/Dc) (exp(-psi) - "
               "|v|/V0);  slip: psi' = -(|v|/Dc) (ln(|v|/V0) + psi)",

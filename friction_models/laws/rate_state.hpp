@@ -1,5 +1,5 @@
 #pragma once
-/// Rate and state: when the speed grows, friction grows at once, and then falls over a distance of slip.
+/// Rate and state: when the speed rises, friction first rises at once and then falls over a distance of slip.
 ///
 ///   F = a N asinh(v/(2 V0) exp((mu0 + b psi)/a))   [N]
 ///   psi' = (V0/Dc) (exp(-psi) - |v|/V0)            aging: contacts grow with time, also at v = 0
@@ -12,8 +12,8 @@
 /// stick-slip below the stiffness N (b - a)/Dc (1 + m V^2/(N a Dc)).
 ///
 /// The mass never sticks, it creeps: near v = 0 the law is a dashpot of a N/(2 V0) exp((mu0 + b psi)/a), which for
-/// a << mu0 is extremely large. The logarithm is measured for |v| far from 0; a motion that reverses depends on the
-/// regularisation by asinh.
+/// a << mu0 is extremely large. The logarithm is measured only for |v| far from 0; a motion that reverses depends
+/// on the regularisation by asinh.
 ///
 /// Source: dieterich1979 (aging), ruina1983 (slip), rice1983 (stability), rice2001 (asinh) in `docs/refs.bib`.
 /// Smooth engine, implicit steps. Cost: an exponential, a logarithm and a root a call.
@@ -42,7 +42,7 @@ class RateState {
   };
 
   static const std::vector<Parameter>& parameters();
-  /// That these values are not for motions that reverse.
+  /// A warning if these values do not suit motions that reverse.
   static std::vector<std::string> warnings(const ParameterValues& values);
 
   explicit RateState(const Contact& contact) : contact_(contact) {}

@@ -32,7 +32,7 @@ class ResetIntegrator {
   void affine_guards(const Memory& memory, const Instant& now, Direction, std::vector<Affine>& guards) const;
   void jump(Memory& memory, Trigger trigger, const Instant& now, Direction direction) const;
   void rates(const Memory& memory, const Instant& now, Direction, std::span<double> rates) const;
-  /// Of positions that matter to the parts of a bond's largest stretch.
+  /// The largest stretch of the bond.
   void scales(const Memory& memory, std::span<double> scales) const;
 
  private:

@@ -7,7 +7,7 @@
 /// `level`: see `stribeck_curve.hpp`. For stribeck_velocity -> 0 the law becomes coulomb with static above kinetic.
 /// At low speed the slope of the curve acts as a negative damping, down to -(static - kinetic)
 /// sqrt(2/e)/stribeck_velocity for exp(-(v/vs)^2). Where its modulus exceeds the damping of the oscillator, steady
-/// slip is unstable and stick-slip follows. The level depends on the present speed only; so the law holds for
+/// slip is unstable and stick-slip follows. The level depends only on the present speed, so the law holds for
 /// lubricated contacts at speeds that change slowly.
 ///
 /// Source: stribeck1902, armstrong1994 in `docs/refs.bib`. Smooth engine. Cost: one exponential a call.

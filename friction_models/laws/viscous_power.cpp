@@ -12,11 +12,11 @@ const std::vector<Parameter>& ViscousPower::parameters() {
        .unit = "m/s",
        .fallback = 1.0,
        .range = {.low = 0.0, .low_open = true},
-       .meaning = "reference speed of the power"},
+       .meaning = "speed at which the force equals the coefficient"},
       {.name = "exponent",
        .unit = "1",
        .range = {.low = 0.0, .low_open = true},
-       .meaning = "exponent of the speed: 1 a dashpot, 2 drag"},
+       .meaning = "exponent of the speed: 1 for a dashpot, 2 for drag"},
   };
   return table;
 }

@@ -1,5 +1,5 @@
 #pragma once
-/// Viscous friction in proportion to a power of the speed.
+/// Viscous friction proportional to a power of the speed.
 ///
 ///   F = coefficient (|v|/reference_velocity)^exponent sgn v            [N]
 ///

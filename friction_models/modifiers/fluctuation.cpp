@@ -6,13 +6,13 @@ namespace dualdamp::friction {
 
 namespace {
 
-/// Another stream than the one from which a law of the same seed draws.
+/// Another stream than that of a law with the same seed.
 constexpr std::uint32_t stream = 1;
 
 /// Cells this far apart do not correlate.
 constexpr int block = 512;
 
-/// Of two cells `distance` apart.
+/// Correlation of two cells `distance` apart.
 double correlation(int distance) { return std::exp(-distance / Fluctuation::cells_per_correlation); }
 
 }  // namespace

@@ -6,10 +6,10 @@
 /// draw i.
 ///
 /// Over position the mass may reach a cell from either side and more than once, so each level must follow from the
-/// number of its cell alone. This is Levy's construction: every 512th cell has n_i = g_i, because rho^512 = 6e-23
-/// is no correlation. Between two known cells, h cells away on either side, the middle one has (n_a + n_b) r/(1 +
-/// r^2) + sqrt((1 - r^2)/(1 + r^2)) g_i with r = rho^h: the distribution of the process given both ends. At most 11
-/// draws a level.
+/// number of its cell alone. This is Levy's construction: every 512th cell has n_i = g_i, because the correlation
+/// rho^512 = 6e-23 is negligible. Between two known cells, h cells away on either side, the middle one has (n_a +
+/// n_b) r/(1 + r^2) + sqrt((1 - r^2)/(1 + r^2)) g_i with r = rho^h: the distribution of the process given both
+/// ends. At most 11 draws a level.
 ///
 /// Source: uhlenbeck1930, levy1948 in `docs/refs.bib`.
 
@@ -25,10 +25,10 @@ class Fluctuation {
 
   explicit Fluctuation(std::uint64_t seed);
 
-  /// Over time: of the first cell, and of cell `next` after one of this level.
+  /// Over time: the level of the first cell, and of cell `next` after a cell of this level.
   [[nodiscard]] double first() const { return draw(0); }
   [[nodiscard]] double after(double level, int next) const;
-  /// Over position: of any cell.
+  /// Over position: the level of any cell.
   [[nodiscard]] double at(int cell) const;
 
  private:

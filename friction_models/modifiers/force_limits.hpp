@@ -1,7 +1,7 @@
 #pragma once
-/// How modifiers move the force limits of a law (`modified.hpp` has the equation): the force limits at an instant,
-/// the guards and times at which their course changes, and the course after each change. Nothing here knows the
-/// law.
+/// How modifiers change the force limits of a law (`modified.hpp` has the equation): the force limits at an
+/// instant, the guards and times at which their course changes, and the course after each change. This file is
+/// independent of the law.
 
 #include <cstdint>
 #include <limits>
@@ -28,7 +28,7 @@ struct ModifierSettings {
   double warming_time = std::numeric_limits<double>::infinity();   ///< s
 
   ModifierSettings() = default;
-  /// From the parameters of a law; without a modifier among them it does nothing.
+  /// From the parameters of a law; without effect if no modifier is among them.
   explicit ModifierSettings(const ParameterValues& values);
 
   [[nodiscard]] bool warms() const { return warming_power < std::numeric_limits<double>::infinity(); }
@@ -54,12 +54,12 @@ class ForceLimits {
   [[nodiscard]] const ModifierSettings& settings() const { return settings_; }
 
   [[nodiscard]] ModifierCourse start(const Instant& now) const;
-  /// `now` with the modification of the force limits. `power`: what the law turned to heat of late [W].
+  /// `now` with the modification of the force limits. `power`: mean of the power that the law turned to heat [W].
   [[nodiscard]] Instant at(const ModifierCourse& course, double power, Instant now) const;
-  /// No force limit is left: there is no contact, until one returns.
+  /// All force limits are zero: there is no contact until one comes back.
   [[nodiscard]] bool are_gone(const ModifierCourse& course) const;
 
-  /// When the course changes next, whatever the motion does [s].
+  /// The next time at which the course changes, whatever the motion does [s].
   [[nodiscard]] double next_change(const ModifierCourse& course) const;
   /// The course after that change, due at this time.
   [[nodiscard]] ModifierCourse after_change(const ModifierCourse& course, double due) const;
@@ -73,7 +73,7 @@ class ForceLimits {
   /// The course after that guard.
   [[nodiscard]] ModifierCourse after_guard(const ModifierCourse& course, int guard) const;
 
-  /// How many force limits are zero after a step of all of them.
+  /// The number of force limits that are zero after a step of all of them.
   [[nodiscard]] int vanished(const ModifierCourse& course, double power, const Instant& now) const;
   /// The factor of the fluctuation, >= 0.
   [[nodiscard]] double fluctuation(const ModifierCourse& course) const;
@@ -85,7 +85,7 @@ class ForceLimits {
   /// The load relative to that at x = 0 without modulation, where it is not gone.
   [[nodiscard]] double load(double x) const { return 1.0 + settings_.load_gradient * x; }
   [[nodiscard]] int load_guards() const { return settings_.load_gradient != 0.0 ? 1 : 0; }
-  /// Those of the load and of the cells.
+  /// The number of guards of the load and of the cells.
   [[nodiscard]] int first_guards() const { return load_guards() + (settings_.varies_over_position() ? 2 : 0); }
 
   ModifierSettings settings_;

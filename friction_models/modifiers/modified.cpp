@@ -15,13 +15,13 @@ namespace {
 /// Beyond rounding, relative.
 constexpr double clearly = 1e-12;
 
-/// What a modified law remembers, in its parts: the memory of the law inside, and the power that it turned to heat
-/// of late, which under warming is the last state.
+/// The memory of a modified law in its parts: the memory of the law inside, and under warming, as the last state,
+/// the mean power that the law turned to heat.
 class Parts {
  public:
   Parts(const Memory& memory, bool warms) : whole_(memory) {
     if (!warms) return;
-    // Not a copy cut short: most laws under warming have no state of their own, and then nothing is allocated.
+    // Copied member by member: most laws under warming have no state of their own, and then nothing is allocated.
     own_ = Memory{.mode = memory.mode,
                   .indices = memory.indices,
                   .state = {memory.state.begin(), memory.state.end() - 1},
@@ -39,7 +39,7 @@ class Parts {
   double power_ = 0.0;
 };
 
-/// The same taken apart for a change. The law inside does not keep the course.
+/// The same parts for a change. The law inside does not keep the course.
 struct OpenParts {
   Memory& inner;
   ModifierCourse course;
@@ -82,7 +82,7 @@ class ModifiedLaw final : public LawModel,
     return law_.static_limit(parts.inner(), limits_.at(parts.course(), parts.power(), now));
   }
 
-  // The four below are asked only where the force limits are affine.
+  // The four functions below are called only if the force limits are affine.
   [[nodiscard]] Affine affine_force(const Memory& memory, const Instant& now, Direction direction) const override {
     if (limits_.are_gone(memory.course)) return {};
     return law_.affine_force(memory, limits_.at(memory.course, 0.0, now), direction);
@@ -188,8 +188,8 @@ void ModifiedLaw::warm(Instant& modified, double rate) const {
   m.factor_rate -= (m.factor + m.factor_slope * modified.x) * rate / limits_.settings().warming_power;
 }
 
-/// d(power)/dt [W/s]. A stretched spring gives off heat when it relaxes with its force limit; that heat is left
-/// out: it is of second order in the compliance, and it depends on the rate that is to be found.
+/// d(power)/dt [W/s]. A stretched spring gives off heat when it relaxes with its force limit. This heat is
+/// neglected: it is of second order in the compliance, and it depends on the rate that is computed here.
 double ModifiedLaw::warming_rate(const Memory& inner, const ModifierCourse& course, double power,
                                  const Instant& now, Direction direction) const {
   const double heat = limits_.are_gone(course) ? 0.0 : law_.dissipation(inner, now, direction);
@@ -210,23 +210,23 @@ double ModifiedLaw::respond(const Memory& memory, const Instant& now, Direction 
   return limits_.are_gone(parts.course()) ? 0.0 : law_.respond(parts.inner(), modified, direction, rates);
 }
 
-/// The law decides again under the force limits of the present course.
+/// The law inside decides again, under the force limits of the present course.
 void ModifiedLaw::look_again(OpenParts& parts, const Instant& now, Direction direction) const {
   law_.jump(parts.inner, {Trigger::limit_change}, modify(parts, now, direction), direction);
 }
 
-/// At a guard of the force limits: x enters another cell, or the limits go on from the same value.
+/// At a guard of the force limits: x enters another cell, or the limits continue from the same value.
 void ModifiedLaw::pass_guard(OpenParts& parts, int guard, const Instant& now, Direction direction) const {
   const ModifierCourse next = limits_.after_guard(parts.course, guard);
   const ForceLimits::Ending ending = limits_.ending(guard);
   if (ending == ForceLimits::Ending::cell) return step_to(next, parts, now, direction);
-  // A limit that no longer moves may end a slip otherwise than one that does.
+  // A slip may end in another way under a constant limit than under a changing one.
   if (ending == ForceLimits::Ending::force_limit || ending == ForceLimits::Ending::load)
     look_again(parts, now, direction);
   parts.course = next;
 }
 
-/// At a time of the schedule, that of the law or that of the force limits.
+/// At a scheduled time, of the law or of the force limits.
 void ModifiedLaw::change_by_schedule(OpenParts& parts, const Instant& now, Direction direction) const {
   const double own = law_.next_change(parts.inner);
   const double due = std::min(own, limits_.next_change(parts.course));
@@ -237,15 +237,15 @@ void ModifiedLaw::change_by_schedule(OpenParts& parts, const Instant& now, Direc
 /// The force limits change by a step.
 void ModifiedLaw::step_to(ModifierCourse next, OpenParts& parts, const Instant& now, Direction direction) const {
   next.vanished = limits_.vanished(next, parts.power, now);
-  // Under a limit that falls, what slides goes on sliding; states that move may hold for one limit only.
+  // Under a falling limit a slider goes on sliding; moving states may be valid for one limit only.
   const bool rises = limits_.fluctuation(next) > limits_.fluctuation(parts.course);
   if (rises || law_.advances() || next.vanished != parts.course.vanished) look_again(parts, now, direction);
   parts.course = next;
   if (!limits_.are_gone(next)) settle(parts, modify(parts, now, direction), direction);
 }
 
-/// After a step: the law passes those of its guards that are clearly violated. So laws that step together need no
-/// more events than one.
+/// After a step: the law passes those of its guards that are clearly violated. So several laws that step together
+/// need only one event.
 void ModifiedLaw::settle(OpenParts& parts, const Instant& now, Direction direction) const {
   if (!law_.is_affine()) return;
   std::vector<Affine> guards;

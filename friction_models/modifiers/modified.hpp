@@ -4,20 +4,19 @@
 ///   max(0, max(0, 1 + drift t) max(0, 1 + ratio n) exp(-p/power) N L + position_slope |x|)     [N]
 ///   N = max(0, 1 + load_gradient x) (1 + modulation cos(order w t + phase))
 ///
-/// the factors first, then the slope. N is the load of the contact; without it there is no friction. w is the
-/// frequency of a harmonic excitation. n is the process of `fluctuation.hpp`, either over time, stationary from the
-/// start, or over position, with the middle of cell 0 at x = 0. p [W] is a state: time_constant p' = P - p, where P
-/// is the power that the law turns to heat, and p = 0 at the start.
+/// The factors act first, then the slope. N is the load of the contact; where it is lost there is no friction,
+/// whatever the slope. w is the frequency of a harmonic excitation. n is the process of `fluctuation.hpp`, either
+/// over time, stationary from the start, or over position, with the middle of cell 0 at x = 0. p [W] is a state:
+/// time_constant p' = P - p, where P is the power that the law turns to heat, and p = 0 at the start.
 ///
 /// The law inside reads its force limits from `Instant::modification`. Between the events below they are affine in
 /// t and x, so an affine law stays affine, unless it warms, its load is modulated, or its load varies with x while
 /// its limits drift. The wrapper adds events to those of the law:
 ///   times    the end of each cell; the end of a falling drift at t = -1/drift.
 ///   guards   where the load is lost or comes back; the ends of cells over position; x = 0, where the slope changes
-///   its sign; a force limit that becomes zero,
-///            or comes back.
-/// Where force limits rise by a step the law first gets `Trigger::limit_change` under the old ones. While no force
-/// limit is left the law has no force; it starts again, unstretched, where a force limit comes back.
+///            its sign; a force limit that becomes zero, or comes back.
+/// Before force limits rise by a step the law gets `Trigger::limit_change` under the old limits. While all force
+/// limits are zero the law has no force; when one comes back the law starts again, unstretched.
 ///
 /// Cost: a few operations a call; with warming also a copy of what the law remembers.
 
@@ -28,8 +27,8 @@
 
 namespace dualdamp::friction {
 
-/// `law` under the modifiers among `values`; itself when there is none, or none does anything. `limits`: the
-/// nominal force limits of a law that supports `position_slope` [N].
+/// `law` under the modifiers among `values`; `law` itself if no modifier has an effect. `limits`: the nominal force
+/// limits of a law that supports `position_slope` [N].
 [[nodiscard]] Law modified(const Law& law, const ParameterValues& values, std::vector<double> limits = {});
 
 }  // namespace dualdamp::friction

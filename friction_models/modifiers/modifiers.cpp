@@ -20,7 +20,7 @@ Parameter load_modulation() {
                   .fallback = 1.0,
                   .range = {.low = 1.0, .high = 1000.0},
                   .meaning = "multiple of the excitation's frequency"},
-                 {.name = "phase", .unit = "rad", .fallback = 0.0, .meaning = "of cos(order w t + phase)"}},
+                 {.name = "phase", .unit = "rad", .fallback = 0.0, .meaning = "phase in cos(order w t + phase)"}},
       .is_optional = true,
       .meaning = "load of the contact that follows a harmonic excitation; the force limits are proportional to it"};
 }
@@ -77,7 +77,7 @@ const std::vector<Parameter>& modifier_parameters() {
                   {.name = "time_constant",
                    .unit = "s",
                    .range = {.low = 0.0, .low_open = true},
-                   .meaning = "time in which the contact warms and cools"}},
+                   .meaning = "time constant with which the contact warms and cools"}},
        .is_optional = true,
        .meaning = "fall of the force limits with the power that friction turns to heat"},
   };

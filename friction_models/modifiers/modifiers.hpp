@@ -1,6 +1,6 @@
 #pragma once
-/// Modifiers: what may change the force limits of a law beside its own equation (`modified.hpp`). The entry of a
-/// law names those that it supports; they are among its parameters. The factors act first, then the slope.
+/// Modifiers change the force limits of a law (`modified.hpp` has the equation). The entry of a law names the
+/// modifiers that it supports; they are parameters of the law. The factors act first, then the slope.
 ///
 ///   drift           limits multiplied by max(0, 1 + drift t)
 ///   position_slope  limits plus position_slope |x|, at least 0
@@ -21,10 +21,10 @@
 
 namespace dualdamp::friction {
 
-/// All of them, each optional: absent, it does nothing.
+/// The parameters of all modifiers, each optional; an absent modifier has no effect.
 [[nodiscard]] const std::vector<Parameter>& modifier_parameters();
 
-/// The names of all of them.
+/// The names of all modifiers; of all but one.
 [[nodiscard]] std::vector<std::string_view> all_modifiers();
 [[nodiscard]] std::vector<std::string_view> all_modifiers_but(std::string_view name);
 

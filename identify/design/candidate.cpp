@@ -11,7 +11,7 @@ using States = std::vector<PlannedState>;
 
 double cost_of(const States& states) { return static_cast<double>(states.size()); }
 
-/// `count` states at each of some levels.
+/// `counts[i]` states at level i.
 States at_levels(const std::vector<double>& levels, const std::vector<int>& counts, double omega) {
   States states;
   for (std::size_t i = 0; i < levels.size(); ++i)
@@ -19,7 +19,7 @@ States at_levels(const std::vector<double>& levels, const std::vector<int>& coun
   return states;
 }
 
-/// Counts that share `all` out as 1 : 1 or 2 : 1 : 1, the rest to the first.
+/// Divides `all` states among the levels as 1 : 1 or 2 : 1 : 1; the first gets the remainder.
 std::vector<int> shared_out(int all, int levels) {
   const int each = levels == 2 ? all / 2 : all / 4;
   std::vector<int> counts(static_cast<std::size_t>(levels), std::max(each, 1));
@@ -41,7 +41,7 @@ States scaled(States states, double level, double frequency) {
   return states;
 }
 
-/// Across the resonance, where the response falls to about half.
+/// States across the resonance, to where the response has fallen to about half.
 States resonance_curve(double Y, double natural, double zeta, int count) {
   States states;
   const double reach = std::clamp(2.0 * zeta, 0.01, 0.3);

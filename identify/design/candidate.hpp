@@ -1,5 +1,5 @@
 #pragma once
-/// Measurements that could follow a record: what the advice chooses from.
+/// Measurements that could follow a record, for the advice to compare.
 
 #include <string>
 #include <variant>
@@ -31,14 +31,14 @@ struct CandidateMeasurement {
   std::string name;  ///< "phase of the same states", one line
   MeasurementPlan plan;
   bool phases = false;  ///< recorded beside the amplitudes of x
-  /// Only phases: their amplitudes are those of the record and are no news.
+  /// Only the phases are new: the amplitudes are those of the record.
   bool only_phases = false;
-  double cost = 0.0;  ///< states, or releases
+  double cost = 0.0;  ///< number of states, or of releases
 };
 
 /// What a laboratory with this record could do next with the same rig: record the phase, repeat, take two or three
-/// levels more often, go to higher levels, another frequency, the resonance curve, or a release. `zeta`: about, for
-/// the width of the resonance.
+/// levels more often, go to higher levels, another frequency, the resonance curve, or a release. `zeta`: an
+/// approximate value, for the width of the resonance.
 [[nodiscard]] std::vector<CandidateMeasurement> candidates_after(const std::vector<Pair>& states,
                                                                  const KnownConstants& constants, double zeta);
 

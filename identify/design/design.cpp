@@ -26,10 +26,10 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// Fits worse than the best one of their law by more than this take no part.
+/// Fits whose chi2 is above the least of their law by more than this are left out.
 constexpr double reach = 12.0;
 
-/// What a law at one severity expects of a measurement.
+/// What a law at one severity predicts for a measurement.
 struct Expectation {
   const SeverityFit* fit = nullptr;
   VectorXd readings;
@@ -45,7 +45,7 @@ struct Rival {
   std::size_t best = 0;
 };
 
-/// Rejecting a normal variate of this distance from zero at 5 %.
+/// Probability that a two-sided test of level 5 % rejects a normal variate of mean sqrt(chi2).
 double power_at(double chi2) {
   constexpr double limit = 1.959963984540054;
   const double distance = std::sqrt(std::max(chi2, 0.0));
@@ -53,8 +53,8 @@ double power_at(double chi2) {
   return below(distance - limit) + below(-distance - limit);
 }
 
-/// Covariance of the measurement's unknowns after the record: those it shares with the record as there, its own by
-/// their priors.
+/// Covariance of the measurement's unknowns after the record: those that it shares with the record have the
+/// covariance of the fit, its own that of their priors.
 MatrixXd covariance_for(const ReadingModel& record, const SeverityFit& fit, const ReadingModel& planned) {
   MatrixXd covariance = MatrixXd::Zero(planned.unknowns(), planned.unknowns());
   covariance.topLeftCorner(2, 2) = fit.covariance.topLeftCorner(2, 2);
@@ -130,8 +130,9 @@ class Moments {
   double sum_ = 0.0, first_ = 0.0, second_ = 0.0;
 };
 
-/// `student`: half width of a region, in deviations. The record allows all of these laws; those whose misfit the
-/// measurement raises by more than its square are told apart. `moved`: deviations of c and F0 beside.
+/// `student`: half width of a region, in deviations. The record allows all of these laws. A law leaves the hull if
+/// the measurement raises its least chi2 by more than the square of `student`. `moved`: deviations of c and F0 by
+/// the constants.
 Widths widths_of(const std::vector<Curve>& curves, double student, const ParameterSet& moved) {
   const double limit = student * student;
   Interval zeta{std::numeric_limits<double>::infinity(), 0.0};
@@ -164,7 +165,7 @@ class Advisor {
         constants_(constants),
         student_(quantile95(study.plain.noise.freedom)),
         moved_(moved) {
-    // The curves are those of c, with the constants as stated.
+    // The curves are those of c; the change of zeta is turned to c by the stated constants.
     moved_.c = moved.zeta * 2.0 * std::sqrt(constants.mass * constants.stiffness);
     for (const LawFits& law : study.laws) {
       const auto answer = std::ranges::find(study.intervals.laws, law.law.name(), &LawAnswer::name);
@@ -184,7 +185,7 @@ class Advisor {
 
   [[nodiscard]] std::size_t rivals() const { return rivals_.size(); }
 
-  /// Mean power between pairs of laws, by what the record itself says.
+  /// Mean power between pairs of laws by the record alone.
   [[nodiscard]] double power_now() const {
     double mean = 0.0;
     for (const Rival& truth : rivals_)
@@ -194,7 +195,7 @@ class Advisor {
     return mean;
   }
 
-  /// Of candidates that take the same states, or the same release: the engines compute these once.
+  /// Advice for candidates with the same states, or the same release: the engines compute these once.
   [[nodiscard]] std::vector<Advice> advice(std::span<const CandidateMeasurement> same) const {
     const std::unique_ptr<const ReadingModel> planned = model_of(same.front().plan);
     std::vector<Rival> rivals = rivals_;
@@ -206,7 +207,7 @@ class Advisor {
   }
 
  private:
-  /// `expected`: with what they expect of all readings that the plan can give.
+  /// `expected`: with predictions of all readings that the plan can give.
   [[nodiscard]] Advice advice(const CandidateMeasurement& candidate, const ReadingModel& planned,
                               const std::vector<Rival>& expected) const {
     const std::vector<Rival> rivals = reading_only(candidate, planned, expected);
@@ -253,14 +254,14 @@ class Advisor {
     return {rival.density, rival.law->best().chi2, severity_curve(planned, fits)};
   }
 
-  /// A phase that was not measured is taken to be as good as the amplitude in the middle of the range.
+  /// A phase that was not measured gets the relative deviation of the amplitude in the middle of the range.
   [[nodiscard]] std::array<double, 2> deviations() const {
     const std::vector<double>& own = study_.plain.noise.deviations;
-    const bool knows_phase = own.size() > 1 && !record_.nuisances().empty();
+    const bool knows_phase = std::ranges::find(record_.channels(), 1) != record_.channels().end();
     return {own[0], knows_phase ? own[1] : own[0] / record_.reference().amplitude};
   }
 
-  /// With all that could be read: the phases of states as well.
+  /// The model of a plan with all that could be read, also the phases of states.
   [[nodiscard]] std::unique_ptr<const ReadingModel> model_of(const MeasurementPlan& plan) const {
     if (const auto* decay = std::get_if<PlannedDecay>(&plan))
       return planned_decay(record_, decay->release, decay->extremes, constants_, deviations()[0]);
@@ -276,7 +277,7 @@ class Advisor {
     return planned_states(record_, std::move(states), constants_, deviations());
   }
 
-  /// What a candidate reads of it, over the deviations.
+  /// The predictions of what the candidate reads, over the deviations.
   [[nodiscard]] std::vector<Rival> reading_only(const CandidateMeasurement& candidate, const ReadingModel& planned,
                                                 std::vector<Rival> rivals) const {
     std::vector<Index> rows;
@@ -296,7 +297,7 @@ class Advisor {
     return rivals;
   }
 
-  /// Orbits of one severity are next to those of the last one, where both are of one law.
+  /// Predicts the readings at each severity. Orbits are found next to those of the last severity of the same sign.
   [[nodiscard]] bool expect(const ReadingModel& planned, Rival& rival) const {
     std::unique_ptr<NearbyOrbits> near;
     double last = 0.0;
@@ -325,7 +326,7 @@ class Advisor {
   std::vector<Rival> rivals_;
 };
 
-/// Neighbours in the list that differ in what they read alone.
+/// Groups of neighbours in the list with the same plan, which differ only in what they read.
 std::vector<std::span<const CandidateMeasurement>> by_plan(std::span<const CandidateMeasurement> candidates) {
   std::vector<std::span<const CandidateMeasurement>> groups;
   for (std::size_t first = 0, end = 0; first < candidates.size(); first = end) {
@@ -335,7 +336,7 @@ std::vector<std::span<const CandidateMeasurement>> by_plan(std::span<const Candi
   return groups;
 }
 
-/// Two digits, or whole percents where these are more.
+/// Two significant digits; whole percents from 99.5 % on.
 std::string percent(double share) {
   constexpr int digits = 2;
   constexpr double all = 99.5;

@@ -1,16 +1,17 @@
 #pragma once
 /// What to measure next: by how much each of some measurements would narrow the ranges over laws, and whether it
-/// would tell the laws apart that a record allows.
+/// would tell apart the laws that a record allows.
 ///
-/// Each law that the record allows stands for the truth once, at its best fit, with its weight in the average over
+/// Each law that the record allows is taken as the truth once, at its best fit, with its weight in the average over
 /// laws. The measurement would give readings y; law i at severity s, fitted to the record with covariance C,
-/// expects y_i with slopes J. After the measurement
+/// predicts y_i with slopes J. After the measurement
 ///
 ///   chi2_i(s) grows by (y - y_i)' (S + J C J')^-1 (y - y_i),   C becomes (C^-1 + J' S^-1 J)^-1
 ///
-/// with the readings' variances S: linear in the unknowns, exact in the severity. From these the hull, the average
-/// and the power follow: that of a test of level 5 % of law i against the truth j, a noncentral chi square with one
-/// degree of freedom, over pairs of laws (hunter1965, box1967). Nothing random is drawn.
+/// with the variances S of the readings: linear in the unknowns, exact in the severity. The hull, the average and
+/// the power follow from these. The power is the mean over pairs of laws of that of a test of level 5 % of law i
+/// against the truth j, a noncentral chi square with one degree of freedom (hunter1965, box1967). Nothing random is
+/// drawn.
 ///
 /// Cost: readings of each allowed law at its severities within reach, and their slopes; some seconds a candidate.
 
@@ -26,7 +27,7 @@
 
 namespace dualdamp::identify {
 
-/// Of a range after a measurement, over what it is before; smaller is better.
+/// Width of a range after a measurement over its width before; smaller is better.
 struct Shrinkage {
   double zeta = 1.0;
   double F0 = 1.0;
@@ -46,8 +47,8 @@ struct Design {
   std::vector<Advice> advice;  ///< the best first: by the hull of zeta and F0 together
 };
 
-/// The advice after a record of steady states, or why there is none. `moved`: deviations of zeta and F0 by what is
-/// uncertain in the constants; no measurement of this list weighs the mass anew, and they stay as they are.
+/// The advice after a record of steady states, or why there is none. `moved`: standard deviations of zeta and F0 by
+/// uncertain constants. They stay the same after each candidate, because none of them measures a constant.
 [[nodiscard]] std::variant<Design, std::string> design_after(const Record& record, const KnownConstants& constants,
                                                              const KnownDeviations& known,
                                                              const LawIntervalOptions& options,

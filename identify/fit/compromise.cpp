@@ -88,7 +88,7 @@ class Compromiser {
       const double share = signal.independent / static_cast<double>(count);
       const double spent = static_cast<double>(size()) / static_cast<double>(problem_.rows());
       const double own = signal.rms / std::sqrt(1.0 - std::min(spent, 0.9));
-      // Of a stated noise only what it does not explain is added.
+      // A stated noise is used unless the residuals are larger.
       const bool as_stated = problem_.signal(signal.rows).is_stated && own < signal.noise;
       const double deviation = std::max(as_stated ? signal.noise : own, std::numeric_limits<double>::min());
       weights_.segment(signal.rows.begin, count).setConstant(std::sqrt(share) / deviation);
@@ -99,7 +99,7 @@ class Compromiser {
     denominator_ = all_stated ? known : std::max(1.0, independent - static_cast<double>(size()));
   }
 
-  /// Rows of W with W^T W = C_A^-1, over the parameters that A knows.
+  /// Sets W with W^T W = C_A^-1, over the parameters that A determines.
   void whiten(const KnownRig& known) {
     const auto shared = static_cast<Eigen::Index>(known.parameters.size());
     whitening_.resize(0, size());
@@ -136,8 +136,8 @@ class Compromiser {
     return std::isfinite(sum) ? sum : infinity;
   }
 
-  /// From points between the two estimates: beside the compromise lie false minima, one for each stick more or
-  /// less.
+  /// The smallest sum, from points between the two estimates. There are false minima near the compromise, one for
+  /// each stick more or less.
   [[nodiscard]] double least_of_both(double least_of_two) const {
     const Eigen::VectorXd alone = end_of_alone();
     constexpr std::size_t points = 9;
@@ -151,7 +151,7 @@ class Compromiser {
     std::ranges::sort(order);
     double least = at_held;
     constexpr std::size_t starts = 2;
-    // Each search can only find less: what is no surprise already needs none.
+    // A search can only reduce the sum, so none is needed if the chance is large already.
     constexpr double enough = 0.2;
     for (std::size_t s = 0; s < starts && std::isfinite(order[s].first); ++s)
       if (chance_of(std::min(least, order[s].first) - least_of_two) < enough)
@@ -191,14 +191,14 @@ class Compromiser {
     return found.parameters.size() == size() ? squares(found.parameters, true) : infinity;
   }
 
-  std::vector<FitParameter> parameters_;  ///< shared ones, then B's own
+  std::vector<FitParameter> parameters_;  ///< those of the rig, then those of B itself
   std::vector<double> sizes_;
   const Fit& alone_;
   FitProblem problem_;
-  Eigen::VectorXd held_;       ///< A's estimate, with the state of B that suits it best
+  Eigen::VectorXd held_;       ///< A's estimate, with the own parameters of B fitted to it
   Eigen::VectorXd weights_;    ///< of each reading of B
   Eigen::MatrixXd whitening_;  ///< W
-  double denominator_ = 1.0;   ///< degrees of freedom of the deviations
+  double denominator_ = 1.0;   ///< degrees of freedom of the estimated deviations
 };
 
 }  // namespace

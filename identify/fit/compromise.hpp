@@ -1,17 +1,19 @@
 #pragma once
-/// One rig against two: whether one set of numbers is right for the record that was fitted (A) and for another (B).
+/// Tests whether one rig made both the record that was fitted (A) and another record (B).
 ///
 ///   T = min over p of [ (p - p_A)^T C_A^-1 (p - p_A) + D_B(p) ] - min over p of D_B(p)
 ///   D_B(p) = sum over signals of  (n'/n) sum_i [(output_i(p) - measured_i)/s]^2
 ///
-/// the likelihood ratio of two rigs to one, with A's likelihood by its estimate p_A and covariance C_A, both in the
-/// coordinates of the search (logarithms of positive numbers). s: what the rig fitted to B alone leaves, or the
-/// stated noise; n' of the n samples count as independent. Of one rig and normal errors T is chi-square with as
-/// many degrees of freedom as parameters that A knows; of deviations that were estimated T/f is Fisher's F. What B
-/// has of its own, its first state, is free in both. A parameter that A does not know takes any value.
+/// T is the likelihood ratio of one rig to two. The likelihood of A is approximated by its estimate p_A and
+/// covariance C_A, in the coordinates of the search (logarithms of positive parameters). s is the deviation of the
+/// residuals of the rig fitted to B alone, or the stated noise; n' of the n samples count as independent. For one
+/// rig and normal errors, T is chi-square; its degrees of freedom f are the number of parameters that A determines.
+/// If the deviations are estimated, T/f is Fisher's F. The parameters of B itself, such as its first state, are
+/// free in both terms. A parameter that A does not determine may have any value.
 ///
-/// Source: wilks1938. Errors: `p_value` is unknown where A knows nothing, or B is not determined. Cost: nine
-/// motions; two short searches unless one of these has a chance of 0.2 already, whose T is an upper bound.
+/// Source: wilks1938. Errors: `p_value` is `unknown` if A determines no parameter or B does not determine the rig.
+/// Cost: nine motions and up to two short searches. A search is skipped if T at its start, an upper bound, already
+/// has a chance of 0.2.
 
 #include <Eigen/Core>
 #include <vector>
@@ -23,8 +25,8 @@ namespace dualdamp::identify {
 /// A fit to record A.
 struct KnownRig {
   const Rig& rig;                               ///< with the fitted values
-  const std::vector<FitParameter>& parameters;  ///< shared ones, `stated` at their fitted values
-  const Eigen::MatrixXd& covariance;            ///< of these
+  const std::vector<FitParameter>& parameters;  ///< those of the rig; `stated` is the fitted value
+  const Eigen::MatrixXd& covariance;            ///< of these parameters
 };
 
 struct Compromise {
@@ -33,7 +35,8 @@ struct Compromise {
   double p_value = unknown;
 };
 
-/// `held`: fit of B with the rig held; `alone`: the rig fitted to B, its parameters the shared ones and B's own.
+/// `held`: fit of B with the rig held fixed. `alone`: fit of B with the parameters of the rig and those of B
+/// itself.
 [[nodiscard]] Compromise compromise_of(const KnownRig& known, const Experiments& second, const Fit& held,
                                        const Fit& alone);
 

@@ -1,15 +1,15 @@
 #pragma once
-/// An experiment of a fit: what a record measured, and what a model of the rig gives in its place.
+/// An experiment of a fit: the readings of a record, and the prediction of these readings by a model of the rig.
 ///
 ///   steady states  amplitudes, and phases where they were measured, at each level and frequency
 ///   decay          extremes, and their times where they were measured
-///   history        x, v and a, those that were measured, sample by sample, from the record's own state
-///   loop           the force that leads the mass along the measured motion, m a + c v + k x + F(x, v)
+///   history        those of x, v and a that were measured, sample by sample, from the first state of the record
+///   loop           the force that moves the mass along the measured motion, m a + c v + k x + F(x, v)
 ///
-/// A motion is integrated by the engine of its laws, from event to event; nothing measured is differentiated but
+/// The engine of the laws computes a motion, from event to event. Measured signals are not differentiated, except
 /// for a loop whose velocity or acceleration was not measured.
 ///
-/// Errors: a model without such a motion has no prediction. Cost: that of the motion, or of the steady states.
+/// Errors: `predict` returns false if the model has no such motion. Cost: that of the motion or the steady states.
 
 #include <Eigen/Core>
 #include <memory>
@@ -26,21 +26,22 @@ struct Signal {
   std::string name;  ///< x, v, a, phase, t, force
   std::string unit;
   std::vector<double> measured;
-  std::vector<double> at;  ///< what it is drawn over
+  std::vector<double> at;  ///< abscissa of each reading
   std::string at_name;     ///< t, Y, omega, number
   std::string at_unit;
-  /// Standard deviation of its noise, as stated, or as its own roughness tells; 0: not known.
+  /// Standard deviation of the noise: stated, or estimated from the roughness of the signal; 0: not known.
   double noise = 0.0;
   bool is_stated = false;
-  /// Neighbours may be alike: errors of samples are not taken for independent.
+  /// The readings are samples; the errors of neighbours may be correlated.
   bool is_sampled = false;
-  /// Samples beside a jump, whose side of it the least difference of a model decides: they count for nothing.
+  /// Samples beside a jump of the signal. They have no weight: a small change of the model moves them across the
+  /// jump.
   std::vector<std::size_t> unsure;
 };
 
 enum class ExperimentKind { steady_states, decay, history, loop };
 
-/// Predictions of models that differ little from one: for derivatives.
+/// Predicts models that differ little from a given one, for derivatives.
 class Neighbours {
  public:
   Neighbours() = default;
@@ -60,47 +61,46 @@ class Experiment {
   ExperimentKind kind = ExperimentKind::history;
   std::string label;  ///< name of its file, and its label in it
   std::vector<Signal> signals;
-  OwnValues own_start{};        ///< as the record shows them, or as they are known
-  std::vector<Own> own_free;    ///< those that are sought unless they are known
-  std::vector<Own> own_others;  ///< those that may be sought too
+  OwnValues own_start{};        ///< start values, from the record or known
+  std::vector<Own> own_free;    ///< parameters that are sought unless they are known
+  std::vector<Own> own_others;  ///< parameters that may be sought as well
 
   /// Input amplitude [m or N] and frequency [rad/s] of each steady state; empty for other kinds.
   [[nodiscard]] virtual std::vector<std::pair<double, double>> levels() const { return {}; }
 
-  /// Samples of all signals, one after the other.
+  /// Number of readings of all signals.
   [[nodiscard]] Eigen::Index size() const;
 
-  /// Outputs in the order of the signals. False: the model has no such motion.
+  /// Predicted readings, signal after signal. False: the model has no such motion.
   [[nodiscard]] virtual bool predict(const sim::Model& model, const OwnValues& own,
                                      Eigen::VectorXd& outputs) const = 0;
-  /// The record up to this share of its duration, 0 < share <= 1; nothing: it has no order in time that a search
-  /// could follow.
+  /// The record up to this share of its duration, 0 < share <= 1. Null if the record is no motion in time.
   [[nodiscard]] virtual std::unique_ptr<Experiment> first_part(double share) const;
-  /// Fewer samples where there are more than a search needs; nothing: it needs all.
+  /// The record with fewer samples. Null if it has no more samples than a search needs.
   [[nodiscard]] virtual std::unique_ptr<Experiment> thinned() const;
-  /// The record with models tied to its motion (`tie.hpp`); nothing: it is no motion.
+  /// The record with models tied to its motion (`tie.hpp`). Null if the record is no motion in time.
   [[nodiscard]] virtual std::unique_ptr<Experiment> tied(double strength) const;
-  /// By default they are predicted like any other.
+  /// Predictions near `model`. By default, each model is predicted independently.
   [[nodiscard]] virtual std::unique_ptr<Neighbours> neighbours(const sim::Model& model) const;
 
  protected:
-  Experiment(const Experiment&) = default;  ///< for parts of it
+  Experiment(const Experiment&) = default;  ///< for parts of a record
 };
 
-/// What a record has of its own as a parameter; `is_alone`: there is no other record to tell it from.
+/// A parameter of a single record. `is_alone`: there is one record only, so the name needs no number.
 [[nodiscard]] FitParameter own_parameter(const Experiment& experiment, std::size_t index, Own own, bool is_alone);
 
-/// What is known beside the records.
+/// What the caller states about a record.
 struct ExperimentOptions {
   std::string name;  ///< of the file
   bool loop = false;
-  double frequency = unknown;  ///< of pairs that state none [rad/s]
+  double frequency = unknown;  ///< of pairs without a frequency [rad/s]
   bool force_driven = false;   ///< Y is the amplitude of a force [N]
   double sigma_x = 0.0;        ///< stated noise of x, amplitudes or extremes [m]; 0: none
   double sigma_v = 0.0, sigma_a = 0.0, sigma_force = 0.0, sigma_phase = 0.0;
 };
 
-/// One for the pairs or the decay of a record, one for each of its histories. `fault`: why there is none.
+/// One experiment for the pairs or the decay of a record, or one for each history. `fault`: why there is none.
 [[nodiscard]] std::vector<std::unique_ptr<Experiment>> experiments_of(const Record& record,
                                                                       const ExperimentOptions& options,
                                                                       std::string& fault);

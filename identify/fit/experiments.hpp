@@ -1,5 +1,5 @@
 #pragma once
-/// The kinds of experiments, each made of its part of a record; a null pointer with a fault where it is of no use.
+/// Makes the experiments of each kind from a part of a record. Null, with a fault, if the part cannot be used.
 
 #include <memory>
 #include <string>

@@ -20,7 +20,7 @@ using core::infinity;
 
 double rms(const Eigen::VectorXd& part) { return std::sqrt(part.squaredNorm() / static_cast<double>(part.size())); }
 
-/// The chance of the smaller of two, of which each may be unknown.
+/// The chance of the smaller one of two p values. Either of them may be unknown.
 double either_p_value(double first, double second) {
   if (std::isnan(first)) return second;
   return std::isnan(second) ? first : std::min(1.0, 2.0 * std::min(first, second));
@@ -65,7 +65,8 @@ struct Request {
   const FitOptions& options;
 };
 
-/// All that is said of the end of a search; a place with a smaller sum of squares, where there is one.
+/// Sets all results of a fit at the end of a search. Returns coordinates with a smaller sum of squares, if a
+/// profile found any.
 std::optional<Eigen::VectorXd> describe(const FitProblem& problem, const Request& request,
                                         const SearchResult& found, Fit& result) {
   const Eigen::VectorXd& q = found.coordinates;
@@ -125,8 +126,8 @@ Fit fit_rig(const Rig& rig, std::vector<FitParameter> parameters, const Experime
     if (round < most_rounds) next = search_from(problem, *lower, search);
     if (!next) {
       described.warnings.emplace_back(
-          "a profile came by a smaller sum of squares than that of the estimate, and the search from there did not "
-          "end: more starts, bounds or stated values would tell");
+          "a profile found a smaller sum of squares than that of the estimate, and the search from there did not "
+          "end: try more starts, bounds or stated values");
       return described;
     }
     found = std::move(next);
@@ -147,8 +148,8 @@ Eigen::MatrixXd shared_covariance(const Fit& fit) {
 
 namespace {
 
-/// -2 ln of the largest likelihood, per reading and but for a constant. A stated noise that even the best of the
-/// fits contradicts is no scale to compare them by.
+/// The deviance: -2 ln of the largest likelihood, per reading and without a constant. The stated noise of a signal
+/// is used only if at least one of the fits does not contradict it.
 double deviance_of(const Fit& fit, const std::vector<Fit>& fits) {
   double sum = 0.0;
   double count = 0.0;
@@ -157,7 +158,7 @@ double deviance_of(const Fit& fit, const std::vector<Fit>& fits) {
     const bool as_stated = !std::isnan(signal.chi2_per_freedom) && std::ranges::any_of(fits, [s](const Fit& other) {
       return other.outcome.ok() && contradicts_stated(other.signals[s]) == 0;
     });
-    constexpr double least = 1e-12;  // of exact data only rounding is left
+    constexpr double least = 1e-12;  // for exact data, the residuals are only rounding
     const double deviation =
         std::max(as_stated ? signal.noise : signal.rms, least * signal.range + std::numeric_limits<double>::min());
     const double misfit = signal.rms / deviation;

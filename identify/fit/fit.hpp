@@ -3,20 +3,20 @@
 ///
 ///   min over p of  sum over signals g of  sum over samples i of  [(output_i(p) - measured_i)/s_g]^2
 ///
-/// s_g is the stated noise of signal g, or else the deviation of its own residuals, found together with p (maximum
-/// likelihood of independent normal errors). Levenberg-Marquardt within bounds (`identify/statistics/
-/// least_squares.hpp`) from the best of several starts: the stated values, and points of a low-discrepancy sequence
-/// about them, or, where nothing is stated, about sizes that follow from the data and the unit of the parameter.
-/// Robust: Huber's weights, by repeated fits.
+/// s_g is the stated noise of signal g, or else the standard deviation of its residuals, found together with p
+/// (maximum likelihood for independent normal errors). The search is Levenberg-Marquardt within bounds
+/// (`identify/statistics/least_squares.hpp`) from the best of several starts: the stated values and points of a
+/// low-discrepancy sequence around them. For a parameter without a stated value, a size that follows from the data
+/// and its unit takes the place of the stated value. Robust fits use Huber's weights, by repeated fits.
 ///
-/// Uncertainty: of residuals that are alike from sample to sample the covariance is (J^T J)^-1 J^T S J (J^T J)^-1
-/// with their own autocovariances in S (newey1987); profile: the parameter is held and the others follow by Gauss
-/// and Newton's steps with the derivatives of the estimate. Directions of the parameters along which the data allow
-/// a change of 100 % are told in words. Comparison of laws: AICc (burnham2002) with as many samples as count as
-/// independent.
+/// Uncertainty: the covariance is (J^T J)^-1 J^T S J (J^T J)^-1, where S has the autocovariances of the residuals
+/// (newey1987), because residuals may be correlated from sample to sample. For a profile, the parameter is held at
+/// a value and the others are fitted by Gauss-Newton steps with the derivatives at the estimate. Directions of the
+/// parameters along which the data allow a change of 100 % are described in words. Laws are compared by AICc
+/// (burnham2002) with the number of samples that count as independent.
 ///
-/// Source: ljung1999, burnham2002, newey1987, huber1964. Errors: `outcome`. Cost: of the motion, times 40 for the
-/// starts and two for each parameter and step.
+/// Source: ljung1999, burnham2002, newey1987, huber1964. Errors: `outcome`. Cost: that of a motion, times 40 for
+/// the starts and times two for each parameter and step.
 
 #include <Eigen/Core>
 #include <array>
@@ -34,10 +34,10 @@ namespace dualdamp::identify {
 struct FitOptions {
   bool robust = false;
   bool profile = true;
-  int starts = 0;  ///< 0: 40 where something is not stated, else 8
+  int starts = 0;  ///< 0: 8 if all parameters have stated values, else 40
 };
 
-/// A number that does not exist is `unknown`.
+/// Numbers that do not exist are `unknown`.
 struct FittedParameter {
   FitParameter parameter;
   double value = 0.0;
@@ -48,7 +48,7 @@ struct FittedParameter {
   std::string reason;  ///< why a number does not exist
 };
 
-/// What the data cannot tell apart.
+/// Parameters that the data cannot separate.
 struct TradeOff {
   std::vector<std::string> parameters;
   std::string text;
@@ -58,12 +58,12 @@ struct FittedSignal {
   SignalRows rows;
   double rms = 0.0;              ///< of the residuals
   double range = 0.0;            ///< rms of the measured signal about its mean
-  double noise = unknown;        ///< of the sensor, stated or by the roughness of the signal
-  double noise_units = unknown;  ///< rms over it
-  double independent = 0.0;      ///< samples that count as such
+  double noise = unknown;        ///< of the sensor, stated or from the roughness of the signal
+  double noise_units = unknown;  ///< rms over noise
+  double independent = 0.0;      ///< number of samples that count as independent
   double p_value = unknown;      ///< chance that the residuals are noise alone (`residual_test.hpp`)
-  /// Of a stated noise: variance of the residuals over it, per degree of freedom, and the chance of one so far
-  /// from 1.
+  /// If the noise is stated: variance of the residuals over that of the noise, per degree of freedom; and the
+  /// chance of a value so far from 1.
   double chi2_per_freedom = unknown;
   double chi2_p_value = unknown;
 };
@@ -71,14 +71,14 @@ struct FittedSignal {
 struct Fit {
   core::Outcome outcome;
   std::vector<FittedParameter> parameters;
-  Eigen::MatrixXd covariance;  ///< of the values; rows of parameters without one are zero
+  Eigen::MatrixXd covariance;  ///< of the values; rows of parameters without a covariance are zero
   std::vector<TradeOff> not_identifiable;
   std::vector<FittedSignal> signals;
-  double noise_units = unknown;       ///< of all signals whose noise is known
+  double noise_units = unknown;       ///< rms over noise, of all signals with known noise
   double log_likelihood_count = 0.0;  ///< samples that count as independent
-  double deviance = 0.0;              ///< -2 ln of the largest likelihood, but for a constant, per sample
+  double deviance = 0.0;              ///< -2 ln of the largest likelihood, without a constant, per sample
   double AICc = unknown;
-  int starts = 0;  ///< tried
+  int starts = 0;  ///< number of starts that were tried
   Rig rig;         ///< with the fitted values
   std::vector<OwnValues> own;
   Eigen::VectorXd outputs;
@@ -88,14 +88,15 @@ struct Fit {
 
 using Experiments = std::vector<std::unique_ptr<Experiment>>;
 
-/// Fits these parameters of the rig, each record's own among them.
+/// Fits these parameters of the rig; those of the single records are among them.
 [[nodiscard]] Fit fit_rig(const Rig& rig, std::vector<FitParameter> parameters, const Experiments& experiments,
                           const FitOptions& options = {});
 
-/// The covariance of the parameters that are no record's own, in their order.
+/// The covariance of the parameters that do not belong to a single record, in their order.
 [[nodiscard]] Eigen::MatrixXd shared_covariance(const Fit& fit);
 
-/// AICc of each fit of the same data, set in them: all with the count of the one that leaves least.
+/// Sets AICc of each fit. All are fits of the same data. The number of independent samples is that of the fit with
+/// the least deviance.
 void compare_fits(std::vector<Fit>& fits);
 
 }  // namespace dualdamp::identify

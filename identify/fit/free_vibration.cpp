@@ -23,7 +23,7 @@ class FreeVibration final : public Experiment {
              .noise = options.sigma_x,
              .is_stated = options.sigma_x > 0.0};
     for (std::size_t i = 0; !timed && i < record.extremes.size(); ++i) x.at.push_back(static_cast<double>(i));
-    // Between the last three extremes: what a decay leaves of them is the offset, roughly.
+    // The mean of the last three extremes, with weights 1 2 1, is roughly the offset.
     const std::size_t n = record.extremes.size();
     const double offset = 0.25 * (record.extremes[n - 3] + 2.0 * record.extremes[n - 2] + record.extremes[n - 1]);
     own_start[static_cast<std::size_t>(Own::position)] = record.extremes.front() - offset;
@@ -51,7 +51,7 @@ class FreeVibration final : public Experiment {
     const double offset = own[static_cast<std::size_t>(Own::offset)];
     sim::Extreme last{0.0, free.initial.position};
     for (std::size_t i = 0; i < wanted; ++i) {
-      // A mass that has come to rest goes on resting where it is, so that the prediction stays continuous.
+      // After the last stop, the position is repeated at each half swing, so that the prediction is continuous.
       last = i < decay.peaks.size() ? decay.peaks[i] : sim::Extreme{last.t + swing, last.x};
       outputs[static_cast<Eigen::Index>(i)] = last.x + offset;
       if (signals.size() > 1)

@@ -63,7 +63,8 @@ class FrictionLoop final : public Experiment {
   }
 
  private:
-  /// What was not measured is differentiated, and everything then passes through the same filter.
+  /// Differentiates or integrates the signals that were not measured. If v was not measured, all signals are
+  /// filtered.
   void smooth(const History& history, std::vector<double>& force) {
     if (!v_.empty() && !x_.empty() && !a_.empty()) return;
     if (x_.empty()) {
@@ -88,7 +89,7 @@ class FrictionLoop final : public Experiment {
 
   [[nodiscard]] Instant instant(std::size_t i) const { return {static_cast<double>(i) / rate_, x_[i], v_[i]}; }
 
-  /// A law that remembers nothing needs no path.
+  /// Adds the force of a law. A law without memory needs no path between the samples.
   [[nodiscard]] bool add(const friction::Law& law, std::vector<double>& force) const {
     if (!law.is_modal() && !law.has_rates() && !(law.delay() > 0.0) && !law.advances()) {
       for (std::size_t i = 0; i < force.size(); ++i) force[i] += law.force({}, instant(i), direction_of(v_[i]));
@@ -105,12 +106,12 @@ class FrictionLoop final : public Experiment {
     return true;
   }
 
-  /// From sample i - 1 to sample i: the velocity is a straight line, and may pass zero once.
+  /// Moves the law from sample i - 1 to sample i. The velocity is a straight line, which may cross zero once.
   void move(sim::LawHost& host, std::size_t i) const {
     const Instant from = instant(i - 1);
     const Instant to = instant(i);
     const double h = to.t - from.t;
-    // What the straight line leaves of the measured step.
+    // Difference of the measured step from the step with this velocity.
     const double left = to.x - from.x - 0.5 * h * (from.v + to.v);
     const sim::Path path = [from, to, h, left](double t) {
       const double s = t - from.t;

@@ -32,7 +32,7 @@ std::pair<double, double> begin_of(const std::vector<double>& signal, double rat
   return {found[0], found[1]};
 }
 
-/// A signal whose rate of change was measured, but for a constant: its integral swings about a straight line.
+/// The integral of a measured rate of change, minus its straight line of least squares.
 std::vector<double> integral_of(const std::vector<double>& of_rate, double rate) {
   std::vector<double> integral = running_integral(of_rate, rate);
   const Eigen::Map<Eigen::VectorXd> sum(integral.data(), static_cast<Eigen::Index>(integral.size()));
@@ -42,9 +42,9 @@ std::vector<double> integral_of(const std::vector<double>& of_rate, double rate)
   return integral;
 }
 
-/// Position and velocity at the first sample of a vibration of which only the acceleration was measured: x = -a/w^2
-/// holds but for damping and friction, which change their sign with the velocity, and x = x_0 + v_0 t + the double
-/// integral of a; x_0, v_0 and 1/w^2 by least squares over all samples.
+/// Position and velocity at the first sample, if only the acceleration was measured. x = -a/w^2 holds without
+/// damping and friction, which change their sign with the velocity, and x = x_0 + v_0 t + the double integral of a.
+/// x_0, v_0 and 1/w^2 follow by least squares over all samples.
 std::pair<double, double> begin_of_acceleration(const std::vector<double>& a, double rate) {
   const std::vector<double> way = running_integral(running_integral(a, rate), rate);
   const auto count = static_cast<Eigen::Index>(a.size());
@@ -62,9 +62,9 @@ std::pair<double, double> begin_of_acceleration(const std::vector<double>& a, do
 
 constexpr std::size_t least_samples = 8;
 
-/// Samples on both sides of each jump of a signal, and the first one, before which it may have jumped too. A jump
-/// is a difference between neighbours that differs from the differences beside it by more than noise and the curve
-/// of the motion make.
+/// Samples on both sides of each jump of a signal, and the first sample, before which there may be a jump. At a
+/// jump, the difference of two neighbours differs from the differences beside it by more than noise and curvature
+/// explain.
 std::vector<std::size_t> beside_jumps(const std::vector<double>& signal) {
   std::vector<double> excess;
   for (std::size_t i = 1; i + 2 < signal.size(); ++i)
@@ -81,7 +81,7 @@ std::vector<std::size_t> beside_jumps(const std::vector<double>& signal) {
     if (found.back() != i) found.push_back(i);
     found.push_back(i + 1);
   }
-  // Of a signal that jumps throughout most would be left out.
+  // If the signal jumps in too many places, no sample but the first one is left out.
   constexpr std::size_t part = 5;
   return found.size() <= signal.size() / part ? found : std::vector<std::size_t>{0};
 }
@@ -136,7 +136,7 @@ class MeasuredMotion final : public Experiment {
       for (; next < samples_ && static_cast<double>(next) / rate_ <= until; ++next)
         write(interval.state_at(static_cast<double>(next) / rate_), offset, next, outputs);
     };
-    // A little more than the record, so that its last sample lies inside an interval.
+    // A little longer than the record, so that the last sample is inside an interval.
     while (const sim::Interval* interval = engine->next(end * (1.0 + 1e-9) + 1e-12)) {
       take_until(*interval, interval->end());
       if (next == samples_) break;
@@ -192,7 +192,7 @@ class MeasuredMotion final : public Experiment {
   }
 
  private:
-  /// A motion that takes ten times the usual steps is one of numbers far off.
+  /// Largest number of steps. A motion that needs ten times the usual number has parameters far off.
   [[nodiscard]] long most_work(const sim::Model& model) const {
     constexpr double least = 1e5;
     constexpr double of_sample = 10.0;

@@ -21,7 +21,7 @@ std::vector<FitParameter> own_parameters(const Experiments& experiments) {
   return list;
 }
 
-/// rms over the signals of residuals over the signals' own size.
+/// rms of the residuals over the rms of the signal, all signals together.
 double error_of(const Fit& fit) {
   double sum = 0.0;
   double count = 0.0;
@@ -34,7 +34,7 @@ double error_of(const Fit& fit) {
   return std::sqrt(sum / count);
 }
 
-/// What the covariance of the rig's parameters makes of the outputs.
+/// rms error of the outputs from the covariance of the rig's parameters, relative to the signals.
 double uncertainty_of(const Fit& held, const Rig& rig, const std::vector<FitParameter>& parameters,
                       const Eigen::MatrixXd& covariance, const Experiments& experiments) {
   std::vector<FitParameter> all;
@@ -64,7 +64,7 @@ double uncertainty_of(const Fit& held, const Rig& rig, const std::vector<FitPara
   Eigen::MatrixXd jacobian;
   if (!problem.derivatives(q, outputs, jacobian)) return 0.0;
   jacobian = (jacobian * inverse_of(problem.slope(q))).eval();
-  // The record's own state follows the rig's parameters: what it can follow is no error.
+  // The record's own parameters are fitted, so the changes that they can compensate are no error.
   Eigen::MatrixXd by_rig = jacobian.leftCols(shared);
   const Eigen::MatrixXd by_own = jacobian.rightCols(jacobian.cols() - shared);
   double sum = 0.0;
@@ -79,7 +79,7 @@ double uncertainty_of(const Fit& held, const Rig& rig, const std::vector<FitPara
   return std::sqrt(std::max(sum, 0.0) / static_cast<double>(by_rig.rows()));
 }
 
-/// Errors in octaves.
+/// The error of the first sampled signal, in octaves of frequency.
 std::vector<PredictionBand> bands_of(const Fit& held, const Experiments& experiments) {
   const auto sampled = std::ranges::find_if(held.signals, [&](const FittedSignal& signal) {
     return experiments[signal.rows.experiment]->signals[signal.rows.signal].is_sampled;
@@ -93,7 +93,7 @@ std::vector<PredictionBand> bands_of(const Fit& held, const Experiments& experim
   Eigen::VectorXd residual(count);
   for (Eigen::Index i = 0; i < count; ++i)
     residual[i] = held.outputs[sampled->rows.begin + i] - signal.measured[static_cast<std::size_t>(i)];
-  // Halving the band by pairs: means of neighbours carry the lower half, differences the upper one (Haar), so that
+  // Haar wavelets: the sums of neighbours have the lower half of the band, the differences the upper half. The
   // squares add up to those of the residual.
   std::vector<PredictionBand> bands;
   double upper = 0.5 * rate;
@@ -128,7 +128,7 @@ std::vector<PredictionBand> bands_of(const Fit& held, const Experiments& experim
 
 std::string percent(double share) { return core::format_number(100.0 * share, 3) + " %"; }
 
-/// Residuals that are alike from sample to sample.
+/// Whether residuals above the noise are correlated from sample to sample.
 bool lasts(const Fit& fit) {
   constexpr double share = 0.5;
   return std::ranges::any_of(fit.signals, [](const FittedSignal& signal) {
@@ -138,26 +138,28 @@ bool lasts(const Fit& fit) {
 }
 
 void judge(Prediction& found, const Fit& attainable) {
-  // Significant, and more than a tenth of what the class can reach.
+  // The chance is small, and the error exceeds the attainable error by more than a tenth.
   constexpr double level = 1e-3;
   constexpr double share = 1.1;
   const bool does_not_carry_over = found.compromise.p_value < level && found.error > share * found.attainable;
-  // Noise is not alike from sample to sample; what the law leaves is.
+  // Noise is not correlated from sample to sample; the residuals of a wrong law are.
   constexpr double units = 1.2;
   const bool cannot = attainable.noise_units > units && lasts(attainable);
   found.is_wrong = does_not_carry_over || cannot;
   found.text = "the prediction misses by " + percent(found.error) + " of the motion";
   if (!std::isnan(found.noise_units))
     found.text += ", " + core::format_number(found.noise_units, 3) + " times the noise";
-  found.text += "; fitted to this record itself the same laws reach " + percent(found.attainable);
+  found.text += "; fitted to this record itself, the same laws miss by " + percent(found.attainable);
   if (cannot)
-    found.text += ": the law is wrong here, for even its own fit leaves " +
+    found.text += ": the law is wrong here, because even the fit to this record leaves " +
                   core::format_number(attainable.noise_units, 3) + " times the noise";
   else if (does_not_carry_over)
-    found.text += ": the law is wrong, or the rig has changed, for no one set of its numbers suits both (chance " +
-                  core::format_number(found.compromise.p_value, 2) + ")";
+    found.text +=
+        ": the law is wrong, or the rig has changed: no single set of parameters agrees with both records "
+        "(chance " +
+        core::format_number(found.compromise.p_value, 2) + ")";
   else
-    found.text += ": the law carries over to this record";
+    found.text += ": the law also describes this record";
 }
 
 }  // namespace
@@ -198,7 +200,7 @@ Prediction predict_records(const Rig& rig, const std::vector<FitParameter>& para
     found.text = "the record alone does not determine the rig: " + attainable.outcome.reason;
     return found;
   }
-  // A search that ended beside the prediction proves nothing against the law.
+  // If the search ended at a worse place than the prediction, the prediction itself is the best fit.
   const Fit& best = error_of(attainable) < found.error ? attainable : found.fit;
   found.attainable = error_of(best);
   found.attainable_noise_units = best.noise_units;

@@ -1,14 +1,14 @@
 #pragma once
-/// Prediction: a record of the same rig, simulated with the parameters of a fit to other records.
+/// Prediction of a record with the parameters of a fit to other records of the same rig.
 ///
-/// What the record has of its own, its first state, is fitted to it; the rig is not. Attainable is what the same
-/// rig reaches when it is fitted to the record itself. A rig is wrong where no one set of its numbers suits both
-/// records
-/// (`compromise.hpp`, a chance below 0.001) and the prediction misses by a tenth more than the attainable error, or
-/// where even its own fit leaves what is not noise.
+/// The parameters of the record itself, such as its first state, are fitted to it; the rig is held fixed. The
+/// attainable error is that of the same laws when they are fitted to this record. The rig is called wrong
+/// * if one set of parameters does not agree with both records (`compromise.hpp`, a chance below 0.001) and the
+///   error of the prediction exceeds the attainable error by more than a tenth; or
+/// * if even the attainable fit leaves residuals that are not noise.
 ///
-/// Bands: the residual of a sampled signal in octaves, by Haar's wavelets: sums and differences of neighbours,
-/// whose squares add up to those of the residual.
+/// Bands: the residual of a sampled signal in octaves, by Haar wavelets: sums and differences of neighbours, whose
+/// squares add up to those of the residual.
 
 #include <string>
 #include <vector>
@@ -31,16 +31,16 @@ struct Prediction {
   double noise_units = unknown;  ///< rms of the residuals over the noise
   double attainable = unknown;   ///< `error` of the rig fitted to this record
   double attainable_noise_units = unknown;
-  double uncertainty = unknown;  ///< what the parameters' uncertainty adds to `error`, by itself
-  /// One rig against two: the fitted numbers and those of this record alone (`compromise.hpp`).
+  double uncertainty = unknown;  ///< part of `error` from the uncertainty of the parameters
+  /// Test whether one rig made both records (`compromise.hpp`).
   Compromise compromise;
   bool is_wrong = false;
   std::string text;
   std::vector<PredictionBand> bands;  ///< of the first sampled signal
-  Fit fit;                            ///< with the rig held
+  Fit fit;                            ///< of the record's own parameters, with the rig held fixed
 };
 
-/// `parameters`: those that were fitted, with their fitted values in `rig`; `covariance` of them.
+/// `parameters`: those that were fitted; `rig` has their fitted values. `covariance`: of `parameters`.
 [[nodiscard]] Prediction predict_records(const Rig& rig, const std::vector<FitParameter>& parameters,
                                          const Eigen::MatrixXd& covariance, const Experiments& experiments,
                                          const FitOptions& options = {});

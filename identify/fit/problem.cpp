@@ -14,10 +14,10 @@ namespace dualdamp::identify {
 
 namespace {
 
-/// A logarithm is sought this far from the size of the parameter: a contact a thousand times stiffer than any that
-/// the data could show costs a thousand times the steps.
+/// Largest factor between a parameter with a logarithmic coordinate and its size. A contact a thousand times
+/// stiffer than the data could show would need a thousand times the steps.
 constexpr double reach = 1e4;
-/// Of a parameter in units of its size: no value in sight lies beyond.
+/// Largest value of a parameter in units of its size; plausible values are far below.
 constexpr double far = 1e6;
 
 Coordinate coordinate_of(const FitParameter& parameter, double size) {
@@ -29,7 +29,7 @@ Coordinate coordinate_of(const FitParameter& parameter, double size) {
   return {false, size, std::max(low / size, -far), std::min(high / size, far)};
 }
 
-/// What a law or an engine refuses is no value of the model.
+/// Calls `work`. False if a law or an engine refuses the values.
 template <typename Work>
 bool guarded(Work work) {
   try {
@@ -214,7 +214,7 @@ bool FitProblem::column(const Eigen::VectorXd& q, const Eigen::VectorXd& middle,
       }
       return true;
     });
-    // Where the model ends on one side, the difference is taken on the other.
+    // If there is no model on one side, a one-sided difference is used.
     if (!ok) outputs[side] = middle, at[side] = q[i];
   }
   if (!(at[1] > at[0])) return false;

@@ -3,9 +3,10 @@
 ///
 ///   r_i = (output_i(p) - measured_i)/s_i,   s_i: noise of the signal
 ///
-/// A parameter whose range has zero as an open end is sought by its logarithm; one that is at least another by how
-/// far it is above; the others in units of their size. Derivatives are central differences of the motion, which the
-/// engines compute through its events: of steady states by Newton's method from the orbit in the middle.
+/// The coordinate of a parameter is its logarithm, if zero is an open end of its range; its distance above another
+/// parameter, if it must be at least that one; else its value in units of its size. Derivatives are central
+/// differences of the motion, whose events the engines find anew. Steady states for a difference are found by
+/// Newton's method from the orbit of the unchanged model.
 
 #include <Eigen/Core>
 #include <memory>
@@ -17,17 +18,17 @@
 
 namespace dualdamp::identify {
 
-/// How a parameter is sought.
+/// The coordinate of a parameter in the search.
 struct Coordinate {
   bool logarithmic = false;
-  double size = 1.0;  ///< one unit of it; of a logarithm a factor e is one unit
+  double size = 1.0;  ///< one unit of the coordinate; a factor e if it is a logarithm
   double low = 0.0;   ///< in coordinates
   double high = 0.0;
 };
 
-/// How accurately motions are computed, and over how much of each coordinate a difference is taken.
+/// Accuracy of the motions, and step of the differences in each coordinate.
 struct Accuracy {
-  double tolerance = 0.0;  ///< of the smooth engine, unless the rig asks for less; 0: as the rig says
+  double tolerance = 0.0;  ///< of the smooth engine, unless that of the rig is looser; 0: that of the rig
   double step = 1e-4;
 };
 
@@ -43,13 +44,14 @@ class FitProblem {
  public:
   using Experiments = std::vector<std::unique_ptr<Experiment>>;
 
-  /// `sizes`: of each parameter, > 0, in its unit. All outlive this.
+  /// `sizes`: of each parameter, > 0, in its unit. The arguments must outlive this.
   FitProblem(const Rig& rig, const std::vector<FitParameter>& parameters, const Experiments& experiments,
              const std::vector<double>& sizes);
 
-  /// The same with less accurate motions of fewer samples. `this` outlives this one and the next two.
+  /// The same with less accurate motions of fewer samples. `this` must outlive the results of this and the next
+  /// two.
   [[nodiscard]] FitProblem roughly(const Accuracy& accuracy) const;
-  /// With the first share of each motion only, 0 < share <= 1; nothing if there is no motion.
+  /// With only the first share of each motion, 0 < share <= 1. Nothing if there is no motion.
   [[nodiscard]] std::optional<FitProblem> first_part(double share) const;
   /// With models tied to the measured motions; nothing if there is no motion.
   [[nodiscard]] std::optional<FitProblem> tied(double strength) const;
@@ -62,33 +64,33 @@ class FitProblem {
     return *experiments_[rows.experiment];
   }
 
-  /// Values of the parameters from coordinates, and back; values beyond a bound are taken to it.
+  /// Values of the parameters from coordinates, and back. A value beyond a bound is moved to the bound.
   [[nodiscard]] Eigen::VectorXd values(const Eigen::VectorXd& q) const;
   [[nodiscard]] Eigen::VectorXd coordinates(const Eigen::VectorXd& values) const;
   /// d(values)/d(coordinates).
   [[nodiscard]] Eigen::MatrixXd slope(const Eigen::VectorXd& q) const;
 
-  /// Outputs, unscaled. False: the rig has no such motion, or a law refuses the values.
+  /// Predicted readings, not divided by the noise. False: the rig has no such motion, or a law refuses the values.
   [[nodiscard]] bool outputs(const Eigen::VectorXd& q, Eigen::VectorXd& result) const;
-  /// Outputs and their derivatives by the coordinates. `seeks`: what changes nothing near `q` is asked further off,
-  /// for a search that has to leave the place.
+  /// Outputs and their derivatives by the coordinates. `seeks`: a coordinate without an effect near `q` gets a
+  /// difference over a wider step, so that a search can leave the place.
   [[nodiscard]] bool derivatives(const Eigen::VectorXd& q, Eigen::VectorXd& result, Eigen::MatrixXd& jacobian,
                                  bool seeks = false) const;
 
   [[nodiscard]] const Eigen::VectorXd& measured() const { return measured_; }
   /// 1 for each reading that counts, 0 for one that does not.
   [[nodiscard]] const Eigen::VectorXd& counted() const { return counted_; }
-  /// Outputs less the readings; 0 where a reading does not count.
+  /// Outputs minus readings; 0 for a reading that does not count.
   [[nodiscard]] Eigen::VectorXd misses(const Eigen::VectorXd& outputs) const {
     return (outputs - measured_).cwiseProduct(counted_);
   }
-  /// Root of the mean square of these misses of a signal, over the readings that count.
+  /// Root mean square of the misses of a signal, over the readings that count.
   [[nodiscard]] double rms(const Eigen::VectorXd& misses, const SignalRows& rows) const;
-  /// What each experiment has of its own at these values.
+  /// The values of each experiment's own parameters.
   [[nodiscard]] std::vector<OwnValues> own(const Eigen::VectorXd& values) const;
 
  private:
-  /// One column by differences over `step`; false: there is no motion on either side.
+  /// One column of the derivatives, by differences over `step`. False: there is no motion on either side.
   using All = std::vector<std::unique_ptr<Neighbours>>;
   [[nodiscard]] bool column(const Eigen::VectorXd& q, const Eigen::VectorXd& middle, const All& neighbours,
                             Eigen::Index i, double step, Eigen::VectorXd& slope) const;
@@ -99,7 +101,7 @@ class FitProblem {
   const Rig& rig_;
   Accuracy accuracy_{};
   const std::vector<FitParameter>& parameters_;
-  Experiments parts_;  ///< that this problem has made
+  Experiments parts_;  ///< experiments that this problem owns
   std::vector<const Experiment*> experiments_;
   std::vector<Coordinate> coordinates_;
   std::vector<SignalRows> signals_;

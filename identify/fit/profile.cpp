@@ -33,8 +33,8 @@ Profiler::Way Profiler::at(const Eigen::VectorXd& q, const Eigen::VectorXd& resi
 }
 
 Eigen::VectorXd Profiler::step(Eigen::Index i, double value, const Way& way) const {
-  // By Lagrange's multiplier, in units of `way.unit`. What would leave its range stays at its end, and the others
-  // take their best values beside it.
+  // Lagrange's multiplier, in units of `way.unit`. A parameter that would leave its range is held at the end of the
+  // range, and the step of the others is computed again.
   const Eigen::Index size = q_.size();
   const Eigen::VectorXd row = way.unit.cwiseProduct(problem_.slope(way.q).row(i).transpose());
   const double scale = row.norm();
@@ -85,7 +85,7 @@ std::optional<double> Profiler::growth(Eigen::Index i, double value, double limi
   const Way before = way;
   std::optional<double> best = followed(i, value, way);
   if (best && *best <= limit) return best;
-  // The others may have followed across a jump of the sum of squares that lies between, as of one stick more.
+  // The others may have moved across a jump of the sum of squares, such as that of one stick more.
   Way beside = before;
   const std::optional<double> unfollowed = alone(i, value, beside);
   if (!unfollowed || (best && *unfollowed >= *best)) return best;
@@ -107,11 +107,12 @@ bool Profiler::take(const Eigen::VectorXd& q, Way& way, double& best) const {
 }
 
 void Profiler::note_lower(const Way& way) const {
-  // Of a variance of the readings: less is the end of a search that was near enough.
+  // In units of the variance of a reading. A smaller gain only means that the search ended near enough to the
+  // minimum.
   constexpr double margin = 0.05;
   const double squares = way.residuals.squaredNorm();
   const std::lock_guard lock(mutex_);
-  // The least of all, in whatever order the threads come by.
+  // The smallest of all, so that the order of the threads does not matter.
   const double limit = lower_ ? lower_->second : squares_ * (1.0 - margin / static_cast<double>(residuals_.size()));
   if (squares < limit) lower_ = {way.q, squares};
 }
@@ -119,7 +120,7 @@ void Profiler::note_lower(const Way& way) const {
 std::optional<double> Profiler::followed(Eigen::Index i, double value, Way& way) const {
   double best = std::numeric_limits<double>::infinity();
   const auto result = [&] { return std::isfinite(best) ? std::optional<double>(best) : std::nullopt; };
-  // Along a bent valley it takes many derivatives; elsewhere the first ones do.
+  // A bent valley needs many sets of derivatives; elsewhere, the first set suffices.
   constexpr int most_derivatives = 12;
   constexpr int most_steps = 4;
   constexpr double settled = 0.01;
@@ -131,7 +132,7 @@ std::optional<double> Profiler::followed(Eigen::Index i, double value, Way& way)
       const Eigen::VectorXd q = step(i, value, way);
       const Eigen::VectorXd from = way.q;
       if (!take(q, way, best)) return result();
-      // What has left where the derivatives hold is tried shorter.
+      // A step out of the range of the derivatives is tried again with a shorter length.
       constexpr double shorter = 0.3;
       if (!(best < before) && std::isfinite(before) && !take(from + shorter * (q - from), way, best))
         return result();
@@ -157,7 +158,7 @@ double Profiler::end(Eigen::Index i, const FittedParameter& fitted, double limit
   };
   double way = limit * fitted.std;
   if (std::isnan(fitted.std)) {
-    // What changes nothing near the estimate may do so further off.
+    // A parameter without an effect near the estimate may have one further off.
     const double norm = rows_.col(i).norm();
     constexpr double near = 1e-3;
     way = norm > 0.0 ? limit * problem_.slope(q_)(i, i) / norm : near * std::abs(problem_.slope(q_)(i, i));
@@ -176,7 +177,7 @@ double Profiler::end(Eigen::Index i, const FittedParameter& fitted, double limit
     last = *grown / limit;
     if (std::abs(last - 1.0) < close) return value;
     if (last < 1.0 && value == (sign < 0.0 ? range.low : range.high)) return value;
-    // The root of the growth is nearly a straight line, but for a jump, which is halved in.
+    // The root of the growth is nearly linear, except at a jump, which is bracketed.
     const double rise = std::max(*grown - inner_growth, 1e-3 * limit);
     const double next = inner + (way - inner) * (limit - inner_growth) / rise;
     if (last < 1.0) {

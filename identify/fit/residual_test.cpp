@@ -19,7 +19,7 @@ namespace {
 
 constexpr Eigen::Index least_test_samples = 64;
 
-/// The longest length up to `count` whose prime factors are 2, 3 and 5: others take long to transform.
+/// The largest length up to `count` with only the prime factors 2, 3 and 5. Other lengths are slow to transform.
 Eigen::Index quick_length(Eigen::Index count) {
   for (Eigen::Index length = count;; --length) {
     Eigen::Index rest = length;
@@ -29,7 +29,7 @@ Eigen::Index quick_length(Eigen::Index count) {
   }
 }
 
-/// At 1, 2, ... periods within the signal, below half the sample rate.
+/// The power at 1, 2, ... periods per length of the signal, below half the sample rate.
 std::vector<double> powers(const Eigen::VectorXd& signal) {
   const Eigen::Index length = quick_length(signal.size());
   const double mean = signal.head(length).mean();
@@ -70,7 +70,7 @@ double p_value_of_motion(const Eigen::VectorXd& measured, const Eigen::VectorXd&
 
 double noise_p_value(const Signal& signal, const Eigen::VectorXd& residuals, std::size_t parameters) {
   const Eigen::VectorXd measured = Eigen::Map<const Eigen::VectorXd>(signal.measured.data(), residuals.size());
-  // What integration and rounding leave of exact data is no noise, and no motion either.
+  // Residuals of exact data are errors of integration and rounding: neither noise nor motion.
   constexpr double exact = 1e-5;
   const double size = (measured.array() - measured.mean()).matrix().norm();
   if (residuals.norm() <= exact * size) return unknown;
@@ -78,7 +78,7 @@ double noise_p_value(const Signal& signal, const Eigen::VectorXd& residuals, std
     return residuals.size() < least_test_samples ? unknown : p_value_of_motion(measured, residuals);
   const double freedom = static_cast<double>(residuals.size()) - static_cast<double>(parameters);
   if (!signal.is_stated || freedom < 1.0) return unknown;
-  // F with a denominator that is known is chi-square.
+  // F with infinitely many degrees of freedom in the denominator is chi-square.
   constexpr double known = 1e9;
   return f_test_p_value(residuals.squaredNorm() / (signal.noise * signal.noise * freedom), freedom, known);
 }
@@ -99,7 +99,7 @@ void compare_with_stated(double deviation, double freedom, FittedSignal& signal)
   if (!(signal.noise > 0.0) || !(freedom >= 1.0)) return;
   const double ratio = deviation / signal.noise;
   signal.chi2_per_freedom = ratio * ratio;
-  // F with a denominator that is known is chi-square.
+  // F with infinitely many degrees of freedom in the denominator is chi-square.
   constexpr double known = 1e9;
   const double above = f_test_p_value(signal.chi2_per_freedom, freedom, known);
   signal.chi2_p_value = std::min(1.0, 2.0 * std::min(above, 1.0 - above));
@@ -120,10 +120,10 @@ std::string said_of_stated(const FittedSignal& fitted, const std::string& who) {
                            core::format_number(fitted.chi2_per_freedom, 2) + " per degree of freedom): ";
   if (contradicts_stated(fitted) < 0)
     return who + " are " + ratio + test +
-           "the stated noise is too large; the intervals take it as stated and are too wide by up to as much";
+           "the stated noise is too large; the intervals use it and are too wide by up to the same factor";
   return who + " are " + ratio + test +
-         "the stated noise is too small, or the law is not that of the rig; the intervals are made wider, as the "
-         "residuals are";
+         "the stated noise is too small, or the law is not that of the rig; the intervals are widened in proportion to "
+         "the residuals";
 }
 
 }  // namespace
@@ -134,16 +134,16 @@ void warn_of_residuals(const Experiments& experiments, Fit& fit) {
     const Signal& signal = experiment.signals[fitted.rows.signal];
     const std::string who = experiment.label + ": the residuals of " + signal.name;
     if (contradicts_stated(fitted) != 0) fit.warnings.push_back(said_of_stated(fitted, who));
-    // Of readings that are no samples the stated noise is all there is to compare with.
+    // For readings that are not samples, `said_of_stated` has already reported residuals above the stated noise.
     if (is_noise(fitted.p_value) || (!signal.is_sampled && contradicts_stated(fitted) > 0)) continue;
     std::string text = who;
     if (fitted.noise_units > 1.0) text += ", " + core::format_number(fitted.noise_units, 3) + " times the noise,";
     text +=
-        std::string(signal.is_sampled ? " are no noise: they hold motion that the fitted rig does not make."
-                                      : " are no noise: they are too large or too alike from reading to reading.") +
-        " The law is not that of the rig, a "
-        "constant is off, or the search ended beside the best fit (more starts, bounds, stated values); what "
-        "the intervals say holds for the right law only";
+        std::string(signal.is_sampled
+                        ? " are not noise: they hold motion that the fitted rig does not have."
+                        : " are not noise: they are too large or too similar from reading to reading.") +
+        " The law is not that of the rig, a constant is wrong, or the search missed the best fit (try more starts, "
+        "bounds, stated values); the intervals hold only for the right law";
     fit.warnings.push_back(std::move(text));
   }
 }

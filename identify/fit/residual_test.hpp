@@ -1,18 +1,18 @@
 #pragma once
-/// Whether residuals are noise, or hold motion that the fitted rig does not make.
+/// Tests whether residuals are noise, or hold a motion that the fitted rig does not have.
 ///
-/// Of a sampled signal: noise has as much power where the motion is as elsewhere. With P_j the power of the
-/// residuals at frequency j, B the fewest frequencies that hold 99 % of the power of the measured signal (eight at
-/// least), b of them, and r others,
+/// Sampled signals: noise has the same power at the frequencies of the motion as elsewhere. P_j is the power of the
+/// residuals at frequency j. B is the smallest set of frequencies that hold 99 % of the power of the measured
+/// signal; it has b of them, at least eight. r is the number of the others.
 ///
 ///   F = (sum_B P_j/b) / (sum_others P_j/r),   2b and 2r degrees of freedom.
 ///
-/// It needs no noise level, and finds what hardly shows in the rms: a motion that is off by a third of the noise.
-/// Noise that a sensor has made smooth looks like a motion, too. Of other readings with a stated noise s: the
-/// chi-square test of sum r_i^2/s^2.
+/// The test needs no noise level. It detects an error of the motion of a third of the noise, which the rms hardly
+/// shows. It also rejects noise that the sensor smoothed. Other readings with a stated noise s: chi-square test of
+/// sum r_i^2/s^2.
 ///
-/// A stated noise is compared with the residuals on both sides: chi-square over its degrees of freedom, of the
-/// readings that count as independent. Beyond a chance of 0.001 and a factor of 1.3 the statement is called wrong.
+/// A stated noise may be too small or too large: a two-sided chi-square test with the readings that count as
+/// independent. It is called wrong for a chance below 0.001 and a ratio of the deviations beyond a factor of 1.3.
 ///
 /// Source: brockwell1991. Cost: two Fourier transforms.
 
@@ -23,24 +23,24 @@
 
 namespace dualdamp::identify {
 
-/// The chance that noise alone has so much power where the motion is; `unknown` where fewer than 64 samples or no
-/// stated noise do not tell. `parameters`: how many were fitted.
+/// The chance that noise alone leaves such residuals. `unknown` for fewer than 64 samples, or for other readings
+/// without a stated noise. `parameters`: number of fitted parameters.
 [[nodiscard]] double noise_p_value(const Signal& signal, const Eigen::VectorXd& residuals, std::size_t parameters);
 
-/// Whether such a chance is noise's, or none is known.
+/// Whether a chance agrees with noise: it is at least 0.001, or `unknown`.
 [[nodiscard]] bool is_noise(double p_value);
 
-/// The standard deviation of residuals among which some are no noise: by the median of their sizes.
+/// The standard deviation of residuals with outliers, from the median of their absolute values.
 [[nodiscard]] double robust_deviation(const Eigen::VectorXd& residuals);
 
-/// Sets the misfit against a stated noise. `deviation`: of the residuals; `freedom`: independent readings without
-/// the parameters that they determine, > 0.
+/// Sets `chi2_per_freedom` and `chi2_p_value` of a signal with a stated noise. `deviation`: of the residuals;
+/// `freedom`: number of independent readings, minus the parameters that they determine.
 void compare_with_stated(double deviation, double freedom, FittedSignal& signal);
 
-/// Whether the residuals contradict the stated noise: > 0 they are larger, < 0 smaller, 0 they do not.
+/// Whether the residuals contradict the stated noise. > 0: they are larger; < 0: they are smaller; 0: no.
 [[nodiscard]] int contradicts_stated(const FittedSignal& signal);
 
-/// Says in `fit.warnings` which signals hold more than noise, and which noise was not as stated.
+/// Adds warnings to `fit`: signals whose residuals are not noise, and stated noises that are wrong.
 void warn_of_residuals(const Experiments& experiments, Fit& fit);
 
 }  // namespace dualdamp::identify

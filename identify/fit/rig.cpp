@@ -17,8 +17,8 @@ using friction::ParameterValues;
 
 constexpr friction::Range positive{.low = 0.0, .low_open = true};
 
-/// The number at `path` of the values; nullptr where a record or an item on the way is not there. A number on the
-/// top level that is not there is created.
+/// The number at `path` of the values. A missing number on the last level is created; nullptr if a record or an
+/// item on the way is missing.
 double* number_at(ParameterValues& values, std::string_view path) {
   const std::size_t cut = path.find('.');
   std::string_view head = path.substr(0, cut);
@@ -58,7 +58,7 @@ class LawNumbers {
     for (const Parameter& parameter : table) {
       const std::string path = prefix + std::string(parameter.name);
       if (parameter.kind == ParameterKind::number) {
-        // Of the other form of the law.
+        // The law is stated in its other form.
         if (!parameter.instead_of.empty() && values.has(parameter.instead_of)) continue;
         found_.push_back({.name = path,
                           .unit = std::string(parameter.unit.empty() ? "1" : parameter.unit),
@@ -129,7 +129,8 @@ std::string qualified(const FitParameter& parameter, std::size_t laws) {
   return (laws > 1 ? "friction[" + std::to_string(parameter.index) + "]." : "friction.") + parameter.path;
 }
 
-/// Where the static level is that of the kinetic one by default, a speed over which it falls would have no meaning.
+/// Whether a static level must be sought although it has a default. By default it equals the kinetic level, and
+/// then the speed over which the friction falls would have no effect.
 bool is_level_of_rest(const friction::LawEntry& law, const Parameter& parameter) {
   return !parameter.same_as.empty() && parameter.name == "static" &&
          std::ranges::find(law.parameters, "stribeck_velocity", &Parameter::name) != law.parameters.end();
@@ -151,7 +152,7 @@ void add_missing(const RigLaw& law, std::size_t index, const std::vector<FitPara
           names.emplace_back(parameter.name);
     } else {
       faults.push_back("'" + fault.name + "' of " + std::string(law.entry->name) +
-                       " is missing: state how many there are, with values to begin with");
+                       " is missing: state the list, with start values; a fit does not choose its length");
     }
   }
   for (const Parameter& parameter : law.entry->parameters)
@@ -168,7 +169,7 @@ std::string list_of_share(const std::string& path) {
   return path.ends_with("].share") ? path.substr(0, path.find('[')) : std::string();
 }
 
-/// The last share of each list is what the others leave of 1.
+/// Sets the last share of each list to 1 minus the sum of the others. False if that is not positive.
 bool complete_shares(ParameterValues& values) {
   for (const auto& [name, value] : values.values()) {
     const auto* items = std::get_if<std::vector<ParameterValues>>(&value);
@@ -304,9 +305,11 @@ std::optional<Rig> with_values(const Rig& rig, const std::vector<FitParameter>& 
     }
   }
   if (ratio) o.damping = 2.0 * *ratio * std::sqrt(o.mass * o.stiffness);
-  for (RigLaw& law : result.laws) {
-    const bool sought = std::ranges::any_of(
-        parameters, [](const FitParameter& parameter) { return !list_of_share(parameter.path).empty(); });
+  for (std::size_t i = 0; i < result.laws.size(); ++i) {
+    RigLaw& law = result.laws[i];
+    const bool sought = std::ranges::any_of(parameters, [&](const FitParameter& parameter) {
+      return parameter.owner == Owner::law && parameter.index == i && !list_of_share(parameter.path).empty();
+    });
     if (sought && !complete_shares(law.values)) return std::nullopt;
     if (!friction::complete(*law.entry, law.values).empty()) return std::nullopt;
   }

@@ -1,13 +1,14 @@
 #pragma once
-/// The rig of a fit: an oscillator and its friction laws, some of whose numbers are known and some are sought.
+/// The rig of a fit: an oscillator and its friction laws. Some of their parameters are known, others are sought.
 ///
-/// A number that is sought has a name. Those of the oscillator and its drive are mass, stiffness, cubic_stiffness,
-/// damping, damping_ratio, phase, force_offset; those of a law are the ones of its table, with their way into lists
-/// and records ("elements[1].stiffness", "warming.power"). Where a name stands for two numbers they are told apart
-/// by "system." and "friction." (of laws in parallel "friction[1].") before it. Each record adds its own: position
-/// and velocity at its first sample, offset (the reading of x at rest), release (the time of the first extreme).
+/// A parameter that is sought has a name. The names of the oscillator and its drive are mass, stiffness,
+/// cubic_stiffness, damping, damping_ratio, phase, force_offset. The names of a law are those of its table, with a
+/// path into lists and records ("elements[1].stiffness", "warming.power"). If two parameters have the same name,
+/// "system." or "friction." ("friction[1]." for laws in parallel) is put before it. Each record adds its own
+/// parameters: position and velocity at its first sample, offset (the reading of x at rest), release (the time of
+/// the first extreme).
 ///
-/// Ranges are those of the laws' tables. The last `share` of a list of elements is what the others leave of 1.
+/// Ranges are those of the laws' tables. The last `share` of a list of elements is 1 minus the sum of the others.
 
 #include <Eigen/Core>
 #include <array>
@@ -29,13 +30,13 @@ struct RigLaw {
   friction::ParameterValues values;  ///< those that are stated
 };
 
-/// What a record has of its own, in this order.
+/// The parameters of a single record, in this order.
 enum class Own { position, velocity, offset, release };
 inline constexpr std::size_t own_count = 4;
 /// m, m/s, m, s
 using OwnValues = std::array<double, own_count>;
 
-/// Where a number belongs.
+/// What a parameter belongs to.
 enum class Owner {
   mass,
   stiffness,
@@ -50,44 +51,45 @@ enum class Owner {
 
 struct FitParameter {
   std::string name;
-  std::string unit;  ///< SI; "1" of a plain number
+  std::string unit;  ///< SI; "1" for a number without unit
   Owner owner = Owner::law;
-  std::size_t index = 0;                  ///< of the law, or of the record
-  std::string path = {};                  ///< in the values of a law
-  Own own = Own::position;                ///< of a record
+  std::size_t index = 0;                  ///< of the law or of the record
+  std::string path = {};                  ///< if it belongs to a law: path in the values of the law
+  Own own = Own::position;                ///< if it belongs to a record
   friction::Range range = {};             ///< allowed by the law, and by the caller
-  double stated = unknown;                ///< where the search begins, if someone said so
-  std::optional<std::size_t> above = {};  ///< the number of the parameter that this one is at least
-  std::string at_least = {};              ///< its name in the table of the law
+  double stated = unknown;                ///< stated value, at which the search begins
+  std::optional<std::size_t> above = {};  ///< index of the parameter that this one must not be below
+  std::string at_least = {};              ///< name of that parameter in the table of the law
 };
 
 struct Rig {
-  sim::Model known;  ///< without friction; `unknown` mass, stiffness or damping: sought
+  sim::Model known;  ///< without friction; mass, stiffness or damping may be `unknown`
   std::vector<RigLaw> laws;
 };
 
-/// All numbers of the rig that may be sought, in the order of the tables. What the laws hold in lists and records
-/// that are not stated is not among them.
+/// All parameters of the rig that may be sought, in the order of the tables. Parameters in lists and records of
+/// laws are included only if the list or the record is stated.
 [[nodiscard]] std::vector<FitParameter> parameters_of(const Rig& rig);
 
-/// Those without a value that the rig cannot do without: mass, stiffness, damping and required numbers of laws. The
-/// static level of a law that falls with speed counts as one. `faults`: what is missing and no number.
+/// Parameters that are required and have no value: mass, stiffness, damping and the required parameters of laws.
+/// The static level of a law that falls with speed counts as required. `faults`: missing values that are no
+/// numbers.
 [[nodiscard]] std::vector<FitParameter> unstated_parameters(const Rig& rig, std::vector<std::string>& faults);
 
-/// The one of this name among `all`, which may also be part of a name: "elements" of "elements[0].stiffness". Empty
-/// with a fault where there is none, or more than one of the same name.
+/// The parameters among `all` with this name, or with this name as the first part of theirs: "elements" selects
+/// "elements[0].stiffness". Empty, with a fault, if there is none, or if two parameters have this very name.
 [[nodiscard]] std::vector<FitParameter> named(const std::vector<FitParameter>& all, const std::string& name,
                                               std::string& fault);
 
-/// Links parameters to those that they are at least, takes the last share out of each list whose shares are all
-/// sought, and makes names as short as they can be.
+/// Sets `above` of the parameters, removes the last share of each list whose shares are all sought, and makes names
+/// as short as possible.
 void arrange(const Rig& rig, std::vector<FitParameter>& parameters);
 
-/// The rig with these values of its parameters; those of records are left alone. Nothing where a law refuses them.
+/// The rig with these values; parameters of records are ignored. Nothing if a law refuses the values.
 [[nodiscard]] std::optional<Rig> with_values(const Rig& rig, const std::vector<FitParameter>& parameters,
                                              const Eigen::VectorXd& values);
 
-/// Its model; nothing where a law refuses its values.
+/// The model of a rig. Nothing if a law refuses its values.
 [[nodiscard]] std::optional<sim::Model> model_of(Rig rig);
 
 }  // namespace dualdamp::identify

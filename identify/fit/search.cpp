@@ -16,7 +16,7 @@ namespace {
 
 using core::infinity;
 
-/// Weights and steps.
+/// The weights of the readings, and searches with them.
 class Search {
  public:
   Search(const FitProblem& problem, const SearchOptions& options)
@@ -27,7 +27,7 @@ class Search {
 
   [[nodiscard]] const Eigen::VectorXd& weights() const { return weights_; }
 
-  /// Sum of squares; infinite where there is no motion.
+  /// Weighted sum of squares; infinite if there is no motion.
   [[nodiscard]] double squares(const Eigen::VectorXd& q) const {
     Eigen::VectorXd outputs;
     if (!problem_.outputs(q, outputs)) return infinity;
@@ -58,7 +58,7 @@ class Search {
     return fit(least);
   }
 
-  /// Weights from the residuals of a fit; how much the largest change of a deviation is, relative.
+  /// Sets the weights from the residuals of a fit. Returns the largest relative change of a deviation.
   double reweight(const Eigen::VectorXd& outputs, Eigen::Index parameters) {
     const Eigen::VectorXd misses = problem_.misses(outputs);
     const double spent = static_cast<double>(parameters) / static_cast<double>(problem_.rows());
@@ -79,7 +79,7 @@ class Search {
   }
 
  private:
-  /// Noise where it is known; else a share of the signal, for weights alone.
+  /// The noise if it is known; else a share of the signal, for the first weights.
   [[nodiscard]] double first_deviation(const SignalRows& rows) const {
     const Signal& signal = problem_.signal(rows);
     if (signal.noise > 0.0) return signal.noise;
@@ -97,7 +97,7 @@ class Search {
     weights_ = weights_.cwiseProduct(problem_.counted());
   }
 
-  /// Huber's weights: a residual beyond the bound pulls like one at it.
+  /// Huber's weights: a residual beyond the bound has the influence of one at the bound.
   void bound(const Eigen::VectorXd& misses) {
     constexpr double huber = 1.345;
     for (Eigen::Index i = 0; i < misses.size(); ++i) {
@@ -119,7 +119,7 @@ std::vector<Eigen::VectorXd> start_points(const FitProblem& problem, const std::
   return points;
 }
 
-/// Those from which the search has the least way to go, best first.
+/// The points with the smallest sums of squares, best first.
 std::vector<Eigen::VectorXd> best_of(const std::vector<Eigen::VectorXd>& points, const Search& search,
                                      std::size_t wanted) {
   std::vector<std::pair<double, std::size_t>> order(points.size());
@@ -132,7 +132,7 @@ std::vector<Eigen::VectorXd> best_of(const std::vector<Eigen::VectorXd>& points,
   return best;
 }
 
-/// The first steps of a search: enough to choose among several.
+/// Tolerance of the first steps, which only choose among several searches.
 constexpr double rough = 1e-3;
 
 void take_better(LeastSquaresFit found, const FitProblem& problem, std::optional<LeastSquaresFit>& best) {
@@ -140,7 +140,7 @@ void take_better(LeastSquaresFit found, const FitProblem& problem, std::optional
   if (!best || found.sum_of_squares < best->sum_of_squares) best = std::move(found);
 }
 
-/// The best of these points for `part`, improved a little.
+/// The best of these points for `part`, after a few steps of a search.
 std::vector<Eigen::VectorXd> improved(std::vector<Eigen::VectorXd> points, std::size_t wanted,
                                       const FitProblem& part, const SearchOptions& options) {
   constexpr int few = 8;
@@ -150,7 +150,7 @@ std::vector<Eigen::VectorXd> improved(std::vector<Eigen::VectorXd> points, std::
   return points;
 }
 
-/// The best of these points, with all readings.
+/// Searches with all readings from the best of these points.
 std::optional<LeastSquaresFit> search_whole(const std::vector<Eigen::VectorXd>& points, const Search& search,
                                             const FitProblem& problem) {
   constexpr int some = 16;
@@ -160,7 +160,7 @@ std::optional<LeastSquaresFit> search_whole(const std::vector<Eigen::VectorXd>& 
   return best;
 }
 
-/// With models tied to the measured motions, less and less.
+/// Searches with models tied to the measured motions, with a weaker tie in each round.
 std::optional<LeastSquaresFit> search_tied(std::vector<Eigen::VectorXd> points, const Search& search,
                                            const FitProblem& problem, const SearchOptions& options) {
   std::size_t wanted = 4;
@@ -173,7 +173,7 @@ std::optional<LeastSquaresFit> search_tied(std::vector<Eigen::VectorXd> points, 
   return search_whole(points, search, problem);
 }
 
-/// From the best of these points by the first share of each motion, with more and more of it.
+/// Searches from these points with the first share of each motion, which is doubled in each round.
 std::optional<LeastSquaresFit> search_growing(std::vector<Eigen::VectorXd> points, double first,
                                               const Search& search, const FitProblem& problem,
                                               const SearchOptions& options) {
@@ -185,8 +185,8 @@ std::optional<LeastSquaresFit> search_growing(std::vector<Eigen::VectorXd> point
   return search_whole(points, search, problem);
 }
 
-/// Searches with first parts of the motions; where two of them do not end alike, or there are no motions, also from
-/// several starts with all readings.
+/// Searches with the first parts of the motions. If two of them do not end at the same sum of squares, or if there
+/// are no motions, also searches from several starts with all readings.
 std::optional<LeastSquaresFit> search_roughly(const std::vector<Eigen::VectorXd>& points, const Search& search,
                                               const FitProblem& problem, const SearchOptions& options) {
   std::optional<LeastSquaresFit> best;
@@ -206,7 +206,7 @@ std::optional<LeastSquaresFit> search_roughly(const std::vector<Eigen::VectorXd>
   return best;
 }
 
-/// To the end, with the weights that the residuals of each signal ask for.
+/// Continues a search to its end, with weights from the residuals of each signal.
 std::optional<LeastSquaresFit> finish(LeastSquaresFit found, Search& search, const FitProblem& problem,
                                       bool several_weights) {
   constexpr double fine = 1e-8;
@@ -223,7 +223,7 @@ std::optional<LeastSquaresFit> finish(LeastSquaresFit found, Search& search, con
   return found;
 }
 
-/// Whether the residuals of a signal are more than noise.
+/// Whether the residuals of any signal are more than noise.
 bool holds_motion(const Eigen::VectorXd& q, const FitProblem& problem) {
   Eigen::VectorXd outputs;
   if (!problem.outputs(q, outputs)) return false;
@@ -257,11 +257,11 @@ std::optional<SearchResult> search_parameters(const FitProblem& problem,
   const std::vector<Eigen::VectorXd> points = parameters.empty()
                                                   ? std::vector<Eigen::VectorXd>{Eigen::VectorXd(0)}
                                                   : start_points(problem, parameters, sizes, options.points);
-  // The first steps ask for the region of the minimum, not for its place.
+  // The first steps need only find the region of the minimum.
   const FitProblem rough_problem = problem.roughly({.tolerance = 1e-7, .step = 1e-3});
   const Search rough_search(rough_problem, options);
   const bool several_weights = has_several_weights(problem, options);
-  const Search alike(problem, options);  // searches that have ended weigh their own residuals
+  const Search alike(problem, options);  // compares ended searches with equal weights
   std::optional<SearchResult> best;
   const auto take = [&](std::optional<LeastSquaresFit> found) {
     Search search(problem, options);
@@ -271,9 +271,10 @@ std::optional<SearchResult> search_parameters(const FitProblem& problem,
   };
   const auto is_at_end = [&] { return best && !holds_motion(best->coordinates, problem); };
   take(search_roughly(points, rough_search, rough_problem, options));
-  // From far off a beginning takes more steps than it was given, as to a mass that nobody stated.
+  // From a distant start, as for a mass without a stated value, the first parts need more steps.
   if (best && !is_at_end()) take(search_growing({best->coordinates}, 0.1, rough_search, rough_problem, options));
-  // Both beginnings may end beside the same false minimum. Tied models come from elsewhere, and cost most of a fit.
+  // Both searches may end in the same false minimum. Tied models approach the minimum on another way; they cost
+  // most of the time of a fit.
   if (!is_at_end()) take(search_tied(points, rough_search, rough_problem, options));
   return best;
 }

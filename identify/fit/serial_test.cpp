@@ -14,7 +14,7 @@ namespace dualdamp::identify {
 
 namespace {
 
-/// Of the squares of the differences between neighbours.
+/// A: the matrix of the sum of the squared differences of neighbours.
 Eigen::MatrixXd matrix_of_differences(Eigen::Index count) {
   Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(count, count);
   for (Eigen::Index i = 0; i + 1 < count; ++i) {
@@ -39,7 +39,7 @@ double integrand(const Eigen::VectorXd& lambda, double u) {
 
 double chance_below_zero(const Eigen::VectorXd& lambda) {
   const double unit = 1.0 / lambda.cwiseAbs().maxCoeff();
-  // u = unit e^w by the trapezoidal rule: the integrand over w falls exponentially on both sides.
+  // Trapezoidal rule over w with u = unit e^w: the integrand falls exponentially on both sides.
   constexpr double reach = 40.0;
   constexpr int steps = 1600;
   constexpr double step = 2.0 * reach / steps;

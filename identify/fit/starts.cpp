@@ -30,7 +30,7 @@ double frequency_of(const Experiment& experiment) {
 
 bool is_known(double value) { return value > 0.0 && std::isfinite(value); }
 
-/// In units of the data, a plain number, and how far a start may lie from it.
+/// The size of a parameter, and the largest factor between a start and this size.
 struct Guess {
   double size = 1.0;
   double spread = 10.0;
@@ -71,7 +71,8 @@ Guess guess_of(const FitParameter& parameter, const DataScale& s) {
   return found == by_unit.end() ? Guess{} : found->second;
 }
 
-/// Roots of x^(d+1) = x + 1: their powers fill a cube of d dimensions evenly (Roberts' sequence).
+/// Point `number` of Roberts' sequence in one dimension. The powers of the root of x^(d+1) = x + 1 fill a cube of d
+/// dimensions evenly.
 double share_of(int number, std::size_t dimension, std::size_t dimensions) {
   double root = 2.0;
   for (int i = 0; i < 40; ++i) root = std::pow(1.0 + root, 1.0 / (static_cast<double>(dimensions) + 1.0));
@@ -79,7 +80,7 @@ double share_of(int number, std::size_t dimension, std::size_t dimensions) {
   return std::fmod(0.5 + step * number, 1.0);
 }
 
-/// -1 < way < 1 along numbers of both signs: evenly, or by their logarithm where they spread far.
+/// A number of either sign in units of the size, for -1 < `way` < 1: linear, or logarithmic for a large spread.
 double of_either_sign(double way, double spread) {
   constexpr double far = 10.0;
   return spread < far ? way : std::copysign(std::pow(spread, 2.0 * std::abs(way) - 1.0), way);
@@ -139,13 +140,14 @@ double size_of(const FitParameter& parameter, const DataScale& scale) {
 Eigen::VectorXd start_of(const std::vector<FitParameter>& parameters, const std::vector<double>& sizes,
                          int number) {
   const DataScale unit;
-  // Beside numbers that nobody stated the stated ones keep their values.
+  // Stated values are varied only if all values are stated.
   const bool all_stated =
       std::ranges::none_of(parameters, [](const FitParameter& parameter) { return std::isnan(parameter.stated); });
   Eigen::VectorXd start(static_cast<Eigen::Index>(parameters.size()));
   for (std::size_t i = 0; i < parameters.size(); ++i) {
     const FitParameter& parameter = parameters[i];
-    // Zero, as of a cubic spring that may be there or not, tells no size: every other start leaves it.
+    // A stated zero, as of a cubic spring that may not exist, has no size: every other start uses one from the
+    // data.
     const bool is_stated = !std::isnan(parameter.stated) && (parameter.stated != 0.0 || number % 2 == 0);
     const double share = number == 0 ? 0.5 : share_of(number, i, parameters.size());
     const double about_stated = all_stated ? 1.5 : 1.0;

@@ -1,9 +1,9 @@
 #pragma once
-/// Where a fit begins: sizes of parameters nobody stated a value of, from the data and the parameter's unit.
+/// Starts of a fit: sizes of parameters without a stated value, from the data and the unit of the parameter.
 ///
-/// The data give a force, a length, a speed and a time; a parameter in N/m is then of the size of force over
-/// length, times a number that friction usually has beside the spring. It need not be right: the starts spread
-/// over two decades about it.
+/// The data give a force, a length, a speed and a time. The size of a parameter in N/m is then force over length,
+/// times a typical ratio of friction to spring. The size may be wrong by a factor, because the starts spread over
+/// two decades around it.
 
 #include <Eigen/Core>
 #include <vector>
@@ -21,15 +21,15 @@ struct DataScale {
   double speed = 1.0;
 };
 
-/// Angular frequency of a sampled signal by its crossings of the mean [rad/s].
+/// Angular frequency of a sampled signal, from the crossings of its mean [rad/s].
 [[nodiscard]] double crossing_frequency(const Signal& signal);
 
 [[nodiscard]] DataScale scale_of(const Rig& rig, const std::vector<std::unique_ptr<Experiment>>& experiments);
 
-/// > 0: of a stated value its own, unless that is zero.
+/// Size of a parameter, > 0, in its unit. For a stated value that is not zero: its absolute value.
 [[nodiscard]] double size_of(const FitParameter& parameter, const DataScale& scale);
 
-/// Start `number`, 0, 1, ...: the first is the stated values and the sizes themselves.
+/// Start `number` (0, 1, ...). Start 0 has the stated values, and the sizes of the other parameters.
 [[nodiscard]] Eigen::VectorXd start_of(const std::vector<FitParameter>& parameters,
                                        const std::vector<double>& sizes, int number);
 

@@ -67,7 +67,7 @@ class SteadyStates final : public Experiment {
   }
 
  private:
-  /// Newton's method from the known orbits.
+  /// Steady states by Newton's method from known orbits.
   class Near final : public Neighbours {
    public:
     Near(const SteadyStates& states, const sim::Model& model) : states_(states) {
@@ -105,7 +105,7 @@ class SteadyStates final : public Experiment {
       if (!state.outcome.ok()) return false;
       outputs[static_cast<Eigen::Index>(i)] = state.amplitude;
       if (phases == with_phase_.size() || with_phase_[phases] != i) continue;
-      // Of all that differ by whole turns the one next to the measured one.
+      // The phase that is nearest to the measured one, modulo 2 pi.
       const double measured = signals[1].measured[phases];
       outputs[static_cast<Eigen::Index>(levels_.size() + phases)] =
           measured + std::remainder(state.phase - measured, 2.0 * std::numbers::pi);
@@ -115,7 +115,7 @@ class SteadyStates final : public Experiment {
   }
 
   std::vector<Level> levels_;
-  std::vector<std::size_t> with_phase_;  ///< levels
+  std::vector<std::size_t> with_phase_;  ///< indices of the levels with a measured phase
   bool by_force_;
 };
 

@@ -66,7 +66,7 @@ Tie::Tie(const MeasuredSamples& samples, double frequency, double strength)
 }
 
 std::optional<sim::Model> Tie::tied(const sim::Model& model, const OwnValues& own) const {
-  // The force by which a spring that is no straight line passes a base motion on depends on the motion.
+  // With a nonlinear spring, the force that a moving base exerts depends on the motion of the mass.
   if (!sim::is_linear(model.oscillator) && model.excitation.moves_base()) return std::nullopt;
   const sim::Oscillator& o = model.oscillator;
   const double spring = follows_x_ ? strength_ * o.stiffness : 0.0;

@@ -37,12 +37,12 @@ TradeOff trade_off(const WeakDirection& direction, const std::vector<FitParamete
   constexpr double part = 0.3;
   const Eigen::Index first = order.front();
   const double largest = std::abs(direction.share[first]);
-  // What changes by as much belongs to it, be it a small part of a large number.
+  // A parameter of the same unit that changes by as much is named too, even if this is a small share of its value.
   const auto changes_alike = [&](Eigen::Index i) {
     return parameters[static_cast<std::size_t>(i)].unit == parameters[static_cast<std::size_t>(first)].unit &&
            std::abs(direction.change[i]) > part * std::abs(direction.change[first]);
   };
-  // Where nothing holds a direction, what it changes in the readings is made up for by what changes as much.
+  // If the data do not determine the direction, all parameters with large effects that cancel are named.
   const auto makes_up = [&](Eigen::Index i) {
     return !std::isfinite(direction.deviation) && direction.effect[i] > part * direction.effect.maxCoeff();
   };
@@ -54,7 +54,7 @@ TradeOff trade_off(const WeakDirection& direction, const std::vector<FitParamete
   const std::string known = std::isfinite(direction.deviation)
                                 ? "; the data leave " + percent_of_size(2.0 * direction.deviation * largest) +
                                       " of " + found.parameters.front() + " open"
-                                : "; nothing in the data holds them";
+                                : "; the data do not determine them";
   if (order.size() == 1)
     found.text = std::isfinite(direction.deviation)
                      ? "the data hardly show " + found.parameters.front() + ": it is known to " +
@@ -63,7 +63,7 @@ TradeOff trade_off(const WeakDirection& direction, const std::vector<FitParamete
   else if (order.size() == 2)
     found.text = pair_text(direction, parameters, order[0], order[1]) + known;
   else
-    found.text = core::joined(found.parameters, " and ") + " trade off among each other" + known;
+    found.text = core::joined(found.parameters, " and ") + " trade off against each other" + known;
   return found;
 }
 

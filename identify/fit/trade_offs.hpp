@@ -1,5 +1,5 @@
 #pragma once
-/// What the data of a fit cannot tell apart, in words.
+/// Describes in words the parameters that the data of a fit cannot separate.
 
 #include <Eigen/Core>
 #include <string>
@@ -11,10 +11,10 @@ namespace dualdamp::identify {
 
 /// A direction of the parameters along which the data allow a change.
 struct WeakDirection {
-  Eigen::VectorXd change;  ///< of the values, for one unit along it
-  Eigen::VectorXd share;   ///< of each parameter, in parts of its size; of length 1
-  Eigen::VectorXd effect;  ///< of each share on the readings, by size
-  double deviation = 0.0;  ///< standard deviation along it, in these parts; infinite: nothing holds it
+  Eigen::VectorXd change;  ///< of the values, for one unit along the direction
+  Eigen::VectorXd share;   ///< the direction in units of the parameters' sizes; of length 1
+  Eigen::VectorXd effect;  ///< of each component on the readings, absolute
+  double deviation = 0.0;  ///< standard deviation along it, in units of `share`; infinite: not determined
 };
 
 [[nodiscard]] TradeOff trade_off(const WeakDirection& direction, const std::vector<FitParameter>& parameters);

@@ -25,11 +25,11 @@ class Uncertainty {
     for (Eigen::Index i = 0; i < size_; ++i) {
       const Coordinate& c = end.problem.coordinates()[static_cast<std::size_t>(i)];
       constexpr double near = 1e-6;
-      const bool low = end.q[i] <= c.low + near * std::max(1.0, std::abs(c.low) * near);
-      const bool high = end.q[i] >= c.high - near * std::max(1.0, std::abs(c.high) * near);
+      const bool low = end.q[i] <= c.low + near * std::max(1.0, std::abs(c.low));
+      const bool high = end.q[i] >= c.high - near * std::max(1.0, std::abs(c.high));
       fit.parameters[static_cast<std::size_t>(i)].at_bound = low || high;
-      // A logarithm ends where the parameter has no effect any more. A zero that the data do not exclude has one,
-      // and what it could be widens the others.
+      // At the end of a logarithmic range, a parameter has no effect any more. A parameter at zero still has one,
+      // so its uncertainty widens the intervals of the others.
       if (!(c.logarithmic && (low || high))) free_.push_back(i);
     }
     rows_ = end.weights.asDiagonal() * end.jacobian;
@@ -38,14 +38,14 @@ class Uncertainty {
     decompose();
   }
 
-  /// A place with a smaller sum of squares, where a profile has come by one.
+  /// Coordinates with a smaller sum of squares, if a profile found any.
   [[nodiscard]] const std::optional<Eigen::VectorXd>& lower() const { return lower_; }
 
   void run() {
     const Eigen::MatrixXd slope = end_.problem.slope(end_.q);
     fit_.covariance = slope * covariance_ * slope.transpose();
     fit_.slopes = end_.jacobian * inverse_of(slope);
-    // The bound of a robust fit leaves less freedom than this; with histories there is plenty.
+    // A robust fit has fewer degrees of freedom, which does not matter for the many samples of histories.
     const double freedom =
         all_stated_ ? infinity : std::max(1.0, fit_.log_likelihood_count - static_cast<double>(size_));
     quantile_ = quantile95(freedom);
@@ -56,7 +56,7 @@ class Uncertainty {
   }
 
  private:
-  /// 100 % of a parameter, in coordinates.
+  /// A change of 100 % of a parameter, in coordinates.
   [[nodiscard]] double whole(Eigen::Index i) const {
     const Coordinate& c = end_.problem.coordinates()[static_cast<std::size_t>(i)];
     if (c.logarithmic) return 1.0;
@@ -71,7 +71,7 @@ class Uncertainty {
       const Eigen::Index size = rows.end - rows.begin;
       const double count = end_.problem.counted().segment(rows.begin, size).sum();
       const double own = residuals_.segment(rows.begin, size).squaredNorm() / (count * (1.0 - spent));
-      // Of stated noise only what chance does not explain is added.
+      // The residuals replace a stated noise only if they are larger than chance explains.
       const double chance = 1.0 + 3.0 * std::sqrt(2.0 / count);
       const bool as_stated = end_.problem.signal(rows).is_stated && own < chance;
       all_stated_ = all_stated_ && as_stated;
@@ -113,7 +113,7 @@ class Uncertainty {
     if (end_.robust) covariance_ *= robust_factor();
   }
 
-  /// The bound of Huber's residuals makes the curvature of the sum smaller than its weights say.
+  /// Correction of the covariance: the bound makes the curvature of Huber's sum smaller than the weights do.
   [[nodiscard]] double robust_factor() const {
     constexpr double huber = 1.345;
     double weight = 0.0;
@@ -180,10 +180,10 @@ class Uncertainty {
     fitted.interval95[1] = std::min(fitted.interval95[1], range.high);
   }
 
-  /// Nothing changes near the estimate: what a parameter does may come in steps, from reading to reading.
+  /// Whether a parameter has no effect near the estimate: its effect may come in steps, from reading to reading.
   [[nodiscard]] bool acts_in_steps(Eigen::Index i) const { return rows_.col(i).norm() == 0.0; }
 
-  /// Whether the profile ends elsewhere than the covariance has it.
+  /// Whether an end of the profile differs from the interval by the covariance.
   [[nodiscard]] bool bends(const FittedParameter& fitted) const {
     constexpr double much = 0.25;
     const double width = quantile_ * fitted.std;
@@ -191,7 +191,7 @@ class Uncertainty {
            std::abs(fitted.profile95[1] - fitted.interval95[1]) > much * width;
   }
 
-  /// What the profile says of the interval by the covariance.
+  /// Chooses between the interval by the profile and the interval by the covariance.
   void judge_profile(Eigen::Index i) {
     FittedParameter& fitted = fit_.parameters[static_cast<std::size_t>(i)];
     const auto& [low, high] = fitted.profile95;
@@ -218,7 +218,7 @@ class Uncertainty {
     Profiler::for_each(size_, [&](Eigen::Index i) {
       FittedParameter& fitted = fit_.parameters[static_cast<std::size_t>(i)];
       if ((is_lost(i) && !acts_in_steps(i)) || (fitted.at_bound && free_.empty())) return;
-      // In units of the deviation that residuals alike from sample to sample leave.
+      // Correlated residuals widen the profile as they widen the covariance.
       const double variance = slope.row(i) * classical_ * slope.row(i).transpose();
       const double widening = fitted.at_bound || !(variance > 0.0)
                                   ? mean_variance()
@@ -261,7 +261,7 @@ class Uncertainty {
   std::vector<double> variances_;   ///< of the weighted residuals of each signal
   bool all_stated_ = true;
   Eigen::MatrixXd covariance_;         ///< of coordinates
-  Eigen::MatrixXd classical_;          ///< the same of independent residuals
+  Eigen::MatrixXd classical_;          ///< the same for independent residuals
   Eigen::MatrixXd scaled_covariance_;  ///< in parts of the parameters' sizes
   std::vector<Eigen::VectorXd> lost_;  ///< directions that change nothing, in parts of the sizes
   double quantile_ = 0.0;

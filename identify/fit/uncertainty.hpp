@@ -1,5 +1,5 @@
 #pragma once
-/// How well a fit knows its parameters: covariance, intervals, profile, and what the data cannot tell apart
+/// The uncertainty of a fit: covariance, intervals, profiles, and the parameters that the data cannot separate
 /// (`fit.hpp`).
 
 #include <Eigen/Core>
@@ -9,10 +9,10 @@
 
 namespace dualdamp::identify {
 
-/// A fit at its end.
+/// The end of a search.
 struct FitEnd {
   const FitProblem& problem;
-  const Eigen::VectorXd& weights;   ///< 1/deviation of each row, bounded where the fit is robust
+  const Eigen::VectorXd& weights;   ///< 1/deviation of each row, bounded if the fit is robust
   const Eigen::VectorXd& q;         ///< coordinates
   const Eigen::VectorXd& misses;    ///< outputs - measured
   const Eigen::MatrixXd& jacobian;  ///< of the outputs by the coordinates
@@ -20,11 +20,11 @@ struct FitEnd {
   bool robust = false;
 };
 
-/// Samples that count as independent: N/(1 + 2 sum of the autocorrelation, with Bartlett's weights).
+/// Number of samples that count as independent: N/(1 + 2 sum of the autocorrelation with Bartlett's weights).
 [[nodiscard]] double independent_samples(const Eigen::VectorXd& residuals, bool is_sampled);
 
-/// Fills in deviations, intervals, bounds, trade-offs, covariance and slopes of `fit`. Where a profile comes by a
-/// place with a smaller sum of squares it gives that: the search has to go on from there.
+/// Sets standard deviations, intervals, bounds, trade-offs, covariance and slopes of `fit`. Returns coordinates
+/// with a smaller sum of squares if a profile found any; the search must then continue from there.
 [[nodiscard]] std::optional<Eigen::VectorXd> add_uncertainty(const FitEnd& end, Fit& fit);
 
 }  // namespace dualdamp::identify

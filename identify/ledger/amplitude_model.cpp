@@ -26,14 +26,14 @@ struct Deviations {
   double phase = 1.0;
 };
 
-/// Y and phase that a motion asks for.
+/// Y and phase of the drive that a motion needs.
 using Asked = Eigen::Vector2d;
 
 double wrapped(double angle) { return std::remainder(angle, 2.0 * std::numbers::pi); }
 
 Asked asked(std::complex<double> drive) { return {std::abs(drive), std::arg(drive)}; }
 
-/// Change of what is asked by a small step, per unit of the step.
+/// Derivative of the needed drive, by a small step either way.
 template <typename At>
 Asked slope(const At& at, double step) {
   const Asked up = asked(at(step));
@@ -92,7 +92,7 @@ class SteadyStates {
     return list;
   }
 
-  /// Linearised at the parameters and the true amplitudes of the last call, which are then moved.
+  /// Linearised at the parameters and at the true amplitudes of the last call; then updates these amplitudes.
   Rows linearise(const Parameters& at, const Deviations& deviations) {
     Rows rows;
     const Eigen::Index count = amplitudes() + phases();
@@ -114,7 +114,7 @@ class SteadyStates {
   }
 
  private:
-  /// Sweeps whose friction force is set free; with very many of them the first.
+  /// Number of sweeps whose friction force is set free: the first ones, if there are very many.
   [[nodiscard]] int contrasts() const {
     constexpr int most = 8;
     return sweeps_ < 2 ? 0 : sweeps_ == 2 ? 1 : std::min(sweeps_, most);
@@ -122,7 +122,7 @@ class SteadyStates {
 
   [[nodiscard]] bool has_trend() const { return sweeps_ > 2; }
 
-  /// What the friction force of a sweep has more than the mean over all sweeps, which is what x_f stands for.
+  /// Friction displacement of a sweep less the mean over all sweeps, which is x_f.
   [[nodiscard]] double excess(int sweep, const Parameters& at) const {
     const auto first = static_cast<Eigen::Index>(terms_.size());
     double sum = 0.0;
@@ -131,7 +131,7 @@ class SteadyStates {
     return sum;
   }
 
-  /// The drive that a state asks for, with every relaxation by its coefficient.
+  /// The drive that a state needs, with every relaxation by its coefficient.
   [[nodiscard]] std::complex<double> drive(const SteadyPoint& point, const Parameters& at, double x) const {
     PlainFriction friction = at.friction;
     friction.x_f += excess(point.sweep, at);
@@ -144,7 +144,7 @@ class SteadyStates {
     return sum;
   }
 
-  /// Column of a parameter: the change of what is asked per unit of it.
+  /// Column of a parameter: the derivative of the needed drive.
   template <typename Change>
   [[nodiscard]] Asked column(const SteadyPoint& point, const Parameters& at, double x, double step,
                              const Change& change) const {
@@ -217,11 +217,11 @@ struct AmplitudeFit {
 /// Relaxations that are fitted beside the friction, by their numbers.
 using Taken = std::vector<std::size_t>;
 
-/// Of the curve that the noise of a channel is told from.
+/// Columns of the smooth curve that separates the noise of a channel.
 Eigen::Index smooth_columns(const SteadyStates& states) { return states.frequencies() > 1 ? 6 : 3; }
 
 /// The noise of one channel: what a smooth curve over amplitude and frequency leaves of its residuals. A departure
-/// is smooth, too, and must not be taken for noise.
+/// is smooth, so it is not taken for noise.
 double scale_of(const SteadyStates& states, const Eigen::VectorXd& residuals, Eigen::Index first,
                 Eigen::Index count) {
   Eigen::MatrixXd curve(count, smooth_columns(states));
@@ -240,7 +240,7 @@ double scale_of(const SteadyStates& states, const Eigen::VectorXd& residuals, Ei
   return std::sqrt(std::max(left.squaredNorm() / freedom, 1e-28));
 }
 
-/// One step of Gauss and Newton, held back.
+/// One Gauss-Newton step, limited in length.
 void move(const Eigen::VectorXd& step, const Taken& taken, Parameters& at) {
   const double most = 0.5 * at.friction.zeta;
   at.friction.zeta = std::max(1e-5, at.friction.zeta + std::clamp(step[0], -most, most));
@@ -251,7 +251,7 @@ void move(const Eigen::VectorXd& step, const Taken& taken, Parameters& at) {
         std::clamp(step[2 + static_cast<Eigen::Index>(j)], -most_relaxed, most_relaxed);
 }
 
-/// The fit where sigma_Y is `ratio` times sigma_x. `relaxed`: where the coefficients taken begin.
+/// The fit with sigma_Y = `ratio` sigma_x. `relaxed`: start of the coefficients taken.
 AmplitudeFit fit_with(SteadyStates states, const PlainFriction& begin, const Taken& taken, double ratio,
                       double relaxed) {
   AmplitudeFit fit;
@@ -280,9 +280,9 @@ AmplitudeFit fit_with(SteadyStates states, const PlainFriction& begin, const Tak
   return fit;
 }
 
-/// The best share of the deviations. Some 25 states hardly tell it: sensors of like accuracy are the most probable,
-/// a factor of three is one standard deviation. At one frequency the gain of Y on x hardly varies and without
-/// phases the record cannot tell at all: errors in x alone then, unless inputs that repeat say otherwise.
+/// The fit with the best ratio of the deviations. Some 25 states hardly determine it, so it has a prior: sensors of
+/// equal relative accuracy, with a factor of three as one standard deviation. At one frequency without phases the
+/// record does not determine it at all, because the gain of Y on x hardly varies: only x has errors then.
 AmplitudeFit best_fit(const SteadyStates& states, const PlainFriction& begin, const Taken& taken,
                       double relaxed = 0.0) {
   if (states.frequencies() < 2 && states.phases() == 0) return fit_with(states, begin, taken, 0.0, relaxed);
@@ -332,9 +332,9 @@ std::vector<SteadyPoint> points_of(const std::vector<Pair>& states, const KnownC
   return points;
 }
 
-/// A force in phase with the motion hardly changes the amplitude of a drive that is in quadrature, as it is at
-/// resonance: from amplitudes alone only an absurd one would be seen, and would be taken for what is not there. It
-/// is no test of its own, but may explain what another one finds.
+/// Leaves out the terms that amplitudes alone do not show. At resonance the drive is in quadrature with the motion,
+/// and a force in phase with the motion hardly changes its amplitude: only an absurd force would be seen. Such a
+/// term is not tested, but may explain what another test finds.
 void leave_out_unseen(const SteadyStates& states, const PlainFriction& friction, const Taken& taken,
                       JointModel& model) {
   if (states.with_phases()) return;
@@ -355,7 +355,7 @@ void leave_out_unseen(const SteadyStates& states, const PlainFriction& friction,
   }
 }
 
-/// What a natural frequency other than stated makes of the constants: the stiffness is not as stated, or the mass.
+/// The constants with the fitted natural frequency: another stiffness, or another mass.
 KnownConstants constants_at(const AmplitudeFit& fit, const SteadyStates& states, KnownConstants constants) {
   for (std::size_t j = 0; j < states.terms().size(); ++j) {
     const double g = fit.at.g[static_cast<Eigen::Index>(j)];
@@ -388,7 +388,7 @@ JointModel amplitude_model_of(const AmplitudeFit& fit, const SteadyStates& state
     const bool second_order =
         std::ranges::any_of(taken, [&](std::size_t j) { return std::ranges::find(hidden, j) != hidden.end(); });
     AmplitudeFit best = best_fit(states, begin, taken);
-    // What acts in the second order has no slope at zero.
+    // A term of second order has no slope at zero: the fit begins away from it.
     constexpr double away = 0.02;
     for (const double g : second_order ? std::vector<double>{away, -away} : std::vector<double>{}) {
       AmplitudeFit other = best_fit(states, begin, taken, g);
@@ -397,7 +397,7 @@ JointModel amplitude_model_of(const AmplitudeFit& fit, const SteadyStates& state
     return amplitude_model_of(best, states, taken, unit, stated);
   };
   const double to_force = constants.stiffness * unit;
-  // At a constant F0 = k x_f.
+  // The column of the stiffness is at constant F0 = k x_f.
   for (std::size_t j = 0; j < states.terms().size(); ++j) {
     auto column = model.relaxed.col(static_cast<Eigen::Index>(j));
     if (states.terms()[j]->test == stiffness_free && !column.isZero(0.0))

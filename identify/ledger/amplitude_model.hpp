@@ -2,11 +2,11 @@
 /// The joint model of steady states: amplitudes of x and y, and phases where they were measured.
 ///
 /// Errors of x, Y and the phase are independent and of constant deviation. The true amplitude of x is a nuisance of
-/// each state, so that errors of x bend no curve (fuller1987): residuals of Y and the phase are
+/// each state, so that errors of x do not bias the fit (fuller1987). Residuals of Y and the phase are
 ///
 ///   obs - D(xi) - D'(xi) (x - xi),   V = S + sigma_x^2 D' D'^T,   xi = x + sigma_x^2 D'^T V^-1 (residual)
 ///
-/// with D of amplitude_terms.hpp. The share of sigma_Y and sigma_x is that of the largest likelihood; the deviation
+/// with D of amplitude_terms.hpp. The ratio of sigma_Y to sigma_x is that of the largest likelihood; the deviation
 /// of the phase comes from its own residuals. States that stick at the fit are left out and named.
 ///
 /// Cost: a millisecond for 24 states, linear.

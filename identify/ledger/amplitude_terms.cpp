@@ -22,7 +22,7 @@ Complex plain_drive(const PlainFriction& friction, double x, double r) {
   const sim::analytic::DenHartog d = sim::analytic::den_hartog(friction.zeta, r);
   const double x_f = friction.x_f;
   const Complex stiffness((1.0 - r) * (1.0 + r), 2.0 * friction.zeta * r);
-  // From the turning point: the drive that the closed form asks for there, and what it leaves for the fundamental.
+  // The drive that the closed form needs, counted from the turning point, and the fundamental of x under it.
   const Complex drive = Complex(x + d.G * x_f, -d.H * x_f) * stiffness;
   const Complex fundamental = (drive - i * (4.0 / std::numbers::pi * x_f)) / stiffness;
   return drive * std::polar(1.0, -std::arg(fundamental));
@@ -33,7 +33,7 @@ PlainFriction first_guess(const std::vector<SteadyPoint>& points) {
   double least = std::numeric_limits<double>::infinity();
   for (double zeta = 0.002; zeta < 0.9; zeta *= 1.25) {
     for (double share = 0.0; share < 0.95; share += 0.05) {
-      // x_f as a share of what would take the whole drive of the lowest state.
+      // x_f as a share of about that which takes the whole drive of the lowest state.
       const auto low = std::ranges::min_element(points, {}, &SteadyPoint::x);
       const PlainFriction friction{zeta, share * low->x * 0.8};
       double squares = 0.0;
@@ -71,8 +71,8 @@ Complex second_mode(double x, double r) { return -r * r * r * r * x; }
 Complex drag(double x, double r) { return i * (r * x) * (r * x); }
 Complex cubic_damping(double x, double r) { return i * std::pow(r * x, 3); }
 Complex low_speed(double x, double r) { return i / (r * x * r * x); }
-// A contact that yields before it slides loses a share of the work that falls as 1/x, and answers each reversal
-// with a restoring force whose fundamental goes as the root of its deflection over x.
+// A contact that yields before it slides does less work, by a share that falls as 1/x. After each reversal it also
+// has a restoring force, whose fundamental is proportional to the root of its deflection over x.
 Complex presliding(double x, double /*r*/) { return i / x; }
 Complex presliding_stiffness(double x, double /*r*/) { return 1.0 / std::sqrt(x); }
 Complex position_slope(double x, double /*r*/) { return i * x; }

@@ -1,5 +1,5 @@
 #pragma once
-/// How assumptions may fail in steady states: the drive that a motion needs, with one of them relaxed.
+/// How assumptions may fail in steady states: the drive that a motion needs, with one assumption relaxed.
 ///
 /// A harmonic drive Y e^(i phi), phase counted from the fundamental of x, moves the mass by x. Coulomb and viscous
 /// friction alone need exactly D(x) = (Y, phi) of Den Hartog's closed form, read backwards. A further force whose
@@ -24,7 +24,7 @@ struct PlainFriction {
   double x_f = 0.0;
 };
 
-/// D of plain friction, without the test whether the motion sticks.
+/// D of plain friction. It does not check whether the motion sticks.
 [[nodiscard]] std::complex<double> plain_drive(const PlainFriction& friction, double x, double r);
 
 /// The steady state that a term is evaluated at.
@@ -40,19 +40,19 @@ struct SteadyPoint {
 /// Where a fit begins: the best of a grid in zeta and x_f.
 [[nodiscard]] PlainFriction first_guess(const std::vector<SteadyPoint>& points);
 
-/// Where fits with a relaxation begin: at the plain fit, but that may have ended where the plain model is absurd,
-/// far from all others. Then half of the drive of the largest gain is viscous, and half is Coulomb's.
+/// Where fits with a relaxation begin: at the plain fit. If that ended with hardly any damping or without friction,
+/// far from all other fits, they begin with half of the drive of the largest gain viscous, and half Coulomb.
 [[nodiscard]] PlainFriction start_beside(const PlainFriction& plain, const std::vector<SteadyPoint>& points);
 
 struct AmplitudeTerm {
   Assumption assumption;
   std::string_view test;
-  bool several_frequencies;  ///< at one frequency it is another term, or none
+  bool several_frequencies;  ///< needed: at one frequency it equals another term, or has no effect
   std::complex<double> (*drive)(const PlainFriction& friction, double x, double r, double g);
   int sign = 0;  ///< of g in such a departure; 0: either
 };
 
-/// A natural frequency other than stated, or a forcing frequency: alike but for F0 = k x_f.
+/// A natural frequency other than stated, by the mass or by the stiffness. They differ only in F0 = k x_f.
 inline constexpr std::string_view mass_free = "natural frequency free, stiffness as stated";
 inline constexpr std::string_view stiffness_free = "natural frequency free, mass as stated";
 

@@ -25,7 +25,7 @@ std::string statements(const std::vector<Assumption>& list, const std::string& l
   return core::joined(texts, last);
 }
 
-/// What an estimate rests on; the joint model has relaxed what is violated.
+/// What an estimate rests on; nothing for the joint model, in which violated assumptions are relaxed.
 AssumptionSet rests_on(const Estimate& estimate) {
   const MethodEntry* method = find_method(estimate.method);
   return method == nullptr ? AssumptionSet() : method->rests_on;
@@ -42,14 +42,14 @@ void judge(Estimate& estimate, const Ledger& ledger) {
   const bool contradicted = !estimate.usable;
   estimate.usable = violated.empty();
   if (!violated.empty())
-    estimate.reason = "it does not hold in this record that " + statements(violated, " or that ");
+    estimate.reason = "the data contradict that " + statements(violated, " or that ");
   else if (contradicted)
     estimate.reason = "the assumptions it rests on hold in this record";
 }
 
-/// A method whose bias is known states it in its interval alone: the middle of that is the corrected value. The
-/// bias of a line at resonance is mostly that of its formula, which is reported as it is unless its interval
-/// excludes it.
+/// A method that knows its bias corrects only its interval for it: the middle of the interval is the corrected
+/// value. Methods that read histories are always corrected. The value of a line at resonance is reported as its
+/// formula gives it, unless the interval excludes it.
 void correct(Estimate& estimate) {
   if (!estimate.outcome.ok() || !estimate.interval95) return;
   const MethodEntry* method = find_method(estimate.method);
@@ -71,7 +71,7 @@ double area(const Estimate& estimate) {
   return std::isfinite(size) ? size : std::numeric_limits<double>::infinity();
 }
 
-/// Do all estimates with these places agree with one of them in c and F0, but for what matters?
+/// Do c and F0 of all estimates at these places agree with those of one of them, to the least change that matters?
 bool agree(const std::vector<Estimate>& estimates, const std::vector<std::size_t>& places, std::size_t with) {
   const double share = LedgerOptions{}.least_change;
   return std::ranges::all_of(places, [&](std::size_t place) {
@@ -84,10 +84,10 @@ bool agree(const std::vector<Estimate>& estimates, const std::vector<std::size_t
 /// The joint fit, else the narrowest; of estimates without intervals the one in the middle, if all agree.
 std::optional<std::size_t> preferred(const std::vector<Estimate>& estimates) {
   const auto place = [&](auto found) { return static_cast<std::size_t>(found - estimates.begin()); };
-  // It has all data and has set free what is violated: a narrower interval beside it is narrower by chance.
+  // It has all data, and what is violated is relaxed in it: a narrower interval is narrower by chance.
   const auto joint = std::ranges::find(estimates, "joint_fit", &Estimate::method);
   if (joint != estimates.end() && std::isfinite(area(*joint))) return place(joint);
-  // Ranges over laws are for where nothing narrower can be used.
+  // Ranges over laws count only if nothing narrower can be used.
   const bool others = std::ranges::any_of(estimates, [](const Estimate& e) { return e.usable && !e.laws; });
   const auto size = [others](const Estimate& e) {
     return others && e.laws ? std::numeric_limits<double>::infinity() : area(e);
@@ -132,12 +132,12 @@ std::string what_would_help(Assumption assumption) {
     case friction_displacement:
       return "record the phase at several frequencies, or a history, and fit a law that has such a term";
     case symmetry:
-      return "measure each direction by itself";
+      return "measure each direction of motion separately";
   }
   return "more data, or less noise";
 }
 
-/// The same of every departure that was found.
+/// The same for every departure that was found.
 std::string what_would_help(const Ledger& ledger) {
   std::vector<std::string> helps;
   for (const std::vector<Assumption>& departure : ledger.departures) {
@@ -171,12 +171,12 @@ std::string why_preferred(const Identification& all) {
   return text;
 }
 
-/// Why no estimate is used though there are some: every departure, and what would help with each.
+/// Why none of the estimates is used: every departure, and what would help with each.
 std::string why_contradicted(const Ledger& ledger) {
   std::vector<std::string> held;
   for (const std::vector<Assumption>& departure : ledger.departures)
     held.push_back(statements(departure, ", or that "));
-  return "it does not hold that " + core::joined(held, "; nor that ") +
+  return "the data contradict that " + core::joined(held, "; they contradict that ") +
          "; what would help: " + what_would_help(ledger);
 }
 
@@ -212,7 +212,7 @@ std::string numbers_of(const Estimate& estimate, core::Coordinate coordinate) {
          ", F0 = " + with_interval(estimate.value.F0, estimate.interval95, &ParameterIntervals::F0, unit("N"));
 }
 
-/// "It does not hold that ... (p = 0.002)", for each departure.
+/// "These data contradict that ... (cubic stiffness, p = 0.002).", for each departure.
 std::string departures_text(const Ledger& ledger) {
   std::string text;
   for (const std::vector<Assumption>& departure : ledger.departures) {
@@ -223,7 +223,7 @@ std::string departures_text(const Ledger& ledger) {
   return text;
 }
 
-/// "zero of x free (p = 1e-20)", of departures that are seen and violate nothing; those with one p are one
+/// "zero of x free (p = 1e-20)", of departures that are seen and violate nothing. Entries with the same p are one
 /// departure.
 std::string harmless_text(const Ledger& ledger) {
   std::vector<std::string> texts;
@@ -261,8 +261,8 @@ bool disagree(const Estimate& a, const Estimate& b) {
   return !overlap(a.interval95->c, b.interval95->c) || !overlap(a.interval95->F0, b.interval95->F0);
 }
 
-/// An estimate that the joint model, which has all of the same data and departs from them in nothing that is known,
-/// excludes cannot be used. A range over laws is wider than the joint model on purpose.
+/// An estimate cannot be used if the joint model excludes it, which has all of the same data and no known
+/// departure. Ranges over laws are wider than the joint model on purpose, and are never excluded.
 bool excluded(Estimate& estimate, const std::optional<Estimate>& joint) {
   if (!joint || !joint->usable || estimate.laws || !disagree(*joint, estimate)) return false;
   estimate.usable = false;
@@ -271,7 +271,7 @@ bool excluded(Estimate& estimate, const std::optional<Estimate>& joint) {
   return true;
 }
 
-/// The ranges over all laws, and which laws end that of zeta.
+/// The ranges over all laws, and which laws end them.
 std::string over_laws(const std::vector<Estimate>& estimates, core::Coordinate coordinate) {
   const auto found = std::ranges::find_if(estimates, [](const Estimate& e) { return e.laws != nullptr; });
   if (found == estimates.end()) return {};
@@ -281,9 +281,9 @@ std::string over_laws(const std::vector<Estimate>& estimates, core::Coordinate c
     return names[0] == names[1] ? "'" + names[0] + "' ends it" : "'" + names[0] + "' and '" + names[1] + "' end it";
   };
   const auto allowed = std::ranges::count_if(laws.laws, [](const LawAnswer& law) { return !law.rejected; });
-  return " Whatever the law, of " + std::to_string(allowed) + " that these data allow: zeta " +
-         range(laws.zeta_hull) + " (" + ends(laws.zeta_ends) + "), F0 " + range(laws.F0_hull) + " " +
-         core::unit_for(coordinate, "N") + " (" + ends(laws.F0_ends) + ").";
+  return " Over the " + std::to_string(allowed) + " laws that these data allow: zeta " + range(laws.zeta_hull) +
+         " (" + ends(laws.zeta_ends) + "), F0 " + range(laws.F0_hull) + " " + core::unit_for(coordinate, "N") +
+         " (" + ends(laws.F0_ends) + ").";
 }
 
 std::string verdict_of(const Identification& all) {
@@ -313,7 +313,7 @@ std::string verdict_of(const Identification& all) {
 
 Identification concluded(std::vector<Estimate> estimates, Ledger ledger) {
   Identification all{std::move(estimates), std::move(ledger), std::nullopt, {}, {}};
-  bool beside = all.estimates.size() > 1;  // one method that was asked for alone answers alone, if it can
+  bool beside = all.estimates.size() > 1;  // a single method that was asked for answers alone, if it can
   for (Estimate& estimate : all.estimates) {
     correct(estimate);
     judge(estimate, all.ledger);

@@ -1,12 +1,11 @@
 #pragma once
-/// The answer to an identification: the estimate the program stands by, or none and what would help.
+/// The answer of an identification: the estimate that the program stands by, or none, and what would help.
 ///
-/// An estimate can be used when nothing that is known speaks against it: its method found no fault, and no
-/// assumption that the method rests on is violated in the ledger. Where the ledger could test nothing, the method's
-/// own findings decide. The joint model's own estimate answers where it can be used: it has all data, and has set
-/// free what is violated. Else the one with the narrowest interval answers, the area of the intervals of c and F0;
-/// the order of a list plays no part. Where none has an interval, and all agree to 2 %, the one in the middle
-/// answers.
+/// An estimate is usable if its method found no fault, no assumption that the method rests on is violated in the
+/// ledger, and the joint model does not exclude it. If the ledger could test nothing, the method's own findings
+/// decide. The estimate of the joint model answers if it is usable: it has all data, and what is violated is
+/// relaxed in it. Otherwise the estimate with the smallest area of the intervals of c and F0 answers; the order of
+/// a list plays no part. If none has an interval and all agree to 2 %, the one in the middle answers.
 
 #include <string>
 #include <vector>
@@ -16,16 +15,17 @@
 
 namespace dualdamp::identify {
 
-/// What all estimates of one record and its ledger say together.
+/// All estimates of one record, its ledger, and the answer that follows from them.
 struct Identification {
-  std::vector<Estimate> estimates;  ///< `usable` and `reason` as the ledger has them
+  std::vector<Estimate> estimates;  ///< `usable` and `reason` as the ledger sets them
   Ledger ledger;
-  std::optional<std::size_t> answer;  ///< of the estimates; nothing: there is none
+  std::optional<std::size_t> answer;  ///< place among the estimates; nothing: no answer
   std::string reason;                 ///< why this one, or why none and what would help
-  std::string verdict;                ///< both in plain words
+  std::string verdict;                ///< the answer and what the data contradict, in sentences
 };
 
-/// `estimates` by the methods asked for. Where these are several the joint model's own estimate is one more.
+/// `estimates`: of the methods asked for. If these are several, or the joint model excludes one, the estimate of
+/// the joint model is added.
 [[nodiscard]] Identification concluded(std::vector<Estimate> estimates, Ledger ledger);
 
 }  // namespace dualdamp::identify

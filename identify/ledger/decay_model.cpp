@@ -15,9 +15,9 @@ namespace dualdamp::identify {
 
 namespace {
 
-/// Parameters of the decay, lengths in units of the first amplitude, times in half periods of the fit. The
-/// amplitudes alone say what zeta is: the period depends on it in the second order only, and just as well on all
-/// that makes a motion other than the model's. The times say by what share the period is `longer` than stated.
+/// Parameters of the decay, lengths in units of the first amplitude, times in half periods of the fit. Only the
+/// amplitudes determine zeta: the period depends on it in the second order, and as much on every other departure.
+/// The times determine by what share the period is `longer` than stated.
 struct Decay {
   double zeta = 0.0;
   double x_f = 0.0;
@@ -28,8 +28,8 @@ struct Decay {
   Eigen::VectorXd g = {};  ///< coefficients of the terms; empty: all zero
 };
 
-/// Share by which the period may differ from that of the constants stated and a zeta within its least change of
-/// note.
+/// Share by which the period may differ from that of the stated constants: by their rounding, and by a zeta that is
+/// off by less than matters.
 double period_tolerance(double zeta) {
   // Constants are stated with six digits; 2 % of zeta.
   constexpr double rounded = 1e-6;
@@ -44,34 +44,34 @@ struct Swing {
   double viscous = 0.0;  ///< what viscous friction takes
 };
 
-/// One way in which a half swing may differ: what it takes from the amplitude, and by what share it lasts longer.
+/// One way in which a half swing may differ: its loss of amplitude, and the share by which it lasts longer.
 struct DecayTerm {
   Assumption assumption;
   std::string_view test;
   double (*loss)(const Swing& swing);
   double (*lasting)(double X);
   int sign = 0;          ///< of the coefficient in such a departure; 0: either
-  bool is_zero = false;  ///< it is the zero of x that drifts, and changes no swing
+  bool is_zero = false;  ///< the zero of x that drifts, which changes no swing
 };
 
 double no_loss(const Swing& /*swing*/) { return 0.0; }
 double no_lasting(double /*X*/) { return 0.0; }
 double square(const Swing& swing) { return swing.X * swing.X; }
 double cube(const Swing& swing) { return swing.X * swing.X * swing.X; }
-/// Amplitude at which a force at low speed has fallen to one half, of the first.
+/// Amplitude at which a force at low speed has fallen to one half, over the first amplitude.
 constexpr double slow = 0.15;
 double at_low_speed(const Swing& swing) { return 1.0 / (1.0 + (swing.X / slow) * (swing.X / slow)); }
 double deflection(const Swing& swing) { return 1.0 / swing.X; }
 double one_sided(const Swing& swing) { return swing.side * swing.X; }
 double always(double /*X*/) { return 1.0; }
-// A spring k x (1 + g x^2) stores k X^2/2 (1 + g X^2/2): the same work takes less from a large amplitude, 1/(1 + g
-// X^2). Viscous friction does 1 + 5/16 g X^2 of its work, for the motion is faster.
+// A spring k x (1 + g x^2) stores k X^2/2 (1 + g X^2/2): the same work takes less from a large amplitude, by 1/(1 +
+// g X^2). The work of viscous friction grows by 1 + 5/16 g X^2, because the motion is faster.
 double stiffer(const Swing& swing) { return -swing.X * swing.X * (swing.dry + 11.0 / 16.0 * swing.viscous); }
 double stiffening(double X) { return -0.375 * X * X; }
 double stiff_contact(double X) { return -std::pow(X, -1.5); }
 
 using enum Assumption;
-/// A period other than stated: alike but for F0 = k x_f.
+/// A period other than stated, by the mass or by the stiffness. They differ only in F0 = k x_f.
 constexpr std::string_view mass_free = "period free, stiffness as stated";
 constexpr std::string_view stiffness_free = "period free, mass as stated";
 constexpr std::array<DecayTerm, 10> all_decay_terms = {{
@@ -87,7 +87,7 @@ constexpr std::array<DecayTerm, 10> all_decay_terms = {{
     {stationarity, "zero of x that drifts", no_loss, no_lasting, 0, true},
 }};
 
-/// Terms that a record can tell: those of times only where there are times.
+/// Terms that a record can show. Terms that change only times need times.
 std::vector<const DecayTerm*> terms_of(bool timed) {
   std::vector<const DecayTerm*> list;
   for (const DecayTerm& term : all_decay_terms)
@@ -95,7 +95,7 @@ std::vector<const DecayTerm*> terms_of(bool timed) {
   return list;
 }
 
-/// What the extremes are modelled from, in the units of Decay.
+/// What the model of the extremes needs beside the parameters, in the units of Decay.
 struct Setting {
   double side = 1.0;  ///< sign of the first amplitude
   Eigen::Index count = 0;
@@ -107,7 +107,7 @@ struct Setting {
   std::vector<const DecayTerm*> terms;
 };
 
-/// Extremes; where there are times, these, and by what share the period is longer.
+/// Extremes; with times, also these and the share by which the period is longer.
 Eigen::VectorXd rows_of(const Setting& setting, const Decay& decay) {
   const double R = std::exp(-std::numbers::pi * decay.zeta / std::sqrt((1.0 - decay.zeta) * (1.0 + decay.zeta)));
   const Eigen::Index count = setting.count;
@@ -138,10 +138,10 @@ Eigen::VectorXd rows_of(const Setting& setting, const Decay& decay) {
 
 struct ChannelScale {
   double deviation = 0.0;
-  double freedom = 0.0;  ///< 0: the channel is exact to rounding and tells of no noise
+  double freedom = 0.0;  ///< 0: the channel is exact to rounding, without noise
 };
 
-/// Brings the rows of one channel to unit deviation, which is taken from what its own columns leave.
+/// Scales the rows of one channel to unit deviation, estimated from what its own columns leave.
 ChannelScale scale_channel(JointModel& model, Eigen::Index first, Eigen::Index count) {
   Eigen::MatrixXd columns(count, model.base.cols() + model.relaxed.cols());
   columns << model.base.middleRows(first, count), model.relaxed.middleRows(first, count);
@@ -185,11 +185,11 @@ JointModel linearised(const Setting& setting, const Eigen::VectorXd& measured, c
     const DecayTerm& term = *setting.terms[static_cast<std::size_t>(j)];
     model.relaxations.push_back({term.assumption, std::string(term.test), term.sign});
     model.relaxed.col(j) = slope([&](Decay& decay, double h) { decay.g[j] += h; });
-    // At a constant F0 = k x_f.
+    // The column of the stiffness is at constant F0 = k x_f.
     if (term.test == stiffness_free) model.relaxed.col(j) += 2.0 * at.x_f * model.base.col(1);
   }
-  // What takes g X from the swings of one side, and gives it to those of the other, is a damping of its own in
-  // each.
+  // A term that takes g X from the swings to one side and gives it to the others is a damping that differs between
+  // the directions.
   const double root = (1.0 - at.zeta) * (1.0 + at.zeta);
   const double decrement = std::exp(-std::numbers::pi * at.zeta / std::sqrt(root));
   model.zeta_parts = Eigen::VectorXd::Zero(at.g.size());
@@ -198,7 +198,7 @@ JointModel linearised(const Setting& setting, const Eigen::VectorXd& measured, c
       model.zeta_parts[j] = std::pow(root, 1.5) / (std::numbers::pi * decrement);
   const ChannelScale amplitudes = scale_channel(model, 0, setting.count);
   model.scale_freedom = amplitudes.freedom;
-  // Of the noise; what it leaves is added where it is known what is fitted.
+  // The part of the deviations; `fitted` adds the sum of squares.
   const auto readings = static_cast<double>(setting.count);
   model.deviance = 2.0 * readings * std::log(amplitudes.deviation);
   add_readings(model, ReadingKind::extreme, setting.count, amplitudes.deviation * setting.unit);
@@ -208,7 +208,7 @@ JointModel linearised(const Setting& setting, const Eigen::VectorXd& measured, c
     model.deviance += 2.0 * readings * std::log(times.deviation);
     add_readings(model, ReadingKind::time, setting.count, times.deviation * setting.half_period);
     model.readings.emplace_back();
-    // Two of the columns are of the times alone.
+    // Two columns, `start` and `longer`, act on the times alone.
     if (times.freedom == 0.0) model.spent += static_cast<double>(setting.count - 2);
     model.residuals[2 * setting.count] /= setting.tolerance;
     model.base.bottomRows(1) /= setting.tolerance;
@@ -217,7 +217,7 @@ JointModel linearised(const Setting& setting, const Eigen::VectorXd& measured, c
   return model;
 }
 
-/// Moves by a step of base parameters and of the terms taken, at a constant F0.
+/// Moves by a step of the base parameters and of the terms taken. A step of the stiffness keeps F0.
 void move(const Setting& setting, const Eigen::VectorXd& step, const std::vector<std::size_t>& taken, Decay& at) {
   const Eigen::Index base = setting.timed ? 6 : 4;
   at.zeta = std::clamp(at.zeta + step[0], 0.1 * at.zeta, 0.9);

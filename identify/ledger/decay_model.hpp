@@ -3,10 +3,11 @@
 ///
 ///   X_(i+1) = R X_i - x_f (1 + R) - sum_j g_j h_j(X),   e_i = +-X_i + o,   t_(i+1) = t_i + pi/(wn s) (1 + ...)
 ///
-/// h_j: loss of amplitude in one half swing by a force that is not Coulomb's nor viscous; X: mean amplitude of the
-/// half swing. It is W/(2 k X) with the work W of the force along half a period of a sine. The fit is that of
-/// free_decay, which also leaves out what comes after the stop. Source: feeny1996decrement, liang1998decrement.
-/// With terms taken it is fitted anew by the same recursion. Cost: some milliseconds beside that of free_decay.
+/// h_j: loss of amplitude in one half swing by a force that is neither Coulomb nor viscous; X: mean amplitude of
+/// the half swing. The loss is W/(2 k X) with the work W of the force along half a period of a sine. The fit is
+/// that of free_decay, which also leaves out what comes after the stop. Source: feeny1996decrement,
+/// liang1998decrement. With terms taken, the model is fitted again by the same recursion. Cost: some milliseconds
+/// beside free_decay.
 
 #include <string>
 #include <variant>

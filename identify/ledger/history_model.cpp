@@ -42,7 +42,7 @@ struct Place {
 
 using Numbers = std::vector<std::size_t>;
 
-/// The histories of one record with their fit, which the joint model is linearised beside.
+/// The histories of one record with their fit, at which the joint model is linearised.
 class Histories {
  public:
   Histories(const Record& record, const KnownConstants& constants, Estimate& taken)
@@ -104,8 +104,8 @@ class Histories {
     Eigen::VectorXd residuals;
     Eigen::MatrixXd base;
     Eigen::MatrixXd relaxed;
-    Eigen::MatrixXd shaken;  ///< all of them with more noise in the drive; empty: not asked for, or there is none
-    double log_variances = 0.0;  ///< of what is left of the rows, summed
+    Eigen::MatrixXd shaken;      ///< all of these with more noise in the drive; empty: not wanted, or no noise
+    double log_variances = 0.0;  ///< of the errors of the rows, summed
     double squares = 0.0;        ///< of the innovations of x
     double variance = 1.0;       ///< of one residual
   };
@@ -142,14 +142,14 @@ class Histories {
     return model;
   }
 
-  /// What base parameters and the relaxations taken leave.
+  /// Sum of squares that base parameters and the relaxations taken leave.
   [[nodiscard]] static double squares_beside(const Linearised& rows, const Numbers& taken) {
     const Eigen::MatrixXd columns = free_columns(rows.base, rows.relaxed, taken);
     return (rows.residuals - columns * pivoted_least_squares(columns, rows.residuals)).squaredNorm();
   }
 
-  /// The fit where a constant is not known: a motion that runs out of step with that of the constant as stated is
-  /// too far away for steps from there.
+  /// The fit with this constant unknown. A motion that runs out of step with that of the stated constant is too far
+  /// away to be reached by steps from there.
   [[nodiscard]] std::optional<Place> freed(std::size_t number) {
     if (const auto known = freed_.find(number); known != freed_.end()) return known->second;
     KnownConstants constants = constants_;
@@ -176,7 +176,7 @@ class Histories {
     return force;
   }
 
-  /// The first parameter steps in zeta, so that a mass that moves leaves zeta where it is.
+  /// The step of the first parameter is taken in zeta, so that a step of the mass does not change zeta.
   [[nodiscard]] Place stepped(Place at, const Eigen::VectorXd& step, const Numbers& taken) const {
     const double scale = fit_.layout().shared()[0].scale;
     const ForceParameters before = force_at(at);
@@ -191,12 +191,12 @@ class Histories {
     return at;
   }
 
-  /// Rows of every channel, whitened by its own residuals where `white`; those are shaken, too.
+  /// Rows of every channel. `white`: whitened by its own residuals, with `shaken`.
   [[nodiscard]] std::optional<Linearised> linearised(const Place& at, const Numbers& wanted, bool white) {
     const ForceParameters force = force_at(at);
     if (!(force.m > 0.0) || !(force.k > 0.0)) return std::nullopt;
     Channel x{.most_lags = 4};
-    // Innovations are white but for what the levels of noise leave; of a, noise of the drive may last for a period.
+    // Innovations are nearly white: the noise levels are estimates. In a, noise of the drive may last for a period.
     Channel v{.most_lags = 4};
     Channel a{.most_lags = 24};
     const bool shake = white && !shaken_.empty();
@@ -337,8 +337,8 @@ class Histories {
     return rows;
   }
 
-  /// Base columns, then those of the relaxations wanted but for readings, from the derivatives of one test. Those
-  /// of mass and stiffness are at a constant zeta.
+  /// Base columns, then those of the relaxations wanted, from the derivatives of one test; zero for those of
+  /// sensors. Columns of mass and stiffness are at constant zeta.
   [[nodiscard]] Eigen::MatrixXd arranged(std::size_t t, const Numbers& wanted, const ForceParameters& force,
                                          const Eigen::MatrixXd& derivatives) {
     const ForwardLayout& layout = fit_.layout();
@@ -371,12 +371,12 @@ class Histories {
     return result;
   }
 
-  /// What a test has of a friction force of one test that is free, so that F0 stays the mean over all tests.
+  /// Share of a free friction force of one test in every test, so that F0 stays the mean over all tests.
   [[nodiscard]] double share_of(const Way& way, std::size_t test) {
     return way.test == test ? 1.0 : -1.0 / (static_cast<double>(fit_.tests().size()) - 1.0);
   }
 
-  /// Rows of one reading, with columns of what is set free about its sensor.
+  /// Rows of one reading, with the columns of what is free in its sensor.
   struct Reader {
     const Histories& owner;
     const Place& at;

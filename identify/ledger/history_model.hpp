@@ -3,15 +3,15 @@
 /// they were measured, v and a.
 ///
 /// Derivatives of the motion by every base parameter and relaxation come from the forward model
-/// (sampled_oscillator.hpp). Noise of the drive, as large as the fourth differences of its samples show, lasts in
-/// the motion: readings of x and v become innovations (innovations.hpp). Rows are averaged over as many samples as
-/// leave 24 a natural period. What all relaxations together leave of a channel tells its deviation, and how far its
-/// errors are still alike (autoregression.hpp): a departure must not be taken for noise. Readings of a within two
-/// samples of a reversal are not used, for the acceleration jumps there.
+/// (sampled_oscillator.hpp). Noise of the drive, estimated from the fourth differences of its samples, lasts in the
+/// motion: readings of x and v are replaced by their innovations (innovations.hpp). Rows are averaged so that 24
+/// rows a natural period are left. The deviation of a channel and the correlation of its errors are estimated from
+/// what all relaxations together leave of it (autoregression.hpp): a departure must not be taken for noise.
+/// Readings of a within two samples of a reversal are not used, because the acceleration jumps there.
 ///
-/// With relaxations taken, the model is fitted anew: the forces act on the simulated motion, readings have their
-/// gain, delay and zero. A constant set free begins at a fit of its own. Of free vibrations the end, below 3 x_f,
-/// is left out.
+/// With relaxations taken, the model is fitted again: the forces act on the simulated motion, readings have their
+/// gain, delay and zero. If a constant is set free, the fit may begin at a separate one in which the constant is
+/// unknown. Of free vibrations the end, below 3 x_f, is left out.
 ///
 /// Cost: a run of the forward model with some 20 derivatives, 2 us a sample; ten times that for each explanation of
 /// a departure that is tried.

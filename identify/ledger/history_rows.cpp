@@ -33,8 +33,8 @@ void SensorRows::append(const SensorRows& more) {
 namespace {
 
 /// Covariances of the errors at lags 0 ... most. What the columns leave of white errors is not white: most columns
-/// swing with the oscillator, and would leave a hole in the spectrum there, that a regression takes for quiet. The
-/// projection H onto the columns is known, and so is what it takes: s^2 sum H_(i,i+lag).
+/// swing with the oscillator and take out noise at its frequency, which an autoregression would take for a property
+/// of the errors. The projection H onto the columns is known, so what it takes out is added: s^2 sum H_(i,i+lag).
 Eigen::VectorXd error_covariances(const Eigen::MatrixXd& columns, const Eigen::VectorXd& left,
                                   const std::vector<Eigen::Index>& blocks, int most) {
   const Eigen::VectorXd scale = columns.colwise().norm().cwiseMax(1e-300);
@@ -123,7 +123,7 @@ Eigen::Index moving_rows(const History& history, const Eigen::VectorXd& x, doubl
   constexpr double least = 3.0;
   Eigen::Index last = x.size();
   while (last > 0 && !(std::abs(x[last - 1]) > least * x_f)) --last;
-  // A vibration that is small from the start is all there is; a long record of the rest after it changes nothing.
+  // A vibration that is small from the start is used as a whole. A long record of the mass at rest does no harm.
   constexpr int fewest = 4;
   int crossings = 0;
   for (Eigen::Index i = 1; i < last; ++i) crossings += x[i - 1] * x[i] < 0.0 ? 1 : 0;
@@ -133,12 +133,12 @@ Eigen::Index moving_rows(const History& history, const Eigen::VectorXd& x, doubl
 double noise_of(const std::vector<double>& signal) {
   RobustNoiseLevel level;
   level.add(signal);
-  // Where a converter's step is all there is, most differences are zero.
+  // If a converter's step is larger than the noise, most differences are zero.
   return std::max(level.deviation(), converter_step(signal) / std::sqrt(12.0));
 }
 
 ReadingNoise noise_levels(const History& history, double k, const MotionScale& scale) {
-  // Readings without any noise still round.
+  // Readings without noise are still rounded.
   constexpr double rounding = 1e-9;
   return {std::hypot(k * noise_of(history.y), noise_of(history.force)),
           std::max(noise_of(history.x), rounding * scale.length),

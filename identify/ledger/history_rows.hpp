@@ -1,5 +1,5 @@
 #pragma once
-/// Rows of the sensors of histories, as the joint model is made of them.
+/// Rows of the joint model that the sensors of histories give.
 
 #include <Eigen/Core>
 #include <string>
@@ -11,12 +11,12 @@
 
 namespace dualdamp::identify {
 
-/// Rows of one sensor over all tests: the residual first, then the base columns, then the relaxations, then what
-/// else is to be treated alike.
+/// Rows of one sensor over all tests: the residual first, then the base columns, then the relaxations, then other
+/// columns that are treated alike.
 struct Channel {
   Eigen::MatrixXd rows;
   std::vector<Eigen::Index> blocks;
-  int most_lags = 0;  ///< over which its errors may still be alike
+  int most_lags = 0;  ///< over which its errors may be correlated
 
   void add(const Eigen::MatrixXd& more);
 };
@@ -25,7 +25,7 @@ struct Channel {
 struct SensorRows {
   Eigen::MatrixXd x, v, a;
 
-  /// Further columns at the right.
+  /// Adds the columns of `more` at the right.
   void append(const SensorRows& more);
 };
 
@@ -35,10 +35,11 @@ struct WhiteRows {
   double log_variances = 0.0;  ///< sum of the logs of the variances that the errors had
 };
 
-/// The rows with independent errors, by what is left of the residual beside the `columns` after it.
+/// The rows with independent errors. The errors are what the first `columns` columns leave of the residual.
 [[nodiscard]] WhiteRows made_white(const Channel& channel, Eigen::Index columns);
 
-/// How a sensor may read a motion: gain (1 + a) at a time later by a delay, about a zero that drifts.
+/// Errors of a sensor. It reads gain x(t - delay) + zero + drift s, where s is the share of the record that is
+/// over.
 struct SensorErrors {
   double gain = 1.0;
   double delay = 0.0;  ///< s
@@ -50,24 +51,24 @@ struct SensorErrors {
 struct SensorMotion {
   Eigen::VectorXd value, slope, curvature;
 
-  /// As it is read late, to second order in the delay.
+  /// The value earlier by the delay [s], to second order.
   [[nodiscard]] Eigen::VectorXd late(double delay) const {
     return value - delay * slope + 0.5 * delay * delay * curvature;
   }
 };
 
-/// The course of a record, from 0 to 1: a sensor is set to zero before, and drifts from there.
+/// Share of a record that is over at each sample, from 0 to 1. A zero that drifts is right at the beginning.
 [[nodiscard]] Eigen::VectorXd course_of(Eigen::Index samples);
 
-/// The residual of a reading, then the columns that are derivatives of the motion; `slopes`: theirs over time.
+/// The residual of a reading, then the columns, derivatives of the motion. `slopes`: d/dt of the columns.
 [[nodiscard]] Eigen::MatrixXd reading_rows(const std::vector<double>& measured, const SensorMotion& motion,
                                            const SensorErrors& errors, const Eigen::MatrixXd& columns,
                                            const Eigen::MatrixXd& slopes);
 
-/// One below the other, all of one width.
+/// The parts one below the other; all have the same number of columns.
 [[nodiscard]] Eigen::MatrixXd stacked(const std::vector<Eigen::MatrixXd>& parts);
 
-/// The history with noise in its y and force once more, as strong as that which they have.
+/// The history with noise added to y and force, as strong as the noise that they have.
 [[nodiscard]] History with_noisier_drive(History history);
 
 /// Means of `width` rows each; what is left over at the end is dropped.
@@ -79,14 +80,15 @@ struct SensorMotion {
 /// Sets to zero the rows within two samples of a reversal.
 void leave_out_reversals(const Eigen::VectorXd& v, Eigen::MatrixXd& rows);
 
-/// Rows of a history that are used: all, but of a free vibration those before its amplitude has fallen to 3 x_f.
-/// The number of the swings after that, and the place of the rest, jump with the parameters.
+/// Number of rows of a history that are used: all of a driven one; of a free vibration those before its amplitude
+/// has fallen to 3 x_f. After that, the number of swings and the place where the mass comes to rest jump with the
+/// parameters.
 [[nodiscard]] Eigen::Index moving_rows(const History& history, const Eigen::VectorXd& x, double x_f);
 
 /// Standard deviation of the noise of a signal, its rounding to the steps of a converter included.
 [[nodiscard]] double noise_of(const std::vector<double>& signal);
 
-/// Of the drive k y + f, and of readings.
+/// Noise of the drive k y + f, and of readings.
 [[nodiscard]] ReadingNoise noise_levels(const History& history, double k, const MotionScale& scale);
 
 /// Why the motion of the histories cannot be simulated; empty when it can.

@@ -19,7 +19,7 @@ double friction_drift(const At& at, const MotionScale& /*scale*/) { return at.di
 double damping_drift(const At& at, const MotionScale& scale) { return speed(at, scale) * (at.course - 0.5); }
 double drag(const At& at, const MotionScale& scale) { return at.direction * std::pow(speed(at, scale), 2); }
 double cubic_damping(const At& at, const MotionScale& scale) { return std::pow(speed(at, scale), 3); }
-// Shares of the largest speed and of the amplitude over which a Stribeck force and a presliding one fall.
+// A Stribeck force and a presliding force fall over a share of the largest speed and of the amplitude.
 double low_speed(const At& at, const MotionScale& scale) {
   constexpr double share = 0.1;
   return at.direction * std::exp(-at.direction * speed(at, scale) / share);

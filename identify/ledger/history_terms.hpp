@@ -9,19 +9,19 @@
 
 namespace dualdamp::identify {
 
-/// What is large for the record.
+/// What the terms are scaled by: the amplitude of the record, and its speed at the natural frequency.
 struct MotionScale {
   double length = 1.0;  ///< m
   double speed = 1.0;   ///< m/s
 };
 
-/// A force without unit, against the positive direction.
+/// A dimensionless force, positive against the positive direction.
 struct HistoryTerm {
   Assumption assumption;
   std::string_view test;
   double (*force)(const SampledOscillator::Instant& at, const MotionScale& scale);
   int sign = 0;            ///< of the coefficient in such a departure; 0: either
-  bool one_sided = false;  ///< damping that one direction has more, and the other less
+  bool one_sided = false;  ///< damping that is larger in one direction
 };
 
 /// The terms, by assumption.

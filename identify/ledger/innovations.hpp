@@ -1,14 +1,15 @@
 #pragma once
-/// Errors of a reading that a disturbed system makes, made independent: the innovations of Kalman's filter.
+/// Makes the errors of readings independent where noise of the drive disturbs the motion: innovations of Kalman's
+/// filter.
 ///
-/// A disturbance s = (x, v) of a motion is carried from sample to sample, and pushed by white noise of the drive;
-/// it is read with white noise of the sensors:
+/// A disturbance s = (x, v) of a motion is carried from sample to sample and pushed by white noise n of the drive;
+/// it is read with white noise w of the sensors:
 ///
 ///   s_(i+1) = A_i s_i + b_i n_i,   r_i = H s_i + w_i
 ///
-/// The rows of a regression with such errors, each less what the earlier ones foretell and over its deviation, have
-/// independent errors of unit variance, exactly, whether or not the motion is steady (kalman1960). Cost: 30
-/// operations a row and column.
+/// Each row of a regression with such errors is replaced by its difference from the prediction of the earlier rows,
+/// over the deviation of that difference. Its errors are then exactly independent, of unit variance, whether or not
+/// the motion is steady (kalman1960). Cost: 30 operations a row and column.
 
 #include <Eigen/Core>
 #include <vector>
@@ -24,8 +25,8 @@ struct ReadingNoise {
   double v = 0.0;      ///< m/s; unused without readings of v
 };
 
-/// Replaces the rows of x, and those of v where there are any (else it has no rows), by their innovations. `steps`:
-/// the first entry is what led to the first sample, which is not used.
+/// Replaces the rows of x, and those of v if it has any, by their innovations. `steps`: the first entry, which
+/// leads to the first sample, is not used.
 void make_innovations(const std::vector<SampledOscillator::Step>& steps, const ReadingNoise& noise,
                       Eigen::MatrixXd& x, Eigen::MatrixXd& v);
 

@@ -1,5 +1,5 @@
 #pragma once
-/// One model of a whole record, linearised at its best fit: what the ledger's tests are made of.
+/// One model of a whole record, linearised at its best fit. The ledger's tests are built from it.
 ///
 ///   r = B d + C g + e,   e of unit variance, independent
 ///
@@ -20,7 +20,7 @@ namespace dualdamp::identify {
 struct Relaxation {
   Assumption assumption = Assumption::constants;
   std::string test;  ///< "natural frequency free", ...: what is set free
-  int sign = 0;      ///< that the coefficient of such a departure has; 0: either
+  int sign = 0;      ///< of the coefficient in such a departure; 0: either
 };
 
 /// What was read.
@@ -40,23 +40,24 @@ struct JointModel {
   Eigen::MatrixXd base;
   std::vector<Relaxation> relaxations;
   Eigen::MatrixXd relaxed;  ///< a column for each relaxation
-  /// Residuals, base and relaxed side by side, where the drive has its noise twice; empty: noise is in r alone. The
-  /// columns are derivatives of the motion under the drive as measured, so its noise is in them and in r alike.
+  /// Residuals, base and relaxed side by side, computed with as much noise again in the drive; empty: noise is in r
+  /// alone. The columns are derivatives of the motion under the measured drive, so they contain its noise as r
+  /// does.
   Eigen::MatrixXd shaken = {};
-  /// By how much the friction force of a part of the record is off the mean, F0, for a unit of each relaxation [N];
-  /// empty: none sets one free.
+  /// Friction force of one part of the record (a sweep, a history) less the mean F0, for a unit of each relaxation
+  /// [N]; empty: no relaxation sets one free.
   Eigen::VectorXd F0_parts = {};
-  Eigen::VectorXd zeta_parts = {};  ///< the same of the damping ratio
-  /// Relaxations without a column, which change the record in the second order only: not tested, and fitted where a
-  /// departure is to be explained.
+  Eigen::VectorXd zeta_parts = {};  ///< the same for the damping ratio
+  /// Relaxations without a column, which change the record in the second order only. They are not tested, but are
+  /// fitted when a departure is to be explained.
   std::vector<std::size_t> hidden = {};
-  /// Degrees of freedom that went into the residuals beside the columns: deviations of channels.
+  /// Degrees of freedom that the estimated deviations of channels take, beside those of the columns.
   double spent = 0.0;
   double deviance = unknown;   ///< twice the negative log-likelihood, to compare fits of the record; NaN: not known
   double scale_freedom = 0.0;  ///< degrees of freedom behind the deviation that decides about friction
   ParameterSet value;          ///< of the fit
   KnownConstants constants;    ///< as stated, or as fitted
-  /// The model linearised where these relaxations are fitted, too; empty: it is as good where it is.
+  /// The model fitted again with these relaxations free, and linearised there; empty: no such fit is needed.
   std::function<JointModel(const std::vector<std::size_t>& taken)> refit;
   std::vector<std::string>
       left_out;  ///< parts of the record that are outside the tests' conditions, each a sentence

@@ -28,7 +28,7 @@ std::string_view name_of(Standing standing) {
 namespace {
 
 using MaybeModel = std::variant<JointModel, std::string>;
-/// Of relaxations, by their place in the model.
+/// Places of relaxations in the model.
 using Numbers = std::vector<std::size_t>;
 
 std::string rounded(double value) {
@@ -47,7 +47,7 @@ MaybeModel testable_model(const Record& record, const KnownConstants& constants)
   return model;
 }
 
-/// Changes over the values. Where a value is all but zero its own error is what a change is compared with.
+/// Relative changes. Where a value is smaller than its standard error, changes are relative to that error.
 class Scale {
  public:
   Scale(const JointModel& model, double freedom)
@@ -92,12 +92,12 @@ class Writer {
     entry.F0_change = scale_.F0(test.F0_change);
   }
 
-  /// By how much a part of the record is off the mean of all.
+  /// Relative difference of a part of the record from the mean of all.
   [[nodiscard]] double unevenness(const RelaxationTest& test) const {
     return std::max(std::abs(scale_.F0(test.F0_part)), std::abs(scale_.zeta(test.zeta_part)));
   }
 
-  /// No single zeta and F0 describe parts of the record that differ, though their mean stays.
+  /// Parts of the record differ: no single zeta and F0 describes them, even if the mean does not change.
   [[nodiscard]] bool is_uneven(const RelaxationTest& test) const {
     return unevenness(test) >= options_.least_change;
   }
@@ -129,8 +129,8 @@ class Writer {
     if (!named.empty()) ledger.departures.push_back(std::move(named));
   }
 
-  /// May the constants or the gain be off by as much, as their uncertainties are stated? One of them stands for
-  /// all: the record tells the natural frequency, and the scale of the forces against the motion.
+  /// Do the stated uncertainties allow constants or gains to be off by as much? All uncertainties count for each of
+  /// them: the record determines only the natural frequency and the ratio of forces to motion.
   [[nodiscard]] bool is_as_stated(const RelaxationTest& test) const {
     const ConstantUncertainties& u = options_.uncertainties;
     if (!u.any()) return false;
@@ -160,7 +160,7 @@ class Writer {
     return text.empty() ? "no other assumption explains it as well" : "explained as well by: " + text;
   }
 
-  /// Of the relaxations of an assumption the one with the least p-value speaks.
+  /// The entry of an assumption shows that of its relaxations which has the least p-value.
   void hold(const RelaxationTest& test, Ledger& ledger) {
     LedgerEntry& entry = ledger.entries[static_cast<std::size_t>(assumption_of(test))];
     const bool charged = entry.standing != Standing::untested && !entry.reason.empty();
@@ -176,13 +176,14 @@ class Writer {
   void explain(LedgerEntry& entry) const {
     const auto is_alone = std::ranges::find_if(
         tests_.alone, [&](std::size_t index) { return model_.relaxations[index].assumption == entry.assumption; });
-    entry.reason =
-        is_alone != tests_.alone.end() ? "in this record it does what zeta and F0 do" : "this record cannot tell";
-    entry.reason += "; " + std::string(what_would_tell(entry.assumption)) + " would";
+    entry.reason = is_alone != tests_.alone.end()
+                       ? "in this record its effect cannot be told from that of zeta and F0"
+                       : "this record cannot tell";
+    entry.reason += "; " + std::string(what_would_tell(entry.assumption)) + " would tell";
   }
 
  public:
-  /// How small a departure would be seen, for those that hold.
+  /// States for each assumption that holds how large a departure must be to be seen.
   void add_sight(Ledger& ledger) const {
     for (LedgerEntry& entry : ledger.entries) {
       const double blind = blind_[static_cast<std::size_t>(entry.assumption)];
@@ -209,7 +210,7 @@ bool is_of_friction(Assumption assumption) {
          assumption == Assumption::symmetry;
 }
 
-/// The fit of the joint model with relaxations beside the base parameters.
+/// The fit of the joint model with these relaxations free beside the base parameters.
 Estimate joint_estimate(const JointModel& model, const Numbers& relaxed, std::string basis) {
   Estimate estimate;
   estimate.method = "joint_fit";
@@ -240,8 +241,7 @@ void widen(std::array<double, 2>& interval, const std::array<double, 2>& other) 
   interval = {std::min(interval[0], other[0]), std::max(interval[1], other[1])};
 }
 
-/// Is it a term of friction that a test of its own would reject, at a level at which the family of all tests must
-/// allow for chance?
+/// Is it a term of friction that a test of its own rejects at 25 %?
 bool is_nearly_seen(const JointModel& model, const RelaxationTest& test) {
   constexpr double level = 0.25;
   return is_of_friction(model.relaxations[test.index].assumption) && test.p_alone < level;
@@ -255,7 +255,7 @@ void widen(Estimate& estimate, const Estimate& other) {
   widen(estimate.interval95->F0, other.interval95->F0);
 }
 
-/// Intervals reach over the estimates with a term of friction free that is nearly seen.
+/// Extends the intervals to cover the estimates in which a nearly seen term of friction is free.
 void reach_over_nearly_seen(const JointModel& model, const RelaxationTests& tests, const Numbers& relaxed,
                             Estimate& estimate) {
   const JointModel& here = tests.relaxed ? *tests.relaxed : model;
@@ -270,14 +270,15 @@ void reach_over_nearly_seen(const JointModel& model, const RelaxationTests& test
 void note_nearly_seen(const JointModel& model, const RelaxationTests& tests, Ledger& ledger) {
   for (const RelaxationTest& test : tests.tests) {
     LedgerEntry& entry = ledger.entries[static_cast<std::size_t>(model.relaxations[test.index].assumption)];
-    constexpr std::string_view note = "; a departure is nearly seen, and the intervals of joint_fit reach over it";
+    constexpr std::string_view note =
+        "; a departure is nearly significant, and the intervals of joint_fit include its effect";
     const bool noted = entry.reason.ends_with(note);
     if (entry.standing == Standing::holds && is_nearly_seen(model, test) && !noted) entry.reason += note;
   }
 }
 
-/// The estimate with the best explanation of each departure relaxed. Where others explain one as well, its
-/// intervals reach to theirs.
+/// The estimate with the best explanation of each departure relaxed. If other relaxations explain a departure as
+/// well, the intervals are extended to cover the estimates with those.
 Estimate joint_estimate(const JointModel& model, const RelaxationTests& tests) {
   Numbers best;
   std::string relaxed;
@@ -321,8 +322,8 @@ Ledger ledger_of(const Record& record, const KnownConstants& constants, const Le
   Writer writer(model, tests, constants, options);
   writer.write(ledger);
   writer.add_sight(ledger);
-  // Where friction may be what departs, and it matters, no relaxed model stands by its zeta and F0. Those of both
-  // directions have a mean.
+  // If friction over speed or displacement may be what departs, and it matters, no relaxed model has one zeta and
+  // one F0. With friction that differs between the directions, they are the means of both.
   const bool is_friction = std::ranges::any_of(ledger.departures, [](const std::vector<Assumption>& named) {
     return std::ranges::any_of(named, [](Assumption a) { return is_of_friction(a) && a != Assumption::symmetry; });
   });

@@ -1,17 +1,18 @@
 #pragma once
-/// The ledger of assumptions of one record: for each, whether the record can tell, by which test, and what it does
-/// to zeta and F0 when it is relaxed.
+/// The ledger of assumptions of one record: for each assumption, whether the record can test it, by which test, and
+/// how much zeta and F0 change when it is relaxed.
 ///
 /// One joint model of the record (amplitude_model.hpp, decay_model.hpp, history_model.hpp) is relaxed in one way
-/// after another, all tests at one level for the family (relaxation_tests.hpp). A departure is charged to the
-/// assumption whose relaxation explains it best, and to those that explain it as well. It violates the assumption
-/// where it moves zeta or F0 by `least_change` or more; a smaller one is told and does no harm.
+/// after another; all tests share one family level (relaxation_tests.hpp). A departure is charged to the assumption
+/// whose relaxation explains it best, and to those that explain it as well. It violates the assumption if it
+/// changes zeta or F0 by `least_change` or more. A smaller departure is reported and violates nothing.
 ///
-/// Constants and gains whose uncertainties are stated violate nothing as long as they need not be off by more than
-/// 2.6 of them (1 %): the departure is told, and stays relaxed in the joint estimate.
+/// Constants and gains with a stated uncertainty violate nothing as long as errors of at most 2.6 times the
+/// uncertainty (1 %) explain the departure. The departure is reported, and stays relaxed in the joint estimate.
 ///
-/// A term of friction that a test of its own would reject at 25 %, though the family must allow for chance, is not
-/// charged: the intervals of the joint estimate reach over the estimate with that term free.
+/// A term of friction is nearly seen if a test of its own rejects at 25 % while the family of tests does not
+/// reject. It is not charged: the intervals of the joint estimate are extended to cover the estimate with that term
+/// free.
 ///
 /// Cost: that of the joint model; a history of 20,000 samples takes 0.2 s.
 
@@ -39,12 +40,12 @@ struct LedgerEntry {
   std::optional<double> p_value;      ///< of the family of all tests
   std::optional<double> zeta_change;  ///< relative, when relaxed
   std::optional<double> F0_change;
-  std::string reason;  ///< why it is untested, what else explains a departure, how small a one would be seen
+  std::string reason;  ///< why it is untested, what else explains a departure, or how large a one would be seen
 };
 
 struct LedgerOptions {
   double least_change = 0.02;  ///< relative change of zeta or F0 that matters
-  /// What lies within them is no departure from what is stated.
+  /// A departure that errors of this size explain violates nothing.
   ConstantUncertainties uncertainties = {};
 };
 
@@ -57,8 +58,8 @@ struct Ledger {
   core::Coordinate coordinate = core::Coordinate::displacement;  ///< for the units in sentences
   std::vector<std::string> left_out;  ///< parts of the record outside the tests' conditions, each a sentence
   std::vector<std::string> relaxed;   ///< tests of the relaxations that the joint estimate has free
-  /// What the joint model itself estimates, with departures that are not friction's relaxed; nothing where there is
-  /// no model.
+  /// Estimate of the joint model with the departures relaxed. Nothing without a model, without mass and stiffness,
+  /// or if a departure that matters may be one of friction over speed or displacement.
   std::optional<Estimate> joint;
 
   [[nodiscard]] const LedgerEntry& entry(Assumption assumption) const {
@@ -72,7 +73,7 @@ struct Ledger {
 [[nodiscard]] Ledger ledger_of(const Record& record, const KnownConstants& constants,
                                const LedgerOptions& options = {});
 
-/// The joint estimate with these relaxations free and no others, by their tests: nothing is tested.
+/// The joint estimate with exactly these relaxations free, named as `Relaxation::test`. Nothing is tested.
 [[nodiscard]] Estimate joint_fit(const Record& record, const KnownConstants& constants,
                                  const std::vector<std::string>& relaxed);
 

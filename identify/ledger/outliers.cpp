@@ -64,7 +64,7 @@ std::string name_of(const Reading& reading) {
 struct Distance {
   Reading reading;
   double deviations = 0.0;
-  double unit = 0.0;  ///< of the reading, for one deviation
+  double unit = 0.0;  ///< change of the reading for one deviation
 };
 
 /// Distances of the readings of `measured` from the fit to `moved`. Nothing where there is no fit.
@@ -106,7 +106,7 @@ std::optional<std::vector<Distance>> distances(Record& measured, Record& moved, 
   return list;
 }
 
-/// Moves the readings beyond the bound to it. Returns by how many deviations one moved at most.
+/// Moves readings beyond the bound to it. Returns the largest move, in deviations.
 double move(const std::vector<Distance>& list, Record& measured, Record& moved) {
   double most = 0.0;
   for (const Distance& distance : list) {

@@ -1,11 +1,11 @@
 #pragma once
-/// Readings that do not belong to the others, and estimates in which their influence is bounded.
+/// Readings that disagree with the others, and estimates in which their influence is bounded.
 ///
 /// Huber's estimate: a reading further than k = 2 standard deviations from the joint model of the record counts as
 /// if it were k deviations off. It equals least squares on readings moved to that bound, so every method gives it
-/// when it reads the record that `bounded_influence` returns. Deviations are those of the median, by channel; the
-/// model is fitted anew until no reading moves. Standard errors grow by the reciprocal of the share of readings
-/// within the bound. Readings are amplitudes x, phases, extremes and their times; spikes in histories:
+/// when it reads the record that `bounded_influence` returns. Standard deviations are estimated from the median,
+/// channel by channel; the model is fitted again until no reading moves. Standard errors are divided by the share
+/// of readings within the bound. Readings are amplitudes x, phases, extremes and their times; spikes in histories:
 /// records/spikes.hpp.
 /// Source: huber1981, chapter 7.8 (modified residuals). Cost: some fits of the joint model.
 
@@ -21,7 +21,7 @@ namespace dualdamp::identify {
 struct Outlier {
   std::string reading;      ///< "x of pair 7", "extreme 3"
   double deviations = 0.0;  ///< how far off, in standard deviations of the others; with its sign
-  double weight = 1.0;      ///< what it still counts
+  double weight = 1.0;      ///< that it still has
 };
 
 struct BoundedInfluence {
@@ -30,10 +30,10 @@ struct BoundedInfluence {
   double within = 1.0;            ///< share of the readings within the bound
 };
 
-/// The record as it is where there is no joint model of it.
+/// The record unchanged if there is no joint model of it.
 [[nodiscard]] BoundedInfluence bounded_influence(const Record& record, const KnownConstants& constants);
 
-/// Standard errors and intervals for readings of which the share `within` was not moved.
+/// Divides standard errors and half widths of intervals by `within`, the share of readings that were not moved.
 void widen(Estimate& estimate, double within);
 
 }  // namespace dualdamp::identify

@@ -14,23 +14,24 @@ namespace dualdamp::identify {
 
 namespace {
 
-/// Share of a column's length that the base parameters must leave for it to be told from them.
+/// Least share of a column's length beside the base columns: below it the relaxation cannot be told from them.
 constexpr double told_apart = 1e-4;
 /// Standard errors at which a departure is found in four records of five.
 constexpr double found_at = 2.8;
-/// Times what one draw of noise that columns and residuals share says that it does, so much it does at most.
+/// Noise that columns and residuals share changes their product by at most this many times what one draw of it
+/// does.
 constexpr double at_most_shared = 2.0;
 
 /// The relaxations beside a base, projected.
 struct Projection {
   Eigen::VectorXd residuals;
   double freedom = 0.0;
-  double scale_freedom = 0.0;        ///< behind the deviation that a statistic is over
+  double scale_freedom = 0.0;        ///< of the deviation that a statistic is divided by
   std::vector<std::size_t> indices;  ///< of the relaxations that can be told apart
   Eigen::MatrixXd unit;              ///< their columns beside the base, of unit length
   Eigen::VectorXd lengths;
   Eigen::MatrixXd shifts;  ///< of the base parameters for a unit of each relaxation
-  /// What noise that a column and the residuals share adds to their product, for unit columns.
+  /// What noise in both a column and the residuals adds to their product, for unit columns.
   Eigen::VectorXd shared;
 };
 
@@ -45,7 +46,7 @@ Projection project(const JointModel& model, const std::vector<std::size_t>& take
   Projection result;
   result.residuals = model.residuals - base * (scale.cwiseInverse().asDiagonal() * qr.solve(model.residuals));
   result.freedom = static_cast<double>(base.rows() - qr.rank()) - model.spent;
-  // A statistic may rest on one channel, or on all.
+  // A statistic may depend on one channel, or on all: the mean of both degrees of freedom.
   result.scale_freedom = 0.5 * (result.freedom + std::min(result.freedom, std::max(2.0, model.scale_freedom)));
   for (Eigen::Index j = 0; j < beside.cols(); ++j)
     if (beside.col(j).norm() > told_apart * model.relaxed.col(j).norm())
@@ -82,13 +83,12 @@ Eigen::VectorXd statistics(const Eigen::VectorXd& along, double squares, double 
 
 double two_sided(double t, double freedom) { return f_test_p_value(t * t, 1.0, freedom); }
 
-/// The share of the level that each test gets, as a weight: the standard error of what its departure does to zeta
-/// or F0, relative. What is told exactly is found at a strict level as well, and leaves the level to the tests that
-/// need it.
+/// The share of the level that each test gets, as a weight: the relative standard error of the change of zeta or F0
+/// by its departure. A departure that is measured precisely is found at a strict level as well.
 Eigen::VectorXd weights_of(const JointModel& model, const Projection& projection, double deviation,
                            double least_change) {
-  constexpr double sharp = 0.15;  // times the least change: it lies seven standard errors off
-  constexpr double blunt = 15.0;  // what only a far larger departure shows
+  constexpr double sharp = 0.15;  // times the least change, which is then seven standard errors
+  constexpr double blunt = 15.0;  // only a far larger departure is seen
   const auto part = [](const Eigen::VectorXd& parts, Eigen::Index j) { return parts.size() > 0 ? parts[j] : 0.0; };
   Eigen::VectorXd weights(projection.lengths.size());
   for (Eigen::Index j = 0; j < weights.size(); ++j) {
@@ -103,14 +103,14 @@ Eigen::VectorXd weights_of(const JointModel& model, const Projection& projection
   return weights;
 }
 
-/// Is the estimate of a coefficient one that its departure can have?
+/// Does the estimate of a coefficient have the sign that its departure can have?
 bool is_possible(const JointModel& model, std::size_t relaxation, double estimate) {
   const int sign = model.relaxations[relaxation].sign;
   return sign == 0 || sign * estimate > 0.0;
 }
 
-/// What the tests of a record are compared by: twice the gain of the log-likelihood and twice the log of the
-/// weight.
+/// Score by which the tests of a record are compared: twice the gain of the log-likelihood plus twice the log of
+/// the weight.
 class Scores {
  public:
   Scores(Eigen::VectorXd weights, double freedom) : weights_(std::move(weights)), freedom_(freedom) {}
@@ -146,7 +146,7 @@ std::vector<double> largest_scores(const JointModel& model, const Projection& pr
   for (std::size_t i = 0; i < draws; ++i) {
     for (double& value : z) value = stream.normal(drawn++);
     double squares = z.squaredNorm();
-    // Chi-square beside the span of the columns, by Wilson and Hilferty's cube.
+    // Chi-square of the residuals outside the span of the columns, by Wilson and Hilferty's cube.
     if (beside > 0.0) {
       const double width = 2.0 / (9.0 * beside);
       const double root = 1.0 - width + std::sqrt(width) * stream.normal(drawn++);
@@ -166,15 +166,15 @@ std::vector<double> largest_scores(const JointModel& model, const Projection& pr
 double family_p_value(const Scores& scores, Eigen::Index j, double t, double freedom,
                       const std::vector<double>& largest) {
   const auto above = largest.end() - std::ranges::lower_bound(largest, scores(j, t));
-  constexpr int enough = 20;  // fewer of the draws say little
+  constexpr int enough = 20;  // fewer draws do not give a p-value
   const auto draws = static_cast<double>(largest.size());
   if (above >= enough) return static_cast<double>(above) / draws;
-  // Beyond them the tail falls as that of one test.
+  // Beyond these draws the tail falls like that of a single test.
   const double last = scores.t_for(j, largest[largest.size() - enough]);
   return enough / draws * std::min(1.0, two_sided(t, freedom) / two_sided(last, freedom));
 }
 
-/// Products of columns and residuals less what the noise that both share may make of them.
+/// Products of columns and residuals, less what noise in both may add to them.
 Eigen::VectorXd beyond_shared(const Eigen::VectorXd& along, const Eigen::VectorXd& shared) {
   const Eigen::ArrayXd sure = (along.array().abs() - at_most_shared * shared.array().abs()).max(0.0);
   return along.array().sign() * sure;
@@ -220,9 +220,9 @@ std::vector<RelaxationTest> tests_beside(const JointModel& model, const Projecti
   return tests;
 }
 
-/// Relaxations that may explain the departure, best first: two of an assumption at most. Far from the fit one that
-/// explains half as much as the best may be it, and a constant in any case: a motion out of step with the model's
-/// is far away.
+/// Relaxations that may explain the departure, best first, at most two of an assumption. Far from the fit the true
+/// one may explain only half as much as the best. Constants are always candidates: a motion that is out of step
+/// with the model's is far from the fit.
 std::vector<RelaxationTest> candidates(const JointModel& model, std::vector<RelaxationTest> tests) {
   std::ranges::sort(tests, std::greater<>(), &RelaxationTest::explained);
   std::vector<RelaxationTest> list;
@@ -245,10 +245,10 @@ std::vector<RelaxationTest> candidates(const JointModel& model, std::vector<Rela
   return list;
 }
 
-/// What the model fitted with a candidate beside those taken leaves to the others.
+/// What is left for the other relaxations once the model is fitted with a candidate and those taken.
 struct Rest {
   double p_value = 1.0;
-  double misfit = 0.0;  ///< of the fit; where its likelihood is not known, what one more relaxation would gain
+  double misfit = 0.0;  ///< of the fit; if its likelihood is not known, the gain by one more relaxation
   ParameterSet value;
   KnownConstants constants;
 };
@@ -268,8 +268,8 @@ Rest rest_of(const JointModel& model, std::vector<std::size_t> taken, std::size_
 }
 
 /// The departure that the tests show: the relaxation that explains it best, and those that explain it as well. Far
-/// from the fit a linearised model ranks them wrongly: where it can be fitted anew, candidates are judged by what
-/// they leave.
+/// from the fit a linearised model ranks them wrongly. Where the model can be fitted again, candidates are
+/// therefore judged by the misfit that they leave.
 Departure charged(const JointModel& model, const std::vector<std::size_t>& taken,
                   const std::vector<RelaxationTest>& tests, double least_change) {
   std::vector<RelaxationTest> list = candidates(model, tests);
@@ -281,8 +281,7 @@ Departure charged(const JointModel& model, const std::vector<std::size_t>& taken
     test.F0_change = rests.back().value.F0 - model.value.F0;
     test.constants = rests.back().constants;
   }
-  // What the record shows in the second order only is never charged alone: it stands beside a departure of
-  // friction.
+  // A relaxation that acts in the second order only is never charged alone, but beside a departure of friction.
   const auto is_hidden = [&](std::size_t i) {
     return std::ranges::find(model.hidden, list[i].index) != model.hidden.end();
   };
@@ -319,7 +318,7 @@ RelaxationTests test_relaxations(const JointModel& model, double least_change) {
     const auto least = std::ranges::min_element(result.tests, {}, &RelaxationTest::p_value);
     if (least == result.tests.end() || least->p_value >= family_level || taken.size() == most_departures) break;
     result.departures.push_back(charged(here, taken, result.tests, least_change));
-    // That of the departure, whichever relaxation is charged with it.
+    // All explanations of a departure have the p-value of the departure.
     for (RelaxationTest& test : result.departures.back().explanations) test.p_value = least->p_value;
     RelaxationTest& best = result.departures.back().explanations.front();
     taken.push_back(best.index);

@@ -1,14 +1,13 @@
 #pragma once
-/// Tests of all relaxations of a record at once, at one level for the family, and what a departure is charged to.
+/// Tests of all relaxations of a record at once, at one family level, and what a departure is charged to.
 ///
 /// The t statistic of a relaxation is that of its coefficient beside the base parameters. Statistics of one record
-/// are correlated, so the family is controlled by the distribution of their maximum under the base model, which is
-/// simulated with the correlations as they are (westfall1993): the family-wise p-value of a test is how often the
-/// maximum is as large. The level is shared out by weights, the standard errors of what the departures do to zeta
-/// or F0 (genovese2006): a test that tells its departure exactly is held to a stricter level, and what it leaves is
-/// that of the tests that need it. A departure that has but one sign is tested on that side. Where one is below the
-/// level, the relaxation that explains most is taken into the model and the others are tested again beside it,
-/// until none is left.
+/// are correlated. Their maximum is therefore simulated under the base model, with these correlations
+/// (westfall1993): the p-value of a test is how often the maximum is at least as large. The level is shared out by
+/// weights (genovese2006), the standard errors of the changes of zeta or F0 by the departures: a test that measures
+/// its departure precisely gets a stricter level and leaves more to the tests that need it. A departure that can
+/// have only one sign is tested on that side. If a test rejects, the relaxation that explains most is taken into
+/// the model and the others are tested again beside it, until none rejects or four are taken.
 ///
 /// A relaxation that explains nearly as much (log-likelihood within `equal_likelihood` of the best, at equal number
 /// of parameters) is named beside it: the record cannot tell them apart.
@@ -36,9 +35,9 @@ struct RelaxationTest {
   KnownConstants constants;  ///< as the model fitted with it has them; unknown where it was not fitted
   double zeta_change = 0.0;  ///< of the damping ratio when relaxed; of c where there is no spring
   double F0_change = 0.0;    ///< N
-  double F0_part = 0.0;      ///< by which the friction force of a part of the record is off the mean [N]
-  double zeta_part = 0.0;    ///< by which the damping ratio of a part of the record is off the mean
-  double zeta_blind = 0.0;   ///< change that a departure may make and be missed in one record of five
+  double F0_part = 0.0;      ///< friction force of a part of the record, less the mean [N]
+  double zeta_part = 0.0;    ///< damping ratio of a part of the record, less the mean
+  double zeta_blind = 0.0;   ///< change by a departure that is missed in one record of five
   double F0_blind = 0.0;
 };
 
@@ -49,7 +48,7 @@ struct Departure {
 
 struct RelaxationTests {
   std::vector<RelaxationTest> tests;  ///< beside all departures; those that can be told from the base parameters
-  std::vector<std::size_t> alone;     ///< relaxations that are base parameters in another guise
+  std::vector<std::size_t> alone;     ///< relaxations that cannot be told from the base parameters
   std::vector<Departure> departures;  ///< in the order found
   double freedom = 0.0;               ///< degrees of freedom left
   std::optional<JointModel> relaxed;  ///< the model linearised with the departures relaxed, where it has such a fit

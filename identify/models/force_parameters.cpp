@@ -36,7 +36,7 @@ void set_estimate(Estimate& estimate, const ForceParameters& force, const Eigen:
       parameters({force.m - bias.m, force.c - bias.c, force.k - bias.k, force.F0 - bias.F0});
   estimate.interval95 = {around(middle.zeta, error.zeta), around(middle.c, error.c), around(middle.x_f, error.x_f),
                          around(middle.F0, error.F0)};
-  // Without a spring there is no zeta to correlate: c in its place would be another quantity.
+  // Without a spring there is no zeta, and no correlation with it.
   if (!sprung) return;
   const double mixed = to_zeta.dot(covariance.col(3));
   Eigen::Matrix2d of_pair;

@@ -1,6 +1,6 @@
 #pragma once
-/// Results of methods that estimate forces: (m, c, k, F0) first, zeta = c/(2 sqrt(m k)) and x_f = F0/k from them.
-/// Without a spring (k = 0, a machine on a rail) zeta and x_f do not exist and are not a number.
+/// Results of methods that estimate forces: (m, c, k, F0), and from them zeta = c/(2 sqrt(m k)) and x_f = F0/k.
+/// Without a spring (k = 0, a machine on a rail) zeta and x_f do not exist and are NaN.
 
 #include <Eigen/Core>
 #include <string>
@@ -19,8 +19,8 @@ struct ForceParameters {
 
 [[nodiscard]] ParameterSet parameters(const ForceParameters& force);
 
-/// Value, standard errors, intervals value - bias +- half_width std, covariance and correlation of (zeta, F0) from
-/// the covariance of (m, c, k, F0), whose rows of known constants are zero.
+/// Sets value, standard errors, intervals value - bias +- half_width std, covariance and correlation of (zeta, F0)
+/// from the covariance of (m, c, k, F0), in which rows of known constants are zero.
 void set_estimate(Estimate& estimate, const ForceParameters& force, const Eigen::Matrix4d& covariance,
                   double half_width, const ForceParameters& bias = {});
 
@@ -28,8 +28,8 @@ void set_estimate(Estimate& estimate, const ForceParameters& force, const Eigen:
 [[nodiscard]] FurtherParameter further(std::string name, std::string unit, double value, double variance,
                                        double half_width);
 
-/// Diagnostics of c and F0 by their signs, as `judge_signs` has them of zeta and x_f. `least`: shares of the
-/// forces' scale that rounding makes.
+/// Diagnostics of c and F0 by their signs, as `judge_signs` does for zeta and x_f. `least_c`, `least_F0`: values
+/// that rounding alone may give.
 void judge_force_signs(Estimate& estimate, double least_c, double least_F0, std::vector<std::string>& faults);
 
 }  // namespace dualdamp::identify

@@ -88,7 +88,7 @@ const std::array<double, nodes>& places() {
   return points;
 }
 
-/// Parts of an interval whose ends are looked at for a change of sign.
+/// Parts of an interval that are searched for a change of sign, by the values at their ends.
 constexpr int parts = 4;
 
 }  // namespace
@@ -106,7 +106,7 @@ bool SampledOscillator::run(const Parameters& parameters, const std::vector<By>&
   damping_ = p_.c * rate_;
   const double fastest = std::max(std::sqrt(p_.k / inertia_), std::abs(damping_) / inertia_);
   if (!(fastest < 2.0)) return false;
-  // The series of a drive of degree seven ends two terms later but for the oscillator's own motion.
+  // Under a drive of degree seven all further terms are those of the oscillator's own motion, which decrease.
   terms_ = nodes + 3;
   for (double left = std::pow(fastest, terms_) / std::tgamma(terms_ + 1.0); left > 1e-18 && terms_ < most_terms;
        ++terms_)
@@ -131,7 +131,7 @@ bool SampledOscillator::run(const Parameters& parameters, const std::vector<By>&
   v_ = p_.v0 / rate_;
   fastest_ = std::abs(v_);
   direction_ = (v_ > 0.0) - (v_ < 0.0);
-  // A mass that moves has slid before the record began.
+  // A mass that moves at the start has slid far before the record began.
   constexpr double far = 1e3;
   reversal_ = direction_ == 0 ? x_ : x_ + far;
   const auto store = [&](std::size_t i) {
@@ -175,7 +175,7 @@ void SampledOscillator::start_tangents(const std::vector<By>& by, const std::vec
   add(one);
 }
 
-/// What the last three tangents have become since the last sample; then they begin anew.
+/// Stores the last three tangents as they are one sample after their start, and starts them again.
 void SampledOscillator::store_step(Derivatives& derivatives) {
   Tangent* const last = &tangents_[tangents_.size() - 3];
   Step step;
@@ -191,7 +191,7 @@ void SampledOscillator::store_step(Derivatives& derivatives) {
 bool SampledOscillator::walk_interval(std::size_t interval) {
   interval_ = interval;
   for (std::size_t j = 0; j < nodes; ++j) drive_[j] = p_.k * y_[interval][j] + force_[interval][j];
-  constexpr int most_events = 32;  // more are rounding at one instant
+  constexpr int most_events = 32;  // more come from rounding at one instant
   double at = 0.0;
   if (interval == 0 && direction_ == 0) settle(0.0);
   for (int event = 0; at < 1.0; ++event) {
@@ -262,7 +262,7 @@ double SampledOscillator::slip(double begin, double end) {
   return at;
 }
 
-/// Where the velocity leaves the direction of slip; negative: it does not.
+/// Time at which the velocity leaves the direction of slip; negative: it does not.
 double SampledOscillator::first_reversal(double length) const {
   const auto speed = [this](double u) { return direction_ * slope_at(series_, terms_, u); };
   double most_change = 0.0;  // of the velocity, over a whole sample interval
@@ -278,7 +278,7 @@ double SampledOscillator::first_reversal(double length) const {
   return -1.0;
 }
 
-/// Where a slip ends.
+/// Sets the direction after a slip has ended: a reversal, or a stop.
 void SampledOscillator::settle(double at) {
   const auto sticks = [] { return friction::Direction::none; };
   const Balance here = balance(at);
@@ -297,13 +297,13 @@ SampledOscillator::Instant SampledOscillator::instant(double u) const {
   return instant;
 }
 
-/// The motion at eight points of what is left of the interval: the same ones for all forces.
+/// Computes the motion at eight points of the rest of the interval, the same points for all forces.
 void SampledOscillator::look_along() {
   const double length = 1.0 - begin_;
   for (std::size_t i = 0; i < nodes; ++i) along_[i] = instant(places()[i] * length);
 }
 
-/// A force along the motion, as a polynomial through these points. It is smooth there: the direction is frozen.
+/// A force along the motion, as a polynomial through these points. It is smooth, because the direction is constant.
 SampledOscillator::Drive SampledOscillator::push(const Force& force) const {
   static const Eigen::Matrix<double, nodes, nodes> to_powers = [] {
     Eigen::Matrix<double, nodes, nodes> powers;
@@ -330,7 +330,7 @@ void SampledOscillator::expand(double begin) {
   series_[0] = x_;
   series_[1] = v_;
   expand_motion(drive);
-  constexpr int rounds = 3;  // each leaves the share of a sample interval's square of the last one's error
+  constexpr int rounds = 3;  // each reduces the error by the order of the sample interval squared
   for (int round = 0; round < rounds && !acting_.empty(); ++round) {
     Drive left = drive;
     look_along();
@@ -354,7 +354,7 @@ void SampledOscillator::expand_motion(const Drive& drive) {
   }
 }
 
-/// Stiffness and damping of what is left of the interval, with the slopes of the acting forces at its middle.
+/// Stiffness and damping in the rest of the interval, with the slopes of the acting forces at its middle.
 void SampledOscillator::linearise() {
   local_stiffness_ = p_.k;
   local_damping_ = damping_;

@@ -2,15 +2,15 @@
 /// The motion of  m x'' + c x' + k x + F0 sgn x' = k y(t) + f(t)  where y and f are known by samples, and its
 /// derivatives with respect to the parameters and the initial state.
 ///
-/// Between samples y and f are polynomials through the eight nearest samples. Under a polynomial the motion is its
-/// own Taylor series, of which as many terms are summed as double precision holds: nothing is integrated in steps.
-/// Reversals, stops and releases are found as roots of that series. The exact engine (`sim/`) knows harmonic drives
-/// and ramps alone; a measured base motion is neither.
+/// Between samples y and f are polynomials through the eight nearest samples. Under a polynomial the motion is a
+/// Taylor series that converges. It is summed to double precision: nothing is integrated in steps. Reversals, stops
+/// and releases are roots of that series. The exact engine (`sim/`) is not used here, because it takes harmonic
+/// drives and ramps alone, and a measured base motion is neither.
 ///
-/// Forces beside these, smooth within an interval, are polynomials along the motion, which is found in three
-/// rounds.
+/// Further forces, smooth within an interval, are approximated by polynomials along the motion. Force and motion
+/// are computed in three rounds.
 ///
-/// Derivatives S = dx/dp obey  m S'' + c S' + k S = dm-, dc-, dk-, dF0-terms  within an interval. At v = 0 the
+/// Derivatives S = dx/dp obey  m S'' + c S' + k S = terms of dm, dc, dk, dF0  within an interval. At v = 0 the
 /// acceleration jumps from a- to a+, and S_x+ = S_x-, S_v+ = S_v- a+/a- (filippov1988, leine2004); at a stop S_v =
 /// 0.
 ///
@@ -35,32 +35,32 @@ class SampledOscillator {
     double F0 = 0.0;  ///< N, >= 0
     double x0 = 0.0;  ///< m
     double v0 = 0.0;  ///< m/s
-    /// Coefficients of the forces that `run` is handed; empty: all zero.
+    /// Coefficients of the `forces` of `run`; empty: all zero.
     std::vector<double> further = {};
   };
-  /// Where the mass is, for a force beside the others.
+  /// State of the motion that a further force depends on.
   struct Instant {
     double x = 0.0;          ///< m
     double v = 0.0;          ///< m/s
     double direction = 0.0;  ///< of sliding, 1 or -1
     double y = 0.0;          ///< m
     double drive = 0.0;      ///< k y + f [N]
-    double way = 0.0;        ///< since the last reversal [m]; far before the first
+    double way = 0.0;        ///< distance since the last reversal [m]; very large before the first
     double course = 0.0;     ///< share of the history that is over
   };
-  /// A force on the mass against its positive direction, smooth but for its direction; any unit.
+  /// A force on the mass, positive against its positive direction; smooth except at reversals; in any unit.
   using Force = std::function<double(const Instant&)>;
-  /// What the motion is differentiated by; `force`: a further force, numbered by its place in the list.
+  /// What the motion is differentiated by; `force`: a further force, for internal use.
   enum class By { mass, damping, stiffness, friction, position, velocity, force };
 
-  /// What becomes of a small disturbance of (x, v) from one sample to the next, and of a force of 1 N between them.
+  /// From one sample to the next: how a small disturbance of (x, v) changes, and the effect of a force of 1 N.
   struct Step {
     Eigen::Matrix2d carried;
     Eigen::Vector2d pushed;
   };
   /// Derivatives of the motion at the samples.
   struct Derivatives {
-    Eigen::MatrixXd x;  ///< a row a sample, a column for each of `by` and then of `forces`
+    Eigen::MatrixXd x;  ///< a row for each sample, a column for each of `by` and then of `forces`
     Eigen::MatrixXd v;
     std::vector<Step> steps;
   };
@@ -68,8 +68,8 @@ class SampledOscillator {
   /// The drive of a history: y and force, each zero when it was not measured. At least eight samples.
   explicit SampledOscillator(const History& history);
 
-  /// x at the samples. `derivatives`, where there is one: of `by` and `forces`; `v`, where there is one: the
-  /// velocity. False: the parameters are too fast for the sample rate, or a value is not finite.
+  /// x at the samples. `derivatives`, if not null: those by `by` and `forces`. `v`, if not null: the velocity.
+  /// False: the motion is too fast for the sample rate, or a value is not finite.
   bool run(const Parameters& parameters, const std::vector<By>& by, Eigen::VectorXd& x, Derivatives* derivatives,
            Eigen::VectorXd* v = nullptr, const std::vector<Force>& forces = {});
 
@@ -88,7 +88,7 @@ class SampledOscillator {
     Series series{};
   };
 
-  /// Of a mass whose velocity is zero: what drives it, and what friction may hold.
+  /// At zero velocity: the pull on the mass, and the largest force that friction can hold [N].
   struct Balance {
     double pull = 0.0;
     double limit = 0.0;
@@ -118,27 +118,27 @@ class SampledOscillator {
 
   std::size_t count_;
   double rate_;
-  std::vector<Drive> y_, force_;  ///< of each interval, by powers of the time within it in sample intervals
+  std::vector<Drive> y_, force_;  ///< of each interval: coefficients of powers of time, in sample intervals
 
   Parameters p_;
-  double inertia_ = 0.0;  ///< m, c by the unit of time of one sample interval
+  double inertia_ = 0.0;  ///< m, and below c, with the sample interval as unit of time
   double damping_ = 0.0;
-  Series integration_{};  ///< from a coefficient of the force to that of x two powers on
+  Series integration_{};  ///< factor from a coefficient of the force to the coefficient of x two powers higher
   int terms_ = 0;
   std::size_t interval_ = 0;
   int direction_ = 0;
   double x_ = 0.0;
-  double v_ = 0.0;  ///< by sample interval
+  double v_ = 0.0;  ///< m per sample interval
   double fastest_ = 0.0;
-  double reversal_ = 0.0;  ///< where it was last [m]
+  double reversal_ = 0.0;  ///< position of the last one [m]
   double begin_ = 0.0;     ///< of the expansion, within the interval
   Drive y_here_{};
   Drive drive_here_{};
   Drive drive_{};
   Series series_{};
-  std::array<Instant, nodes> along_{};  ///< the motion of that series where forces are looked at
+  std::array<Instant, nodes> along_{};  ///< the motion of that series at the points where forces are evaluated
   std::vector<Acting> acting_;
-  double local_stiffness_ = 0.0;  ///< with the slopes of the acting forces, by unit of time as damping_
+  double local_stiffness_ = 0.0;  ///< with the slopes of the acting forces; unit of time as for damping_
   double local_damping_ = 0.0;
   std::vector<Tangent> tangents_;
 };

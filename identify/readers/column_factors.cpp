@@ -19,14 +19,14 @@ std::string without_brackets(std::string_view unit) {
   return std::string(trimmed(unit));
 }
 
-/// The unit of a scale: SI units of the column for one unit of the signal.
+/// The unit of a scale, split into the unit of the column's quantity and the unit of the signal.
 struct ScaleUnit {
   double factor = 1.0;
-  std::string signal;           ///< unit of the signal; empty: a plain number
-  bool is_sensitivity = false;  ///< signal over quantity, not quantity over signal
+  std::string signal;           ///< unit of the signal; empty: a number without unit
+  bool is_sensitivity = false;  ///< signal per quantity, as mV/g; else quantity per signal
 };
 
-/// The column's unit is on one side of one of the strokes, the signal's on the other.
+/// Tries each `/` of the text: one side must be a unit of the column, the other one is the unit of the signal.
 std::optional<ScaleUnit> read_scale_unit(const std::string& unit, const KnownColumn& known,
                                          core::Coordinate coordinate) {
   for (std::size_t at = unit.rfind('/'); at != std::string::npos && at > 0; at = unit.rfind('/', at - 1)) {
@@ -42,7 +42,7 @@ std::optional<ScaleUnit> read_scale_unit(const std::string& unit, const KnownCol
   return std::nullopt;
 }
 
-/// Angles and their rates, frequencies: the numbers do not tell degrees from radians.
+/// Angles, their rates, and frequencies must state a unit: numbers in degrees look like numbers in radians.
 bool is_angular(const KnownColumn& known, core::Coordinate coordinate) {
   return core::unit_for(coordinate, known.unit).starts_with("rad");
 }
@@ -159,7 +159,7 @@ double ColumnFactors::scaled(const KnownColumn& known, const std::string& scale,
   return gain * read->factor * per_signal;
 }
 
-/// Once, of however many tests.
+/// Adds the column to the assumed ones, once for all tests.
 void ColumnFactors::assume(const std::string& name, const std::string& unit) {
   if (std::ranges::find(assumed_, name, &Assumption::name) == assumed_.end()) assumed_.push_back({name, unit});
 }

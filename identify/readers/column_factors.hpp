@@ -1,12 +1,12 @@
 #pragma once
-/// From the numbers of a column to SI: the unit that the file states, the unit and the scale that the caller
-/// states.
+/// Conversion of the numbers of a column to SI, by the unit that the file states and by the unit and the scale that
+/// the caller states.
 ///
-/// A scale is a quantity for one unit of the signal, `2.5 mm/V`, or the sensitivity of a sensor, `100 mV/g`; the
-/// dimensions tell which. Without a unit it multiplies: `35.15`, in the column's own unit.
+/// A scale is a quantity for one unit of the signal, `2.5 mm/V`, or the sensitivity of a sensor, `100 mV/g`; its
+/// dimension decides which. A scale without a unit, `35.15`, is a factor in the column's own unit.
 ///
-/// A column for which nobody states a unit is read in SI, and the caller is warned of that. An angle or a frequency
-/// without unit is refused: degrees and radians, hertz and rad/s differ too little to be told by the numbers.
+/// A column without a stated unit is read in SI, with a warning. An angle or a frequency without a unit is refused,
+/// because the numbers cannot show whether they are degrees or radians, hertz or rad/s.
 
 #include <map>
 #include <string>
@@ -20,13 +20,13 @@
 
 namespace dualdamp::identify {
 
-/// Refuses names in the caller's options that are no known columns.
+/// Adds a problem for each name in the caller's options that is no known column.
 void check_names(const ReadOptions& options, Problems& problems);
 
-/// What the caller says of a column, under either of its names; nullptr: nothing.
+/// The value for a column in one of the caller's maps, by name or alias; nullptr: the caller states none.
 [[nodiscard]] const std::string* find_for(const std::map<std::string, std::string>& map, const KnownColumn& known);
 
-/// Whether the caller wants the column at all.
+/// Whether the caller wants to read the column (`ReadOptions::only`).
 [[nodiscard]] bool is_wanted(const ReadOptions& options, const KnownColumn& known);
 
 class ColumnFactors {
@@ -34,11 +34,11 @@ class ColumnFactors {
   ColumnFactors(const ReadOptions& options, Problems& problems, std::vector<std::string>& warnings)
       : options_(options), problems_(problems), warnings_(warnings) {}
 
-  /// What a number of the column is multiplied by. `stated`: the unit in the file, may be empty. A fault goes to
-  /// the problems with the place and the finding of `where`.
+  /// The factor from numbers of the column to SI. `stated`: the unit in the file; may be empty. A fault is added to
+  /// the problems, with place and text from `where`.
   double factor_of(const KnownColumn& known, const std::string& stated, const core::Diagnostic& where);
 
-  /// The units of all columns, with one warning for those without.
+  /// The units of all columns. Adds one warning for all columns without a unit.
   ColumnUnits take_units();
 
  private:

@@ -13,7 +13,7 @@ namespace dualdamp::identify {
 
 namespace {
 
-/// What may stand between a name and a unit without brackets.
+/// Characters between a name and a unit without brackets.
 constexpr std::string_view marks = " _/,:-.";
 
 bool is_alike(std::string_view a, std::string_view b) {
@@ -37,7 +37,7 @@ bool is_unit_of(const std::string& unit, const KnownColumn& known) {
          (core::unit_factor(unit, known.unit).value || core::coordinate_told_by(unit, known.unit));
 }
 
-/// Names that say which column they are by their unit only: f [Hz], F [N].
+/// Names whose column depends on the unit: f [Hz], F [N].
 struct ShortName {
   std::string_view text;
   std::string_view column;
@@ -45,7 +45,7 @@ struct ShortName {
 constexpr std::array<ShortName, 5> short_names = {
     {{"f", "omega"}, {"F", "omega"}, {"freq", "omega"}, {"f", "force"}, {"F", "force"}}};
 
-/// All names by which a column with a unit is known.
+/// All names of columns with a unit.
 std::vector<std::string_view> names_of(const KnownColumn& known) {
   std::vector<std::string_view> names = {known.name, known.alias};
   for (const ShortName& other : short_names)
@@ -53,7 +53,7 @@ std::vector<std::string_view> names_of(const KnownColumn& known) {
   return names;
 }
 
-/// The part of a text behind a name and marks that is a unit; empty when there is none.
+/// The unit in a text that begins with a name and separating characters; empty if there is none.
 std::string unit_behind(std::string_view text, std::string_view name, const KnownColumn& known) {
   if (name.empty() || text.size() <= name.size() + 1 || !is_name(text.substr(0, name.size()), name)) return {};
   const std::string_view rest = text.substr(name.size());
@@ -106,7 +106,7 @@ const KnownColumn* named_column(Heading& heading) {
     heading.unit = "s";
     return known_column("t");
   }
-  if (heading.name.size() == 1 && heading.name != "y" && heading.name != "Y")  // X [mm], but not a V without unit
+  if (heading.name.size() == 1 && heading.name != "y" && heading.name != "Y")  // X [mm], but not V without a unit
     for (const KnownColumn& known : known_columns)
       if (is_alike(heading.name, known.name) && is_unit_of(heading.unit, known)) return &known;
   for (const ShortName& other : short_names)
@@ -114,7 +114,7 @@ const KnownColumn* named_column(Heading& heading) {
         is_name(heading.name, other.text) && is_unit_of(heading.unit, *known))
       return known;
   if (!heading.unit.empty() || !heading.well_formed) {
-    // `x_[mm]`, `x/(mm)`: a mark before the brackets.
+    // `x_[mm]`, `x/(mm)`: a separating character before the brackets.
     const std::size_t end = heading.name.find_last_not_of(marks) + 1;
     return end < heading.name.size() ? column_in_any_case(std::string_view(heading.name).substr(0, end)) : nullptr;
   }

@@ -1,5 +1,5 @@
 #pragma once
-/// The columns a data file may hold, and what their headings say: which column, in which unit.
+/// The columns that a data file may hold, and how a heading states the column and its unit.
 
 #include <array>
 #include <string>
@@ -8,11 +8,11 @@
 
 namespace dualdamp::identify {
 
-/// A column a record may have.
+/// A column that a record may have.
 struct KnownColumn {
   std::string_view name;
   std::string_view alias;
-  std::string_view unit;  ///< SI, of a displacement (core/coordinate.hpp); empty for a label
+  std::string_view unit;  ///< SI, for x in metres (core/coordinate.hpp); empty for a label
   bool is_signal = false;
 };
 
@@ -29,31 +29,31 @@ inline constexpr std::array<KnownColumn, 12> known_columns = {{{"t", "time", "s"
                                                                {"mean_square_speed", "", "m^2/s^2"},
                                                                {"sweep", "", ""}}};
 
-/// nullptr when no column has this name or alias.
+/// nullptr if no column has this name or alias.
 [[nodiscard]] const KnownColumn* known_column(std::string_view name);
 
-/// What makes a record, for messages.
+/// For messages: the columns that make a record.
 inline constexpr std::string_view allowed_columns =
     "Y and x (pairs), x alone or t and x (extremes), or t and any of x, y, v, a, force (histories)";
 
-/// "x [mm]" or "x (mm)" taken apart.
+/// The parts of a heading such as "x [mm]" or "x (mm)".
 struct Heading {
-  std::string text;  ///< the whole of it
+  std::string text;  ///< the whole heading
   std::string name;
   std::string unit;
-  int column = 1;  ///< where it stands in its line
+  int column = 1;  ///< position in its line, from 1
   bool well_formed = true;
 };
 [[nodiscard]] Heading parse_heading(std::string_view text, int column);
 
-/// The column that a heading names; its unit where that stands behind the name without brackets, such as `x_mm`,
-/// `x / mm`, `time, ms`, goes from the name to `heading.unit`. nullptr when it names none.
+/// The column that a heading names; nullptr if it names none. A unit that follows the name without brackets, such
+/// as `x_mm`, `x / mm`, `time, ms`, is moved from the name to `heading.unit`.
 ///
-/// Y and y are two columns. Other names of one letter are known in the other case too where their unit fits, `X
-/// [mm]`; longer names in any case. f and freq are frequencies or forces where their unit says so, `f_Hz`, `F [N]`.
+/// Y and y are two columns. Other names of one letter may be in the other case if their unit fits, `X [mm]`; longer
+/// names may be in any case. f and freq are frequencies or forces if their unit says so: `f_Hz`, `F [N]`.
 [[nodiscard]] const KnownColumn* named_column(Heading& heading);
 
-/// The warning of a column, variable or field that is none of the known ones; `is_of_ignored` knows it again.
+/// The warning about an unknown column, variable or field. `is_of_ignored` recognises it.
 [[nodiscard]] std::string ignored(std::string_view what, const std::string& name);
 
 /// "a, b and c"

@@ -13,7 +13,8 @@ const DataColumn* DataTable::find(std::string_view name) const {
 
 namespace {
 
-/// Times from a step, and numbers in another unit, may leave the range although what the file holds does not.
+/// Times computed from a step, and numbers converted to SI, may leave the range of double precision although the
+/// numbers of the file do not.
 void refuse_not_finite(const std::string& file, const DataColumn& column) {
   const auto bad = std::ranges::find_if(column.values, [](double value) { return !std::isfinite(value); });
   if (bad == column.values.end()) return;

@@ -1,5 +1,5 @@
 #pragma once
-/// What the readers of data files hand on: columns of numbers under known names.
+/// The result of reading a data file: columns of numbers with known names.
 
 #include <cstddef>
 #include <functional>
@@ -16,10 +16,10 @@ namespace dualdamp::identify {
 
 struct DataColumn {
   const KnownColumn* known = nullptr;
-  std::vector<double> values;  ///< SI; NaN where a problem was found
+  std::vector<double> values;  ///< SI; NaN for a value with a problem
 };
 
-/// Rows from `first_row` to the next run bear the same label.
+/// Rows with the same label, from `first_row` to the next run.
 struct LabelRun {
   std::string label;
   std::size_t first_row = 0;
@@ -30,24 +30,24 @@ struct DataTable {
   std::vector<DataColumn> columns;  ///< of equal length, each name at most once
   ColumnUnits units;
   std::vector<LabelRun> sweeps;            ///< empty: no labels
-  std::vector<std::size_t> restarts = {};  ///< rows before which the header stood again
-  /// Times are rounded to a multiple of `time_quantum` [s] or to so many significant digits, whichever is coarser.
+  std::vector<std::size_t> restarts = {};  ///< rows that follow a repeated header
+  /// Times are rounded to a multiple of `time_quantum` [s] or to `time_digits` digits, whichever is coarser.
   double time_quantum = 0.0;
   int time_digits = 17;
-  /// Place and text of a value, for messages; its row from 0.
+  /// Place and text of a value, for messages. Rows count from 0.
   std::function<core::Diagnostic(std::size_t row, const KnownColumn& known)> show;
 
   [[nodiscard]] const DataColumn* find(std::string_view name) const;
   [[nodiscard]] std::size_t rows() const { return columns.empty() ? 0 : columns.front().values.size(); }
 };
 
-/// One test of a file that holds several: its columns are of equal length.
+/// One of several tests in a file. Its columns have equal lengths.
 struct TestColumns {
   std::string label;
   std::vector<DataColumn> columns;
 };
 
-/// The tests below each other. Tests that do not hold the same columns are refused.
+/// One table with the rows of all tests. Errors: `core::InputError` if the tests do not have the same columns.
 [[nodiscard]] DataTable join(const std::string& file, const std::vector<TestColumns>& tests);
 
 }  // namespace dualdamp::identify

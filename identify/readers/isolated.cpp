@@ -22,13 +22,13 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Ends what `work` has written: a caller that ignores SIGCHLD never learns how its child ended.
+/// Marks the end of the bytes that `work` has written. A caller that ignores SIGCHLD cannot get the child's status.
 constexpr char complete_mark = '\x06';
 
 constexpr int status_of_exception = 1;
 constexpr int status_of_memory = 2;
 
-/// A file descriptor that is closed with the object.
+/// A file descriptor that the destructor closes.
 class Descriptor {
  public:
   explicit Descriptor(int number) : number_(number) {}
@@ -47,14 +47,14 @@ class Descriptor {
   int number_;
 };
 
-/// Bytes of address space in use; 0 where the system does not say.
+/// Bytes of address space in use; 0 if the system does not state them.
 std::size_t address_space() {
   std::size_t pages = 0;
   std::ifstream("/proc/self/statm") >> pages;
   return pages * static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
 }
 
-/// What the caller does about signals is not for the child to do.
+/// Restores the default handling of signals: the child must not run the handlers of the caller.
 void reset_signals() {
   for (const int number : {SIGABRT, SIGBUS, SIGFPE, SIGILL, SIGSEGV, SIGINT, SIGTERM, SIGXCPU, SIGPIPE})
     std::signal(number, SIG_DFL);
@@ -67,15 +67,15 @@ void limit(__rlimit_resource resource, rlim_t soft, rlim_t hard) {
 
 void set_limits(const IsolationLimits& limits, [[maybe_unused]] std::size_t used) {
   limit(RLIMIT_CORE, 0, 0);
-  // At the soft limit the signal that tells of it, at the hard one the end.
+  // The soft limit sends a signal (SIGXCPU), the hard limit kills the process.
   const auto seconds = static_cast<rlim_t>(limits.processor_time.count());
   limit(RLIMIT_CPU, seconds, seconds + 1);
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // they reserve terabytes of addresses
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // they reserve terabytes of address space
   if (used > 0) limit(RLIMIT_AS, used + limits.memory, used + limits.memory);
 #endif
 }
 
-/// Messages of the libraries and of the allocator about the damage are not the caller's.
+/// Drops the messages of the libraries and of the allocator about the damaged file.
 void drop_standard_error() {
   const int nowhere = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
   if (nowhere < 0 || nowhere == STDERR_FILENO) return;
@@ -83,8 +83,8 @@ void drop_standard_error() {
   ::close(nowhere);
 }
 
-/// Children of other threads, started a moment ago, are told that a pipe is at its end when nobody can write to it
-/// any more: this child keeps nobody's but its own.
+/// Closes all inherited files but those of this child. A pipe of another thread's child ends only if no process
+/// holds its writing end.
 void keep_only(int pipe) {
   constexpr int first = STDERR_FILENO + 1;
   if (pipe > first) ::close_range(first, static_cast<unsigned>(pipe) - 1, 0);
@@ -94,7 +94,7 @@ void keep_only(int pipe) {
 [[noreturn]] void run_child(const IsolationLimits& limits, pid_t parent, std::size_t used, int pipe,
                             const std::function<void(const ByteSink&)>& work) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (::getppid() != parent) ::_exit(status_of_exception);  // it ended before the line above
+  if (::getppid() != parent) ::_exit(status_of_exception);  // the parent ended before the line above
   keep_only(pipe);
   reset_signals();
   drop_standard_error();
@@ -119,7 +119,7 @@ void keep_only(int pipe) {
   ::_exit(status);
 }
 
-/// Everything up to the end of the pipe; false at the deadline.
+/// Reads up to the end of the pipe. False at the deadline.
 bool collect(int pipe, Clock::time_point deadline, std::string& bytes) {
   std::array<char, 1U << 16U> buffer;  // NOLINT(cppcoreguidelines-pro-type-member-init): read() fills it
   while (true) {

@@ -1,17 +1,17 @@
 #pragma once
-/// Work in a child process, for a library that a damaged file can make crash, hang or ask for all memory.
+/// Runs work in a child process. Purpose: a library that can crash, hang or use all memory on a damaged file.
 ///
-/// The child is a fork of the caller: it sees all data as they were, runs `work` in the one thread it has, sends
-/// what that writes over a pipe, and ends without the caller's exit handlers. Nothing else of what it does comes
-/// back, and what it prints on standard error is dropped. It ends with the caller.
+/// The child is a fork of the caller, so it has a copy of all data. It has a single thread, which runs `work` and
+/// sends the bytes that `work` writes over a pipe. Nothing else comes back, and the standard error of the child is
+/// dropped. The child runs no exit handlers of the caller, and is killed if the caller ends.
 ///
-/// Files that the caller has open are closed in the child, but for the standard ones: `work` opens its own.
+/// Open files of the caller, except the standard ones, are closed in the child. `work` must open its own files.
 ///
-/// Other threads may be running: they do not exist in the child, so that `work` must not take a lock that one of
-/// them may hold. Those of the C library's allocator and streams are free in the child.
+/// Other threads of the caller may run. They do not exist in the child, so `work` must not take a lock that one of
+/// them may hold. The locks of the C library's allocator and streams are free in the child.
 ///
-/// Errors: `IsolatedEnd`; none thrown but for lack of memory in the caller. Cost: some 2 ms and a copy of the
-/// result. Under the address sanitizer, which reserves terabytes, the limit on memory does not hold.
+/// Errors: `IsolatedEnd`; throws only if the caller lacks memory. Cost: about 2 ms and a copy of the result. The
+/// limit on memory is not applied under the address sanitizer, which reserves terabytes.
 
 #include <chrono>
 #include <cstddef>
@@ -24,15 +24,15 @@ namespace dualdamp::identify {
 struct IsolationLimits {
   std::chrono::seconds processor_time;
   std::chrono::seconds wall_clock;
-  std::size_t memory = 0;  ///< bytes of address space beyond the caller's
+  std::size_t memory = 0;  ///< bytes of address space in addition to the caller's
 };
 
 enum class IsolatedEnd {
-  done,           ///< `bytes` is all that `work` has written
-  crashed,        ///< ended by a signal or an exception
+  done,           ///< `bytes` holds all that `work` has written
+  crashed,        ///< a signal or an exception ended it
   out_of_memory,  ///< std::bad_alloc under the limit
   out_of_time,
-  not_started,  ///< no process or pipe to be had
+  not_started,  ///< no process or pipe could be created
 };
 
 struct IsolatedResult {
@@ -40,7 +40,7 @@ struct IsolatedResult {
   std::string bytes;
 };
 
-/// Takes the bytes of the result; ends the child when the caller no longer listens.
+/// Takes bytes of the result. Ends the child if the caller has closed the pipe.
 using ByteSink = std::function<void(std::span<const char>)>;
 
 [[nodiscard]] IsolatedResult run_isolated(const IsolationLimits& limits,

@@ -24,7 +24,7 @@ void Problems::add(core::Diagnostic diagnostic, const std::string& kind) {
     groups_.back().kind = kind;
     return;
   }
-  // Two fields of one row, such as both of an empty one, are one row.
+  // Problems of two fields in one row count as one row.
   if (diagnostic.place.line == same->last_line) return;
   same->last_line = diagnostic.place.line;
   ++same->others;

@@ -1,5 +1,5 @@
 #pragma once
-/// The problems of a data file: what is wrong at which line, the same fault of many rows once.
+/// The problems of a data file, with their places. The same fault in many rows is one problem.
 
 #include <cstddef>
 #include <string>
@@ -9,20 +9,20 @@
 
 namespace dualdamp::identify {
 
-/// Collects problems and ends the reading when there are too many kinds of them to be read by anyone.
+/// Collects problems. Throws `core::InputError` as soon as there are more kinds of problems than anyone would read.
 ///
-/// Problems with the same message are one problem: it stands at the first of their places, and the message counts
-/// the others and names the lines of some.
+/// Problems with the same message become one problem at the first of their places. Its message states how many
+/// others there are, and the lines of some of them.
 class Problems {
  public:
-  static constexpr std::size_t most_lines = 5;  ///< of the same problem that are named
+  static constexpr std::size_t most_lines = 5;  ///< named in one message
 
   void add(core::Diagnostic diagnostic);
-  /// Problems of one `kind` are one, though their messages name other columns.
+  /// Problems of one `kind` become one problem, even if their messages differ (in the name of a column).
   void add(core::Diagnostic diagnostic, const std::string& kind);
-  /// A problem of several rows: at its place, `others` more, some of which are in `lines`.
+  /// A problem of several rows: the first one, and `others` more rows; `lines` has the lines of some of these.
   void add(core::Diagnostic diagnostic, std::size_t others, std::vector<int> lines);
-  /// In the order of their places.
+  /// Throws `core::InputError` with all problems, in the order of their places.
   void throw_if_any() const;
   [[nodiscard]] bool empty() const { return groups_.empty(); }
 

@@ -49,7 +49,8 @@ class Assembly {
     return table_.show(source_row_.empty() ? row : source_row_[row], *known_column(name));
   }
 
-  /// One problem of several rows. A row is sought from the beginning of the file, so that only some are shown.
+  /// One problem of several rows. Only some rows are shown, because `show` searches each from the start of the
+  /// file.
   void complain(const std::vector<std::size_t>& rows, std::string_view name, const std::string& message,
                 const std::string& allowed) {
     if (rows.empty()) return;
@@ -126,7 +127,7 @@ class Assembly {
     return record;
   }
 
-  /// Nothing but x (and t), and every row turns back: a sampled motion does not.
+  /// Only x (and t), and x turns back at every row. A sampled motion does not.
   [[nodiscard]] bool holds_extremes() const {
     const std::vector<double>* x = values("x");
     if (x == nullptr) return false;
@@ -141,14 +142,14 @@ class Assembly {
     return true;
   }
 
-  /// Rows at which x turns back.
+  /// Number of rows at which x turns back.
   [[nodiscard]] static std::size_t turns(const std::vector<double>& x) {
     std::size_t count = 0;
     for (std::size_t i = 2; i < x.size(); ++i) count += (x[i] - x[i - 1]) * (x[i - 1] - x[i - 2]) < 0.0 ? 1 : 0;
     return count;
   }
 
-  /// Amplitudes of a response, whose excitation is missing, are no extremes.
+  /// Refuses amplitudes of a response without the excitation: they are no extremes.
   void refuse_response_without_Y() const {
     for (const std::string_view name : {"omega", "phase", "fundamental", "mean_square_speed"})
       if (values(name) != nullptr)
@@ -158,7 +159,7 @@ class Assembly {
             std::string(allowed_columns));
   }
 
-  /// Several decays stand below each other: labelled, or below headers of their own, or with times of their own.
+  /// The decays in the file: several if there are labels, repeated headers, or times that begin anew.
   [[nodiscard]] std::vector<LabelRun> tests_of_extremes() const {
     if (!table_.sweeps.empty()) return table_.sweeps;
     std::vector<LabelRun> runs = {{{}, 0}};
@@ -185,7 +186,7 @@ class Assembly {
       decays.push_back({cut(*values("x"), runs, i), {}});
       if (decays.back().extremes.size() > 2 && turns(decays.back().extremes) == 0)
         refuse_file(table_.file,
-                    "x stands alone, and no row of it turns back: extremes of a free vibration alternate",
+                    "x is the only column and never turns back: extremes of a free vibration alternate",
                     "signed extremes such as 5, -4, 3; or samples with their times t");
       if (values("t") == nullptr) continue;
       decays.back().times = cut(*values("t"), runs, i);
@@ -205,7 +206,7 @@ class Assembly {
       if (t[row] == t[row - 1]) equal.push_back(row);
       if (t[row] < t[row - 1]) back.push_back(row);
     }
-    complain(equal, "t", "the time does not increase: it stands there twice", "a time after the row above");
+    complain(equal, "t", "the time does not increase: it appears twice", "a time after the row above");
     complain(back, "t", "the time does not increase", "a time after the row above");
   }
 
@@ -225,7 +226,7 @@ class Assembly {
     for (std::size_t i = 0; i < runs.size(); ++i) {
       const Part rows{runs[i].first_row, i + 1 < runs.size() ? runs[i + 1].first_row : table_.rows()};
       if (!seen.insert(runs[i].label).second) {
-        complain(rows.first, "sweep", "the rows of sweep '" + runs[i].label + "' do not stand together",
+        complain(rows.first, "sweep", "the rows of sweep '" + runs[i].label + "' are not together",
                  "a label of its own for each test");
         continue;
       }
@@ -234,7 +235,7 @@ class Assembly {
     return result;
   }
 
-  /// A base that does not move is none; a mass that does not move, or whose sensor is clipped, tells nothing. False
+  /// Removes a `y` that does not move. Adds a problem for an `x` that does not move, and for clipped signals. False
   /// after a problem.
   bool check_signals() {
     if (const DataColumn* y = table_.find("y"); y != nullptr && is_constant(y->values)) {
@@ -260,7 +261,7 @@ class Assembly {
     return true;
   }
 
-  /// Labels of the file; without them a test begins where the header stands again, or where the time begins anew.
+  /// The labels of the file. Without labels, a test begins at a repeated header or where the time begins anew.
   [[nodiscard]] std::vector<LabelRun> tests() {
     if (!table_.sweeps.empty()) return table_.sweeps;
     std::vector<std::size_t> starts = table_.restarts;
@@ -269,14 +270,14 @@ class Assembly {
     starts.insert(starts.begin(), 0);
     std::vector<LabelRun> runs;
     for (const std::size_t start : starts) runs.push_back({std::to_string(runs.size() + 1), start});
-    warnings_.push_back(std::string(table_.restarts.empty() ? "the time begins anew" : "the header stands again") +
+    warnings_.push_back(std::string(table_.restarts.empty() ? "the time begins anew" : "the header is repeated") +
                         ": the file is read as " + std::to_string(runs.size()) + " tests, labelled 1 to " +
                         std::to_string(runs.size()));
     return runs;
   }
 
-  /// Rows whose time falls back to where the first test began, and goes on from there; none when a time falls back
-  /// to anywhere else.
+  /// Rows whose time falls back to the start of the first test and increases from there. None if a time falls back
+  /// elsewhere.
   [[nodiscard]] std::vector<std::size_t> starts_by_time() const {
     const std::vector<double>& t = *values("t");
     std::vector<std::size_t> starts;
@@ -290,7 +291,8 @@ class Assembly {
     return starts;
   }
 
-  /// Loggers write a row twice when they are interrupted. Rows of bursts are many, and no doubles.
+  /// Removes rows that a logger wrote twice after an interruption. More than 5 % of such rows are bursts and are
+  /// kept.
   void drop_doubled_rows() {
     const std::vector<double>& t = *values("t");
     std::vector<std::size_t> doubled;
@@ -303,8 +305,8 @@ class Assembly {
     }
     constexpr double most = 0.05;
     if (doubled.empty() || static_cast<double>(doubled.size()) > most * static_cast<double>(t.size())) return;
-    warnings_.push_back(std::to_string(doubled.size()) + " row" + (doubled.size() == 1 ? " stands" : "s stand") +
-                        " there twice with the same time and the same values; one of both is left out");
+    warnings_.push_back(std::to_string(doubled.size()) + " row" + (doubled.size() == 1 ? " appears" : "s appear") +
+                        " twice with the same time and the same values; the repetition is left out");
     source_row_.resize(t.size());
     std::iota(source_row_.begin(), source_row_.end(), std::size_t{0});
     const auto erase = [&doubled](auto& list) {
@@ -324,14 +326,14 @@ class Assembly {
       start -= static_cast<std::size_t>(std::ranges::lower_bound(doubled, start) - doubled.begin());
   }
 
-  /// The signal that tells how smooth the motion is: the first that there is.
+  /// The signal whose smoothness is compared: the first one that was measured.
   [[nodiscard]] const std::vector<double>& leading_signal() const {
     for (const std::string_view name : {"x", "y", "v", "a", "force"})
       if (const std::vector<double>* column = values(name)) return *column;
     return *values("t");
   }
 
-  /// Nothing after a problem.
+  /// Nothing if there was a problem.
   std::optional<History> history(Part rows, const std::string& label) {
     const auto cut = [](const std::vector<double>& column, std::size_t first, std::size_t last) {
       return std::span<const double>(column).subspan(first, last - first);
@@ -364,7 +366,7 @@ class Assembly {
   }
 
   DataTable table_;
-  std::vector<std::size_t> source_row_;  ///< where rows were left out: the row in the file
+  std::vector<std::size_t> source_row_;  ///< if rows were left out: the row in the file of each row
   Problems& problems_;
   std::vector<std::string>& warnings_;
 };

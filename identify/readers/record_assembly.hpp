@@ -1,5 +1,5 @@
 #pragma once
-/// From the columns of a data file to the record in it: pairs, extremes or histories.
+/// Makes a record (pairs, extremes or histories) from the columns of a data file.
 
 #include <string>
 #include <vector>
@@ -9,9 +9,9 @@
 
 namespace dualdamp::identify {
 
-/// Pairs where there is a column Y; a decay where there is nothing but extremes, which alternate; histories
-/// otherwise, one for each label, or for each part whose times begin anew. Every fault goes to `problems`; what is
-/// left out goes to `warnings`.
+/// Pairs, if there is a column Y; a decay, if all rows are extremes, which alternate; else histories, one for each
+/// label, or for each part whose times begin anew. Faults are added to `problems`. `warnings` says what is left
+/// out.
 [[nodiscard]] Record record_of(DataTable table, Problems& problems, std::vector<std::string>& warnings);
 
 }  // namespace dualdamp::identify

@@ -24,10 +24,10 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t largest_file = std::size_t{1} << 30U;
-/// Enough of a file to tell what it is.
+/// Number of first bytes that suffice to recognise the type of a file.
 constexpr std::size_t sample_size = std::size_t{1} << 16U;
 
-/// The first bytes of files that are no data files, and what to do about them.
+/// The first bytes of files of other types, and what the user should do.
 struct Foreign {
   std::string_view magic;
   std::string_view message;
@@ -46,7 +46,7 @@ constexpr std::array<Foreign, 9> foreign_formats = {
      {"<"sv, "the file is a page of the web, or XML", "the data as CSV"},
      {"{"sv, "the file is JSON", "the data as CSV"}}};
 
-/// What is no data file at all, such as an endless device, is not read to its end.
+/// A file that cannot be a data file, such as an endless device, is not read to its end.
 void refuse_at_sight(std::string_view beginning, const std::string& name) {
   for (const Foreign& format : foreign_formats)
     if (beginning.starts_with(format.magic))
@@ -56,7 +56,7 @@ void refuse_at_sight(std::string_view beginning, const std::string& name) {
     refuse_binary(beginning, name);
 }
 
-/// The bytes of a file, or of a pipe until its end.
+/// All bytes of a file or a pipe.
 std::string load(const std::string& path, const std::string& name) {
   std::error_code error;
   if (fs::is_directory(path, error)) refuse_file(name, "cannot be read: it is a directory, not a file");
@@ -78,10 +78,10 @@ std::string load(const std::string& path, const std::string& name) {
   return bytes;
 }
 
-/// The columns of a data file, whatever its format.
+/// The columns of a data file of any format.
 struct TableFile {
   DataTable table;
-  std::shared_ptr<const std::string> text;  ///< lines of it are shown in messages; null for a binary file
+  std::shared_ptr<const std::string> text;  ///< quoted in messages; null for a binary file
   std::string sha256;                       ///< of the bytes
 };
 
@@ -109,7 +109,7 @@ TableFile read_table(const std::string& path, const ReadOptions& options, Proble
   return {read_mat(path, options, problems, warnings), nullptr, core::sha256(bytes)};
 }
 
-/// What is said of columns that the file does not have would be ignored.
+/// Refuses units and scales of columns that the file does not have: they would be ignored.
 void refuse_unused(const TableFile& file, const ReadOptions& options, Problems& problems) {
   for (const auto& [option, map] : {std::pair{"unit", &options.units}, {"scale", &options.scales}})
     for (const auto& [column, text] : *map) {
@@ -117,15 +117,16 @@ void refuse_unused(const TableFile& file, const ReadOptions& options, Problems& 
       if (known == nullptr || file.table.columns.empty() || file.table.find(known->name) != nullptr) continue;
       std::vector<std::string> there;
       for (const DataColumn& found : file.table.columns) there.emplace_back(found.known->name);
-      problems.add({{options.name, 0, 0, {}},
-                    std::string("a ") + option + " is stated for column " + column + ", and the file has none",
-                    "the columns that were read: " + core::joined(there, ", "),
-                    column + "=" + text,
-                    {}});
+      problems.add(
+          {{options.name, 0, 0, {}},
+           std::string("a ") + option + " is stated for column " + column + ", and the file has no such column",
+           "the columns that were read: " + core::joined(there, ", "),
+           column + "=" + text,
+           {}});
     }
 }
 
-/// Numbers whose squares, and whose products with the constants of a rig, are numbers.
+/// Range of the numbers: their squares, and their products with the constants of a rig, must be finite.
 void check_magnitudes(const DataTable& table, Problems& problems) {
   constexpr double least = 1e-60;
   constexpr double most = 1e60;
@@ -141,7 +142,7 @@ void check_magnitudes(const DataTable& table, Problems& problems) {
     core::Diagnostic problem = table.show(at, *column.known);
     problem.message = "the largest number of column " + std::string(column.known->name) + " is too " +
                       (largest > most ? "large" : "small") + " to compute with";
-    problem.allowed = "1e-60 to 1e60 in SI, or zeros alone";
+    problem.allowed = "1e-60 to 1e60 in SI, or only zeros";
     problems.add(std::move(problem));
   }
 }
@@ -168,18 +169,18 @@ void check_times(const DataTable& table, Problems& problems) {
   const std::size_t row = faults.front();
   core::Diagnostic problem = table.show(row, *known_column("t"));
   problem.message =
-      t[row] == t[row - 1] ? "the time does not increase: it stands there twice" : "the time does not increase";
+      t[row] == t[row - 1] ? "the time does not increase: it appears twice" : "the time does not increase";
   problem.allowed = "a time after the row above";
   problems.add(std::move(problem), faults.size() - 1, {});
 }
 
-/// The signal of a table that was read with `only` its columns.
+/// The signal from a table that was read with the option `only`.
 MeasuredSignal signal_of(TableFile file, std::string_view column, const std::string& name, Problems& problems) {
   problems.throw_if_any();
   for (const std::string_view wanted : {std::string_view("t"), column})
     if (file.table.find(wanted) == nullptr)
       refuse_file(name, "there is no column " + std::string(wanted),
-                  "a column of that name, or the name that the file has for it");
+                  "a column of that name, or a statement of its name in the file");
   if (file.table.sweeps.size() > 1 || !file.table.restarts.empty())
     refuse_file(name, "the file holds several tests", "one signal over its times");
   if (file.table.rows() < 2)

@@ -11,7 +11,7 @@ constexpr std::size_t fewest_at_end = 3;
 constexpr double least_height = 0.01;
 constexpr double resolutions = 3.0;
 
-/// The smallest step between two samples: the resolution, or less.
+/// The smallest step between two samples, as an estimate of the resolution.
 double resolution_of(std::span<const double> signal, double range) {
   double smallest = range;
   for (std::size_t i = 1; i < signal.size(); ++i)
@@ -27,8 +27,8 @@ Clipping clipping_at(std::span<const double> signal, double value, double range)
     while (end < signal.size() && signal[end] == value) ++end;
     const std::size_t length = end - i;
     if (length >= fewest_at_end && end < signal.size()) {
-      // A parabola that enters with this slope and leaves after this length has its top so much higher. The slope
-      // is taken over half the length: a rounded top falls by three steps of the resolution there, and no more.
+      // A parabola that enters with this slope and leaves after this length is higher by slope length/4. The slope
+      // is taken over half the length, in which a rounded top falls by at most three steps of the resolution.
       const std::size_t reach = std::max<std::size_t>(length / 2, 1);
       const double before = std::abs(value - signal[i > reach ? i - reach : 0]);
       const double after = std::abs(value - signal[std::min(end + reach - 1, signal.size() - 1)]);

@@ -1,12 +1,12 @@
 #pragma once
-/// What can be wrong with the samples of a sensor, whatever it measures.
+/// Faults that the samples of any sensor can have.
 
 #include <cstddef>
 #include <span>
 
 namespace dualdamp::identify {
 
-/// Samples at the end of the range of a sensor, which cuts off the swings beyond it.
+/// Samples at an end of the range of a sensor, which cuts off the swings.
 struct Clipping {
   std::size_t samples = 0;
   std::size_t places = 0;
@@ -14,10 +14,10 @@ struct Clipping {
   double value = 0.0;
 };
 
-/// No samples when nothing is clipped. A swing is clipped when it stays at the largest or the smallest value of all
-/// and comes there too steeply for a rounded top: the height that its slope would still reach is above the
-/// resolution and above 1 % of the range. Two such places at least; a mass that is held before its release is no
-/// such place.
+/// `samples` is 0 if the signal is not clipped. A swing is clipped if it stays at the largest or the smallest value
+/// of the signal and its slope is too steep for a rounded top: the height that the slope would still reach is above
+/// three times the resolution and above 1 % of the range. There must be two such places. A mass that is held before
+/// its release does not count as one.
 [[nodiscard]] Clipping clipping_of(std::span<const double> signal);
 
 [[nodiscard]] bool is_constant(std::span<const double> signal);

@@ -16,7 +16,7 @@ namespace dualdamp::identify {
 
 namespace {
 
-/// Length of the UTF-8 character at the start of `text`; 0 when there is none.
+/// Length of the UTF-8 character at the start of `text`; 0 if there is none.
 std::size_t utf8_length(std::string_view text) {
   const auto byte = [&text](std::size_t i) { return static_cast<unsigned char>(text[i]); };
   const unsigned char lead = byte(0);
@@ -37,7 +37,7 @@ bool is_control(char c) {
   return (static_cast<unsigned char>(c) < 0x20 && c != '\t' && c != '\n' && c != '\r') || c == 0x7F;
 }
 
-/// Bytes of `text` before the first one that is a control character or no UTF-8.
+/// Number of bytes of `text` before the first control character or invalid UTF-8.
 std::size_t length_of_text(std::string_view text) {
   std::size_t i = 0;
   while (i < text.size()) {
@@ -52,7 +52,7 @@ constexpr std::string_view utf8_mark = "\xEF\xBB\xBF";
 constexpr std::string_view little_mark = "\xFF\xFE";
 constexpr std::string_view big_mark = "\xFE\xFF";
 
-/// Share of the even or odd bytes of a text's beginning that are zero.
+/// Share of zeros among the even or odd bytes at the beginning of a text.
 double zeros(std::string_view bytes, std::size_t first) {
   const std::size_t length = std::min<std::size_t>(bytes.size(), 1000);
   std::size_t count = 0;
@@ -60,7 +60,7 @@ double zeros(std::string_view bytes, std::size_t first) {
   return length < 4 ? 0.0 : 2.0 * static_cast<double>(count) / static_cast<double>(length);
 }
 
-/// Name of the byte order of a text in UTF-16, as iconv knows it; nothing for other texts.
+/// Name of the encoding for iconv if the text is UTF-16; nothing for other texts.
 const char* utf16_order(std::string_view bytes) {
   constexpr double many = 0.6;
   constexpr double few = 0.05;
@@ -71,13 +71,13 @@ const char* utf16_order(std::string_view bytes) {
   return nullptr;
 }
 
-/// Nothing when the bytes are not of this encoding.
+/// The bytes as UTF-8. Nothing if the bytes are not valid in this encoding.
 std::optional<std::string> converted(std::string_view bytes, const char* encoding) {
   struct Close {
     void operator()(void* descriptor) const { iconv_close(descriptor); }
   };
   const iconv_t raw = iconv_open("UTF-8", encoding);
-  if (raw == reinterpret_cast<iconv_t>(-1)) return std::nullopt;  // NOLINT: iconv's own sign of failure
+  if (raw == reinterpret_cast<iconv_t>(-1)) return std::nullopt;  // NOLINT: iconv's value for a failure
   const std::unique_ptr<void, Close> descriptor(raw);
   std::string text;
   std::array<char, 1U << 16U> buffer{};
@@ -94,13 +94,13 @@ std::optional<std::string> converted(std::string_view bytes, const char* encodin
   return text;
 }
 
-/// Without the mark with which DOS ended a text.
+/// Removes the byte 1A, with which DOS ended a text.
 std::string without_end_mark(std::string text) {
   if (text.ends_with('\x1A')) text.pop_back();
   return text;
 }
 
-/// Hard and narrow blanks as blanks, and the minus of typography as that of computers: they look alike.
+/// Replaces no-break and narrow blanks by blanks, and the typographic minus by the ASCII one.
 std::string plain_signs(std::string text) {
   constexpr std::array<std::pair<std::string_view, char>, 5> signs = {{{"\xC2\xA0", ' '},
                                                                        {"\xE2\x80\xAF", ' '},
@@ -122,7 +122,7 @@ std::string plain_signs(std::string text) {
   return done == 0 ? std::move(text) : plain.append(text, done);
 }
 
-/// Two of them where a program has put one before a text that had one: the second is no letter of the first name.
+/// Removes byte order marks. There may be two, if a program has put one before a text that had one.
 std::string without_mark(std::string text) {
   std::size_t end = 0;
   while (std::string_view(text).substr(end).starts_with(utf8_mark)) end += utf8_mark.size();
@@ -140,7 +140,7 @@ std::string decoded(std::string_view bytes, const std::string& file, std::vector
     std::optional<std::string> utf8 = converted(bytes, order);
     if (!utf8)
       throw core::InputError(
-          core::Diagnostic{{file, 0, 0, {}}, "the text is no sound UTF-16", "a text file in UTF-8", {}, {}});
+          core::Diagnostic{{file, 0, 0, {}}, "the text is not valid UTF-16", "a text file in UTF-8", {}, {}});
     text = without_mark(std::move(*utf8));
   } else {
     text = without_end_mark(without_mark(std::string(bytes)));
@@ -164,7 +164,7 @@ void refuse_binary(std::string_view text, const std::string& file) {
   const std::size_t end = length_of_text(text);
   if (end == text.size()) return;
   const std::string_view before = text.substr(0, end);
-  const std::size_t line_start = before.rfind('\n') + 1;  // 0 without one
+  const std::size_t line_start = before.rfind('\n') + 1;  // 0 if there is none
   core::Diagnostic problem;
   problem.place = {file,
                    static_cast<int>(std::count(before.begin(), before.end(), '\n')) + 1,
@@ -201,7 +201,7 @@ std::string excerpt(std::string_view text) {
   constexpr std::size_t longest = 200;
   if (text.size() <= longest) return std::string(text);
   std::size_t end = longest;
-  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) --end;  // inside a character
+  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) --end;  // not inside a character
   return std::string(text.substr(0, end));
 }
 

@@ -14,16 +14,16 @@ namespace dualdamp::identify {
 namespace {
 
 constexpr std::size_t fewest_samples = 16;
-/// A part shorter than this share of the rows says little about the measurement.
+/// Least share of the rows that a part without a gap must have.
 constexpr double least_share = 0.1;
-/// Steps above so many usual ones are gaps.
+/// Steps longer than this many usual ones are gaps.
 constexpr double gap = 1.5;
 constexpr std::size_t most_lone_gaps = 2;
-/// Where the clock jitters a step must be longer to be a gap.
+/// The same for a clock with jitter.
 constexpr double jittered_gap = 4.0;
-/// Jitter of a clock that makes no difference, as a share of a step.
+/// Jitter that is ignored, as a share of a step.
 constexpr double clock_jitter = 0.01;
-/// Stamps of bursts, or late by jitter, lie so near the line, in bursts or steps.
+/// Largest distance of stamps in bursts (in bursts), or of late stamps (in steps), from the line.
 constexpr double most_delay = 1.5;
 
 constexpr int digits_shown = 4;
@@ -50,15 +50,15 @@ class StampReader {
     if (all_.size() < fewest_samples)
       return fault(0, "a history of " + std::to_string(all_.size()) + " rows is too short",
                    "at least " + std::to_string(fewest_samples) + " rows; or extremes, each row turning back");
-    if (std::ranges::any_of(t_, [](double t) { return std::isnan(t); })) return {};  // a problem already reported
+    if (std::ranges::any_of(t_, [](double t) { return std::isnan(t); })) return {};  // already reported
     const auto back = first_step_back();
     if (back < t_.size())
       return fault(back, "the time does not increase",
-                   "a time after the row above; tests of their own bear labels in a column sweep");
+                   "a time after the row above; several tests need labels in a column sweep");
     const bool even = is_even(all_);
     if (even && !has_long_step()) return rows(all_, {});
-    // A few long steps are samples that are missing; many that a line explains come of times rounded to about a
-    // step.
+    // A few long steps are missing samples. Many long steps come from times that are rounded to about a step, if a
+    // line explains them.
     const double step = median_step(all_);
     if (even && long_steps(step) > most_lone_gaps) return rows(all_, {});
     if (first_double() < t_.size()) return bursts();
@@ -101,15 +101,15 @@ class StampReader {
     return row;
   }
 
-  /// How far a printed time may be off.
+  /// Largest rounding error of a printed time [s].
   [[nodiscard]] double rounding_of(double t) const {
     if (t == 0.0) return stamps_.quantum;
     const double last_digit = std::pow(10.0, std::floor(std::log10(std::abs(t))) + 1.0 - stamps_.digits);
     return std::max(stamps_.quantum, last_digit);
   }
 
-  /// A line through two times that are off by half a unit of the last digit each is off by as much between them,
-  /// and so is the time compared with it: together one unit.
+  /// The line through two times is off by up to half a unit of the last digit, like each of them. The time that is
+  /// compared with the line has the same error: together one unit.
   [[nodiscard]] double largest_rounding(Part part) const {
     return std::max(rounding_of(t_[part.first]), rounding_of(t_[part.last - 1]));
   }
@@ -118,7 +118,7 @@ class StampReader {
     return (t_[part.last - 1] - t_[part.first]) / static_cast<double>(part.size() - 1);
   }
 
-  /// By all stamps; where they are even to the last bits, by the first and the last, which are as good.
+  /// The step from all stamps; from the first and the last one, if the stamps are even to the last bits.
   [[nodiscard]] double even_step(Part part) const {
     const double step = mean_step(part);
     constexpr double last_bits = 1e-9;
@@ -138,8 +138,8 @@ class StampReader {
     return products / squares;
   }
 
-  /// Slope of the narrowest strip that holds all stamps. Stamps of a coarse clock are the stairs of a line; least
-  /// squares would tilt it by the square of the share of a stair in the record.
+  /// Slope of the narrowest strip that holds all stamps. The stamps of a coarse clock are stairs along a line.
+  /// Least squares would change the slope by the square of the share of a stair in the record.
   [[nodiscard]] double step_of_strip(Part part) const {
     const auto width = [&](double step) {
       double low = 0.0;
@@ -151,14 +151,14 @@ class StampReader {
       }
       return high - low;
     };
-    // The width is convex in the slope. Within so much of the mean step lies any slope that the ends allow.
+    // The width is a convex function of the slope. The range covers every slope that the two ends allow.
     const double step = mean_step(part);
     const double reach = 4.0 * distance(part, worst_row(part)) / static_cast<double>(part.size() - 1);
     constexpr int bits = 40;
     return boost::math::tools::brent_find_minima(width, step - reach, step + reach, bits).first;
   }
 
-  /// Distance of a time from the line through the first and the last one.
+  /// Distance of a time from the line through the first and the last time.
   [[nodiscard]] double distance(Part part, std::size_t row) const {
     const double line = t_[part.first] + static_cast<double>(row - part.first) * mean_step(part);
     return std::abs(t_[row] - line);
@@ -226,7 +226,7 @@ class StampReader {
     return is_too_short(longest) ? torn(longest) : rows(longest, gap_warning(longest));
   }
 
-  /// Stamps that stand there several times.
+  /// Number of stamps that appear several times.
   [[nodiscard]] TimeBase bursts() const {
     std::vector<double> sorted = steps(all_);
     std::ranges::sort(sorted);
@@ -237,8 +237,8 @@ class StampReader {
     const auto doubles = std::ranges::upper_bound(sorted, 0.0) - sorted.begin();
     constexpr double fewest = 0.1;
     if (static_cast<double>(doubles) < fewest * static_cast<double>(sorted.size()))
-      return fault(twice, "the time does not increase: it stands there twice",
-                   "a time after the row above; tests of their own bear labels in a column sweep");
+      return fault(twice, "the time does not increase: it appears twice",
+                   "a time after the row above; several tests need labels in a column sweep");
     const std::size_t worst = worst_row(all_);
     if (distance(all_, worst) > most_delay * std::max(burst, sorted.back() / 2.0) || mean_step(all_) <= 0.0)
       return fault(
@@ -277,7 +277,7 @@ class StampReader {
                           seconds(even_step(part)) + " apart");
   }
 
-  /// Each sample against the cubic through its four neighbours, at the stamps and at even times.
+  /// Compares each sample with the cubic through its four neighbours, at the stamps and at even times.
   [[nodiscard]] bool is_smoother_at_stamps(Part part) const {
     double at_stamps = 0.0;
     double at_even = 0.0;

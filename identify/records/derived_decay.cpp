@@ -17,13 +17,13 @@ namespace dualdamp::identify {
 
 namespace {
 
-/// A turning point of the samples, before it is fitted.
+/// A turning point of the samples, before the fit.
 struct Turn {
   std::size_t index = 0;
   bool at_rest = false;  ///< the mass is held or stays there
 };
 
-/// Alternating extremes farther apart than `band`. The last one is the current candidate, not yet turned back from.
+/// Alternating extremes that are farther apart than `band`. The signal has not yet turned back from the last one.
 std::vector<std::size_t> zigzag(std::span<const double> x, double band) {
   std::vector<std::size_t> turns;
   std::size_t low = 0;
@@ -53,8 +53,8 @@ struct LocalFit {
   double slope = 0.0;
 };
 
-/// Least squares on samples [first, last) in u = (i - centre)/width; `fill(u, row)` writes the columns, the first
-/// of which is 1.
+/// Least squares on samples [first, last) over u = (i - centre)/width. `fill(u, row)` writes the columns; the first
+/// column must be 1.
 template <typename Fill>
 LocalFit local_fit(std::span<const double> x, std::size_t first, std::size_t last, double centre, double width,
                    Eigen::Index columns, Fill fill) {
@@ -73,7 +73,7 @@ LocalFit local_fit(std::span<const double> x, std::size_t first, std::size_t las
   fit.slope = solution(1);
   fit.sum_of_squares = (values - design * solution).squaredNorm();
   const Eigen::MatrixXd R = qr.matrixQR().topRows(columns).triangularView<Eigen::Upper>();
-  // The first row of the inverse of R is the first coefficient's.
+  // The first row of the inverse of R gives the variance of the first coefficient.
   const Eigen::VectorXd row = R.transpose().triangularView<Eigen::Lower>().solve(Eigen::VectorXd::Unit(columns, 0));
   const double variance = fit.sum_of_squares / static_cast<double>(std::max<Eigen::Index>(n - columns - 1, 1));
   fit.std = std::sqrt(variance) * row.norm();
@@ -92,14 +92,15 @@ class DecayReader {
     const auto [low, high] = std::minmax_element(x_.begin(), x_.end());
     constexpr double noises = 8.0;
     constexpr double rounding = 1e-9;
-    // At rest a converter hardly moves, and the noise over all samples is less than its step.
+    // While the mass sticks, the reading of a converter hardly changes, and the noise over all samples is below its
+    // step.
     constexpr double steps = 2.5;
     constexpr std::size_t fewest_levels = 6;
     band_ = std::max({noises * noise_level(x_, 2), steps * converter_step(history_.x, fewest_levels),
                       rounding * (*high - *low)});
     const std::vector<std::size_t> turns = zigzag(x_, band_);
     if (turns.size() < 3) return result;
-    // Of the swings between turning points, whose ends are known best, the median.
+    // The median of the swings between two turning points, whose ends are known best.
     std::vector<double> swings;
     for (std::size_t i = 2; i + 1 < turns.size(); ++i)
       swings.push_back(static_cast<double>(turns[i] - turns[i - 1]));
@@ -135,17 +136,17 @@ class DecayReader {
     put(result, static_cast<double>(index), mean, std::sqrt(square / n / std::max(n - 1.0, 1.0)));
   }
 
-  /// Samples at the beginning that stay where the first one is: the mass is held.
+  /// Number of samples at the beginning that are equal to the first one within the noise: the mass is held.
   [[nodiscard]] std::size_t held_until() const {
     std::size_t i = 0;
     while (i < x_.size() && std::abs(x_[i] - x_[0]) < band_) ++i;
     return i;
   }
 
-  /// A turning point of the noise on the mass while it is held.
+  /// Whether a turning point is noise while the mass is held.
   [[nodiscard]] bool is_held(std::size_t turn) const { return turn < held_until(); }
 
-  /// The position of release: that in which the mass is held, or the first sample where it starts from rest.
+  /// Adds the position of release: where the mass is held, or the first sample if the velocity is zero there.
   void add_first(DerivedDecay& result, std::size_t first_turn) const {
     const std::size_t held = held_until();
     if (static_cast<double>(held) > 2.0 * width_) {
@@ -153,20 +154,20 @@ class DecayReader {
       result.first = held;
       return;
     }
-    if (static_cast<double>(first_turn) < 2.0 * width_ && first_turn > held) return;  // a turning point of its own
+    if (static_cast<double>(first_turn) < 2.0 * width_ && first_turn > held) return;  // added as a turning point
     const auto last = static_cast<std::size_t>(width_) + 1;
     if (last < 2 * std::size_t{start_columns} || x_.size() < 2 * last) return;
     const LocalFit fit = local_fit(x_, 0, last, 0.0, width_, start_columns, [](double u, auto row) {
       for (Eigen::Index k = 0; k < row.size(); ++k) row(k) = std::pow(u, static_cast<double>(k));
     });
-    // A slope of 1 % of the largest costs the amplitude 5e-5 of itself.
+    // A slope of 1 % of the largest one changes the amplitude by 5e-5.
     constexpr double least_slope = 0.01;
     const double swing = std::abs(x_[static_cast<std::size_t>(half_period_)] - x_[0]);
     if (std::abs(fit.slope) < least_slope * 0.5 * swing * std::numbers::pi / 4.0)
       put(result, 0.0, fit.value, fit.std);
   }
 
-  /// The fit's value where its slope is zero, with cubes and fourth powers of its own on each side.
+  /// Adds the value of the fit where its slope is zero. The powers 2, 3 and 4 have a coefficient on each side.
   void add(DerivedDecay& result, std::size_t turn) const {
     const auto reach = static_cast<std::size_t>(width_);
     const std::size_t first = turn > reach ? turn - reach : 0;
@@ -189,25 +190,25 @@ class DecayReader {
     put(result, centre, fit.value, fit.std);
   }
 
-  /// Where the mass stays to the end of the record.
+  /// Adds the position in which the mass sticks to the end of the record.
   void add_last(DerivedDecay& result, std::size_t turn) const {
     std::size_t first = x_.size();
     while (first > 0 && std::abs(x_[first - 1] - x_.back()) < band_) --first;
     const bool rests = static_cast<double>(x_.size() - first) > half_period_;
     if (!rests || first == 0 || turn + 1 < first) return;
     put_mean(result, first, x_.size(), first);
-    // What a sensor is off by at one place, a hundred samples at rest repeat a hundred times.
+    // A hundred samples at one position would repeat the error of the sensor there a hundred times.
     result.last = std::min(x_.size(), first + 2 * static_cast<std::size_t>(half_period_));
-    // The noise hides when the mass stopped: half a period after its last turning point.
+    // The noise hides the moment of the stop, which is half a period after the last turning point.
     std::vector<double>& times = result.record.times;
     if (times.size() < 3) return;
     const std::size_t turned = times.size() - 2;
-    const std::size_t from = turned > 1 ? 1 : 0;  // it hides the moment of release as well
+    const std::size_t from = turned > 1 ? 1 : 0;  // the noise hides the moment of release as well
     times.back() = times[turned] + (times[turned] - times[from]) / static_cast<double>(turned - from);
   }
 
-  /// Extremes of a free decay alternate, and their swings shrink. Before the release, or while a blow pushes the
-  /// mass, they may grow; in the noise at the end they may too. False where neither explains the growth.
+  /// The swings of a free decay shrink. They may grow before the release, while a blow pushes the mass, and in the
+  /// noise at the end; these parts are cut off. False if the growth has another cause.
   bool keep_decay(DerivedDecay& result) const {
     const std::vector<double>& extremes = result.record.extremes;
     if (extremes.size() < 3) return false;
@@ -218,13 +219,14 @@ class DecayReader {
     std::size_t end = largest + 1;
     while (end < extremes.size() && swing(end) < swing(end - 1)) ++end;
     const bool grows = end < extremes.size();
-    // What makes the swings grow may have pushed the mass before it came to the last of the others.
+    // The cause of the growth may have acted already in the swings before; these last too long.
     constexpr double too_long = 1.4;
     while (grows && end > largest + 1 && lasting(result, end - 1) > too_long * half_period_) --end;
-    // What is left of the swings where they grow again; more of it is another release, or a drive.
+    // Largest share of the swings that may be left where they grow again. Above it, there is another release or a
+    // drive.
     constexpr double most_left = 0.25;
     if (grows && swing(end) > most_left * swing(largest)) return false;
-    // A blow that makes the swings grow may last to where the largest begins, and is over where that ends.
+    // A blow may last to the begin of the largest swing. It is over at the end of this swing.
     constexpr std::size_t longest_start = 3;
     const std::size_t begin = largest > 1 ? largest : 0;
     if (end < begin + 3 || begin > longest_start + 1) return false;
@@ -248,7 +250,7 @@ class DecayReader {
     return static_cast<std::size_t>((result.record.times[extreme] - history_.start) * history_.sample_rate);
   }
 
-  /// Samples from the extreme before to this one.
+  /// Number of samples from the previous extreme to this one.
   [[nodiscard]] double lasting(const DerivedDecay& result, std::size_t extreme) const {
     return (result.record.times[extreme] - result.record.times[extreme - 1]) * history_.sample_rate;
   }
@@ -266,8 +268,8 @@ class DecayReader {
   const History& history_;
   std::span<const double> x_;
   double band_ = 0.0;         ///< differences below it are noise [m]
-  double half_period_ = 0.0;  ///< samples
-  double width_ = 0.0;        ///< half of the samples of a local fit
+  double half_period_ = 0.0;  ///< in samples
+  double width_ = 0.0;        ///< half the number of samples of a local fit
 };
 
 }  // namespace

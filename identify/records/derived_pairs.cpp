@@ -16,20 +16,20 @@ namespace {
 
 constexpr int most_harmonics = 9;
 constexpr int most_blocks = 24;
-/// Residuals above this share of the signal: it is no steady state at this frequency.
+/// With residuals above this share of the amplitude, a signal is no steady state at this frequency.
 constexpr double most_residual = 0.2;
-/// A harmonic of the base above this share of its fundamental is worth a word.
+/// A harmonic of the base above this share of the fundamental gets a warning.
 constexpr double notable_distortion = 0.02;
-/// A drift of the amplitude over the periods used that is worth a word.
+/// A relative drift of the amplitude above this gets a warning.
 constexpr double notable_drift = 0.005;
-/// Beyond this one the amplitude is no steady one.
+/// With a drift above this, the motion is no steady state.
 constexpr double most_drift = 0.02;
-/// Below this a settling amplitude makes no difference to any method.
+/// A relative change of the amplitude below this has no effect on any method.
 constexpr double settled = 1e-6;
 
 std::string percent_text(double share) { return core::format_number(100.0 * share, 2) + " %"; }
 
-/// Harmonics below half of the sample rate, with some room.
+/// Number of harmonics below 0.9 of half the sample rate, at most `most`.
 int harmonics_within(double omega, double sample_rate, int most) {
   constexpr double room = 0.9;
   return std::clamp(static_cast<int>(room * std::numbers::pi * sample_rate / omega), 1, most);
@@ -40,17 +40,17 @@ std::string_view sweep_of(std::string_view label) {
   return cut == std::string_view::npos ? std::string_view{} : label.substr(0, cut);
 }
 
-/// The steady part of a history: samples from `first` on, whole periods.
+/// The steady part of a history: `size` samples from `first` on, whole periods.
 struct SteadyPart {
   std::size_t first = 0;
   std::size_t size = 0;
   double drift = 0.0;        ///< of the amplitude from the first to the last block, relative
-  double drift_error = 0.0;  ///< what noise makes of it
+  double drift_error = 0.0;  ///< standard deviation of the drift by noise
 
   [[nodiscard]] bool drifts() const { return std::abs(drift) > std::max(notable_drift, 4.0 * drift_error); }
 };
 
-/// The fundamental of one piece as a complex number at the first sample of the record.
+/// The fundamental of one piece as a complex number, with its phase at the first sample of the record.
 struct Phasor {
   double cos = 0.0;
   double sin = 0.0;
@@ -60,14 +60,16 @@ struct Phasor {
   [[nodiscard]] double size() const { return std::hypot(cos, sin); }
 };
 
-/// How far noise alone puts a piece from the mean of the late ones, but for one history in 5000.
+/// Largest distance of a piece from the mean of the late pieces that noise alone causes, except in one of 5000
+/// histories.
 ///
-/// Such a distance is that of two components, each of variance s^2 (1 + 1/L) for L late pieces: its square over
-/// 2 s^2 (1 + 1/L) is F(2, n) distributed, n = 2 (L - 1), when s is the scatter of the late pieces, and exceeds
-/// (n/2)(p^(-2/n) - 1) with probability p. Few late pieces know their scatter badly. Where it is what the residuals
-/// of the fits make of white noise these know it better: n = infinity, -ln p. Slower noise has the scatter alone.
+/// The distance has two components, each of variance s^2 (1 + 1/L) for L late pieces. If s is the scatter of the
+/// late pieces, the square of the distance over 2 s^2 (1 + 1/L) has the distribution F(2, n), n = 2 (L - 1); it
+/// exceeds (n/2)(p^(-2/n) - 1) with probability p. A few late pieces give a poor estimate of s. If their scatter
+/// agrees with that of white noise, the residuals of the fits give a better one: n = infinity, limit -ln p. For
+/// slower noise, only the scatter can be used.
 double reach_of_noise(std::span<const Phasor> late, const Phasor& mean) {
-  constexpr double p = 1e-4;  // of each of the two ways
+  constexpr double p = 1e-4;  // for each of the two estimates
   constexpr double alike = 4.0;
   const auto count = static_cast<double>(late.size());
   double scatter = 0.0;
@@ -94,8 +96,8 @@ Phasor mean_of(std::span<const Phasor> phasors) {
   return mean;
 }
 
-/// Pieces of whole periods; those at the beginning that are farther from the second half's mean than noise puts
-/// them are the transient.
+/// Splits a history into pieces of whole periods. The transient are the pieces at the beginning whose distance from
+/// the mean of the second half is larger than noise explains.
 std::optional<SteadyPart> steady_part(const History& history, double omega) {
   const std::span<const double> x = history.x;
   const double period = two_pi / omega * history.sample_rate;
@@ -109,7 +111,7 @@ std::optional<SteadyPart> steady_part(const History& history, double omega) {
     return std::min(static_cast<std::size_t>(std::ceil(count * periods_a_block * period * (1.0 - rounding))),
                     x.size());
   };
-  // No piece may be shorter than its periods: the last one begins a sample early rather.
+  // No piece may be shorter than its periods, so the last piece may begin one sample early.
   const std::size_t size = samples_of(1);
   const auto begin = [&](int block) {
     return std::min(static_cast<std::size_t>(std::llround(block * periods_a_block * period)), x.size() - size);
@@ -140,8 +142,8 @@ std::optional<SteadyPart> steady_part(const History& history, double omega) {
     return part;
   };
   SteadyPart part = part_from(skipped);
-  // Where the late half still settles it is no measure of itself: what is left is halved until it does not. What
-  // drifts evenly does not settle.
+  // If the second half still settles, its mean is no reference. The first half of the rest is then skipped, until
+  // the rest does not settle. An even drift is no settling.
   constexpr std::size_t fewest = 4;
   constexpr double slower = 2.0;
   while (part.drifts() && phasors.size() - skipped >= fewest) {
@@ -197,7 +199,7 @@ class PairReader {
   }
 
   [[nodiscard]] SineFit fit(std::span<const double> signal, double omega, int most, bool refine = false) const {
-    // A single period may have as many samples as its harmonics have unknowns.
+    // A short period may have fewer samples than the unknowns of all harmonics.
     const auto enough = static_cast<int>(std::max<std::size_t>(signal.size(), 5) - 3) / 2;
     const int harmonics = std::min(harmonics_within(omega, history_.sample_rate, most), enough);
     return fit_sine(signal, history_.sample_rate, omega, {.harmonics = harmonics, .refine = refine});

@@ -17,7 +17,7 @@ void keep(std::vector<double>& signal, std::size_t first, std::size_t last) {
   signal.erase(signal.begin(), signal.begin() + static_cast<std::ptrdiff_t>(first));
 }
 
-/// Leaves the samples of the free motion. Returns what was left out.
+/// Removes the samples outside the free motion. Returns a warning; empty if there are none.
 std::string keep_free_motion(const DerivedDecay& decay, History& history) {
   if (decay.first == 0 && decay.last == history.x.size()) return {};
   for (std::vector<double>* signal : {&history.x, &history.v, &history.a}) keep(*signal, decay.first, decay.last);
@@ -84,7 +84,7 @@ DecayRecord mean_decay(const std::vector<DecayRecord>& decays) {
     const bool falls = count < 2 || decay->extremes[1] < decay->extremes[0];
     for (std::size_t i = 0; i < count; ++i) {
       mean.extremes[i] += (falls || used.size() == 1 ? 1.0 : -1.0) * decay->extremes[i] / n;
-      // Each began at a time of its own; the first names it.
+      // Times count from the first extreme of each decay; the start of the first decay is added below.
       if (timed) mean.times[i] += (decay->times[i] - decay->times[0]) / n;
     }
   }

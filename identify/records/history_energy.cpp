@@ -7,10 +7,10 @@ namespace dualdamp::identify {
 
 namespace {
 
-/// int |dx| between two samples.
+/// The path int |dx| between two samples.
 double path_between(double x0, double v0, double x1, double v1, double dt) {
   if (v0 * v1 >= 0.0) return std::abs(x1 - x0);
-  // A parabola from either side to the turn: the acceleration may jump there.
+  // One parabola from each sample to the turning point, because the acceleration may jump there.
   const double until = dt * v0 / (v0 - v1);
   return 0.5 * std::abs(v0) * until + 0.5 * std::abs(v1) * (dt - until);
 }

@@ -1,10 +1,11 @@
 #pragma once
-/// The energy account of a history, window by window: what a balance of energy regresses.
+/// The energy account of a history, window by window, for a regression on the energy balance.
 ///
 ///   input work = change of stored energy + c int v^2 dt + F0 int |dx|
 ///
-/// whatever the waveform, with rests or without. Integrals by Hermite's rule on v and a; a turn between two samples
-/// adds the way to its top and back. Errors: O(dt^2) at turns, O(dt^4) elsewhere.
+/// It holds for any waveform, with or without sticks. Integrals use Hermite's rule on v and a. If v changes its
+/// sign between two samples, the path includes the way to the turning point and back. Errors: O(dt^2) at turning
+/// points, O(dt^4) elsewhere.
 
 #include <vector>
 
@@ -22,7 +23,7 @@ struct WindowEnergy {
   double square_speed = 0.0;  ///< int v^2 dt [m^2/s]
 };
 
-/// `windows` of equal length that cover the motion. Mass and stiffness must be known.
+/// The energies of `windows` windows of equal length that cover the motion. Mass and stiffness must be known.
 [[nodiscard]] std::vector<WindowEnergy> energy_of(const Motion& motion, const KnownConstants& constants,
                                                   int windows);
 

@@ -21,7 +21,7 @@ double sine_integral(double angle) {
   return sum;
 }
 
-/// Middle of the swings: what is left of a decay by smooth amplitudes where four neighbours are weighed 1 3 3 1.
+/// Middle of the swings, by the weights 1 3 3 1 over four neighbours, which cancel an alternating smooth decay.
 double middle_of(const std::vector<double>& extremes) {
   std::vector<double> middles;
   for (std::size_t i = 0; i + 3 < extremes.size(); ++i)
@@ -45,13 +45,13 @@ void linearise(DecayRecord& decay, double share) {
 double linear_extreme(double angle, double share) { return (1.0 - share) * angle + share * sine_integral(angle); }
 
 double period_ratio(double angle, double share) {
-  constexpr int nodes = 64;  // of the midpoint rule, which converges fast for a periodic integrand
+  constexpr int nodes = 64;  // of the midpoint rule, which converges fast for this periodic integrand
   constexpr double pi = std::numbers::pi;
   if (!(std::abs(angle) > 1e-8) || !(std::abs(angle) < pi)) return 1.0;
   double sum = 0.0;
   for (int i = 0; i < nodes; ++i) {
     const double x = angle * std::sin((i + 0.5) * 0.5 * pi / nodes);
-    // 2 (V(A) - V(x))/k, with cos x - cos A as a product.
+    // 2 (V(A) - V(x))/k. The product in place of cos x - cos A avoids cancellation.
     const double fallen = (1.0 - share) * (angle - x) * (angle + x) +
                           4.0 * share * std::sin(0.5 * (angle + x)) * std::sin(0.5 * (angle - x));
     const double linear = (angle - x) * (angle + x);

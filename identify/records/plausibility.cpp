@@ -17,7 +17,7 @@ namespace dualdamp::identify {
 namespace {
 
 constexpr int digits = 3;
-/// A disagreement that no sensor, friction or second mode explains.
+/// A factor that no sensor, friction or second mode explains.
 constexpr double gross = 5.0;
 
 std::string shown(double value) { return core::format_number(value, digits); }
@@ -26,7 +26,7 @@ bool is_gross(double ratio) {
   return std::isfinite(ratio) && ratio > 0.0 && (ratio > gross || ratio < 1.0 / gross);
 }
 
-/// "1000 times too large": rounded to the factor that a unit makes, where one is near.
+/// "about 1000 times too large": rounded to the factor of a wrong unit, if one is near.
 std::string times_off(double ratio) {
   constexpr std::array<double, 7> factors = {9.80665, 25.4, 57.29578, 60.0, 1000.0, 9806.65, 1e6};
   constexpr double near = 0.25;
@@ -37,12 +37,12 @@ std::string times_off(double ratio) {
          " times too " + (ratio > 1.0 ? "large" : "small");
 }
 
-/// x = (Y - b)/(2 zeta), where b > 0 is friction's, and the same with x and Y exchanged.
+/// The line x = (Y - b)/(2 zeta), where friction makes b > 0; and the same line with x and Y exchanged.
 struct ResonanceLine {
   double zeta, intercept, other_zeta, other_intercept;
 };
 
-/// Of three pairs or more near resonance, at one frequency, on a straight line.
+/// The line through the pairs, if there are at least three, near resonance, at one frequency, on a straight line.
 std::optional<ResonanceLine> resonance_line(const std::vector<Pair>& pairs, const KnownConstants& constants) {
   const double natural = std::sqrt(constants.stiffness / constants.mass);
   const double n = static_cast<double>(pairs.size());
@@ -72,7 +72,7 @@ std::optional<ResonanceLine> resonance_line(const std::vector<Pair>& pairs, cons
   return ResonanceLine{zeta, Y - 2.0 * zeta * x, other, x - 2.0 * other * Y};
 }
 
-/// A damping ratio that a unit wrong by 1000 makes, and hardly any rig.
+/// Whether a damping ratio is one that hardly any rig has, but that a unit wrong by 1000 makes.
 bool is_odd(double zeta) {
   constexpr double least = 2e-4;
   constexpr double most = 20.0;
@@ -114,27 +114,27 @@ class Check {
 
   static std::string in_hertz(double omega) { return shown(omega / (2.0 * std::numbers::pi)) + " Hz"; }
 
-  /// Only factors that units of time make, where a beat or noise may move the frequency of a motion, though not to
-  /// a thousandth; `always`: any gross one.
+  /// Refuses a frequency that is off by the factor of a unit of time. `always`: by any gross factor. Otherwise
+  /// other factors are allowed, because a beat or noise may change the measured frequency of a motion.
   bool refuse_times(double measured, double expected, const std::string& what, bool always = false) {
     constexpr std::array<std::pair<double, const char*>, 5> units = {
         {{1e-3, "ms"}, {1e-6, "us"}, {60.0, "min"}, {3600.0, "h"}, {86400.0, "day"}}};
     constexpr double near = 0.3;
-    // Milliseconds read as seconds make a motion of a thousandth of its frequency.
+    // If milliseconds are read as seconds, the motion has a thousandth of its frequency.
     const auto* const unit = std::ranges::find_if(
         units, [&](const auto& row) { return std::abs(std::log(measured / expected / row.first)) < near; });
     if (unit == units.end() && !(always && is_gross(measured / expected))) return false;
     refuse(
         "by its times the motion repeats at " + in_hertz(measured) + ", and " + what + " is " + in_hertz(expected),
         unit == units.end()
-            ? "times in seconds, not numbers of samples (--scale t=0.002 makes times of these); mass and stiffness "
+            ? "times in seconds, not numbers of samples (--scale t=0.002 converts these to times); mass and stiffness "
               "in their units"
             : std::string("times in seconds, or their unit; these may be in ") + unit->second +
                   ": --unit t=" + unit->second);
     return true;
   }
 
-  /// False after a fault.
+  /// Checks the times of a history. False after a fault.
   bool check_times(const History& history) {
     const double measured = guess_frequency(leading(history), history.sample_rate);
     if (!(measured > 0.0)) return true;
@@ -156,7 +156,7 @@ class Check {
     check_size("x", 0.5 * (high - low), omega);
   }
 
-  /// Speeds and accelerations of a motion whose unit nobody stated.
+  /// Checks speeds and accelerations of a motion without a stated unit. `omega` [rad/s].
   void check_size(const char* name, double amplitude, double omega) {
     constexpr double fastest = 50.0;
     constexpr double most_acceleration = 1e4;
@@ -173,7 +173,7 @@ class Check {
            "the unit in the file, '" + std::string(name) + " [" + usual + "]', or --unit " + name + "=" + usual);
   }
 
-  /// Amplitudes at one frequency.
+  /// The amplitude of a signal at one frequency.
   [[nodiscard]] static double amplitude(const std::vector<double>& signal, const History& history, double omega) {
     if (signal.empty()) return unknown;
     const SineFit fit = fit_sine(signal, history.sample_rate, omega);
@@ -186,7 +186,7 @@ class Check {
     const double x = amplitude(history.x, history, omega);
     check_size("x", x, omega);
     check_size("y", amplitude(history.y, history, omega), omega);
-    // As displacements, all should be one.
+    // Converted to displacements, all amplitudes should be equal.
     if (!faults_.empty()) return;
     const std::array<std::pair<const char*, double>, 3> motions = {
         {{"x", x},
@@ -206,7 +206,8 @@ class Check {
     if (faults_.empty()) check_work(history, omega);
   }
 
-  /// The force does at least the work by which the energy of the motion grows: friction gives none back.
+  /// Checks that the work of the force is at least the growth of the energy of the motion: friction returns no
+  /// energy.
   void check_work(const History& history, double omega) {
     if (history.force.empty() || history.x.empty()) return;
     double work = 0.0;
@@ -223,29 +224,30 @@ class Check {
     constexpr double clearly = 0.2;
     if (!(work + 2.0 * energy < -clearly * moved)) return;
     refuse("the force takes " + shown(-work) + unit("J") +
-               " out of the motion x, more than it holds: one of both has the wrong sign",
+               " out of the motion x, more than the motion has: one of them has the wrong sign",
            "force and x positive in one direction: --scale force=-1");
   }
 
   [[nodiscard]] std::string unit(const char* name) const { return " " + constants_.unit(name); }
 
-  /// |k - m w^2| x <= F: friction and damping act across it. Near resonance it says nothing.
+  /// Checks |k - m w^2| x <= F. Friction and damping act at right angles to this force. Near resonance, the check
+  /// has no effect.
   void check_force(double force, double x, double omega) {
     const double needed = std::abs(constants_.stiffness - constants_.mass * omega * omega) * x;
     constexpr double unit_error = 100.0;
     if (needed > unit_error * force && force > 0.0)
       refuse("column force, " + shown(force) + unit("N") + ", is " + times_off(force / needed) +
-                 " for the motion x, which takes " + shown(needed) + unit("N"),
+                 " for the motion x, which needs " + shown(needed) + unit("N"),
              "both in their units, and the mass and the stiffness stated: --unit force=kN, --unit x=mm");
   }
 
   struct Balance {
     int pairs = 0;
-    int too_much = 0;          ///< |k - m w^2| x far above k Y
+    int too_much = 0;          ///< pairs with |k - m w^2| x far above k Y
     int swapped_too_much = 0;  ///< the same with x and Y exchanged
     int negative_work = 0;
     int phases = 0;
-    std::vector<double> cosines, cosines_of_radians, cosines_of_degrees;  ///< by how much k Y cos(phase) is off
+    std::vector<double> cosines, cosines_of_radians, cosines_of_degrees;  ///< errors of k Y cos(phase)
     std::vector<double> excess;
   };
 
@@ -272,13 +274,13 @@ class Check {
     return balance;
   }
 
-  /// Too much force for the drive: near its resonance a mass takes little, so that a frequency or a constant that
-  /// is off looks like amplitudes that are.
+  /// Reports that the motion needs more force than the drive gives. Near resonance, a mass needs little force, so a
+  /// wrong frequency or constant has the same effect as wrong amplitudes.
   void refuse_balance(const std::vector<Pair>& pairs, const Balance& balance, const std::string& swapped) {
     const double omega = frequency_of(pairs.front(), constants_);
     const std::string where = " at " + in_hertz(omega) + ", where the natural frequency is " +
                               in_hertz(natural_frequency()) +
-                              ": spring and inertia of the motion x take more force than the base gives, k Y";
+                              ": spring and inertia of the motion x need more force than the base gives, k Y";
     constexpr double turn = 2.0 * std::numbers::pi;
     for (const auto& [factor, unit] : {std::pair{turn, "Hz, not rad/s"}, {1.0 / turn, "rad/s, not Hz"}}) {
       std::vector<Pair> turned = pairs;
@@ -289,7 +291,7 @@ class Check {
       return;
     }
     if (balance.swapped_too_much == 0)
-      refuse("columns x and Y seem to be swapped, or a constant to be off: in " + std::to_string(balance.too_much) +
+      refuse("columns x and Y seem to be swapped, or a constant is wrong: in " + std::to_string(balance.too_much) +
                  " of " + std::to_string(balance.pairs) + " pairs," + where,
              swapped + "; mass, stiffness, frequency and times in their units");
     else
@@ -306,10 +308,10 @@ class Check {
     if (2 * balance.too_much > balance.pairs && balance.pairs > 0) return refuse_balance(pairs, balance, swapped);
     if (2 * balance.negative_work > balance.phases && balance.phases > 0) {
       refuse(
-          "by the phases x goes ahead of the base in " + std::to_string(balance.negative_work) + " of " +
+          "by the phases, x leads the base in " + std::to_string(balance.negative_work) + " of " +
               std::to_string(balance.phases) +
-              " pairs, so that the base would take work out: x and Y (x and y) are swapped, or one of both has the "
-              "wrong sign",
+              " pairs, so the base would take energy out of the motion: x and Y (x and y) are swapped, or one of them "
+              "has the wrong sign",
           "phase is the lag of x behind y, from 0 to 180 deg; a sign is turned by --scale x=-1, or phase=-1");
       return;
     }
@@ -317,7 +319,7 @@ class Check {
     if (faults_.empty()) check_line(pairs, swapped);
   }
 
-  /// What was read of one pair agrees with itself.
+  /// Checks that the columns of a pair agree with each other.
   void check_readings(const std::vector<Pair>& pairs) {
     std::vector<double> fundamentals;
     std::vector<double> speeds;
@@ -364,15 +366,15 @@ class Check {
     const std::optional<ResonanceLine> line = resonance_line(pairs, constants_);
     if (!line) return;
     const auto& [zeta, intercept, other_zeta, other_intercept] = *line;
-    // As it stands: zeta above 1 and friction below zero. With the columns exchanged: sound.
+    // As they are, the columns give zeta above 1 and negative friction; exchanged, they give possible values.
     if (zeta > 1.0 && intercept < 0.0 && other_zeta < 1.0 && other_intercept > 0.0)
-      refuse("columns x and Y seem to be swapped: as they stand zeta is " + shown(zeta) +
-                 " and F0 below zero, exchanged zeta is " + shown(other_zeta),
+      refuse("columns x and Y seem to be swapped: as they are, zeta is " + shown(zeta) +
+                 " and F0 is negative; exchanged, zeta is " + shown(other_zeta),
              swapped);
     const char* const who = is_assumed("x") ? "x" : is_assumed("Y") ? "Y" : nullptr;
     if (faults_.empty() && who != nullptr && is_odd(zeta))
-      refuse("no unit is stated for " + std::string(who) + ", and as they stand x and Y make a damping ratio of " +
-                 shown(zeta) + ": one of both is off by about 1000",
+      refuse("no unit is stated for " + std::string(who) + ", and in SI x and Y give a damping ratio of " +
+                 shown(zeta) + ": one of them is wrong by a factor of about 1000",
              std::string("the units of both: --unit x=mm, --unit Y=mm"));
   }
 
@@ -402,8 +404,8 @@ std::vector<std::string> odd_readings(const Record& record, const KnownConstants
   if (!record.pairs) return {};
   const std::optional<ResonanceLine> line = resonance_line(record.pairs->pairs, constants);
   if (!line || !is_odd(line->zeta)) return {};
-  return {"x and Y make a damping ratio of " + shown(line->zeta) +
-          ", which few rigs have: if the unit of one of both is off by 1000, so are the results"};
+  return {"x and Y give a damping ratio of " + shown(line->zeta) +
+          ", which few rigs have: if one of their units is wrong by a factor of 1000, so are the results"};
 }
 
 }  // namespace dualdamp::identify

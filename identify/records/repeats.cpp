@@ -10,7 +10,7 @@ namespace {
 
 constexpr double rounding = 1e-9;
 
-/// A signal that never moves says nothing.
+/// Signals without any change are not compared.
 bool is_same(const std::vector<double>& a, const std::vector<double>& b) {
   if (a.empty() || a.size() != b.size()) return false;
   const auto [low, high] = std::ranges::minmax(a);
@@ -42,7 +42,7 @@ bool share_readings(const Record& a, const Record& b, bool are_loops) {
 
 std::vector<std::string> repeated_readings(const Record& record) {
   std::vector<std::string> warnings;
-  constexpr auto counts = "; what stands there twice counts twice, and the intervals are too narrow";
+  constexpr auto counts = "; repeated readings count twice, and the intervals are too narrow";
   for (std::size_t i = 0; i < record.histories.size(); ++i)
     for (std::size_t j = i + 1; j < record.histories.size(); ++j)
       if (is_same(record.histories[i], record.histories[j], false))

@@ -21,8 +21,8 @@ std::string subtract(double zero, std::vector<double>& x) {
   for (double& value : x) value -= zero;
   constexpr int digits = 4;
   return "x swings about " + core::format_number(zero, digits) +
-         " in SI units, further off than friction could hold the mass: taken for the zero of the sensor and "
-         "subtracted";
+         " in SI units, further from zero than friction could hold the mass: this value is taken as the zero of the "
+         "sensor and subtracted";
 }
 
 }  // namespace
@@ -31,14 +31,14 @@ std::string remove_zero(History& history, DecayRecord& decay) {
   const std::vector<double>& extremes = decay.extremes;
   const std::size_t n = extremes.size();
   if (n < 3) return {};
-  // The middle of the last three, and what their swings shrink by.
+  // The middle of the last three extremes, and the amount by which their swings shrink.
   const double first = extremes[n - 3];
   const double middle = extremes[n - 2];
   const double last = extremes[n - 1];
   const double zero = (first + 2.0 * middle + last) / 4.0;
   const double shrink = std::abs(first - middle) - std::abs(middle - last);
   if (!(std::abs(zero) > 0.5 * shrink) || !(shrink > 0.0)) return {};
-  // Where little shrinks, the middle is no better known than the extremes.
+  // If the swings shrink little, the middle is no better known than the extremes.
   constexpr double least = 0.02;
   if (std::abs(zero) < least * std::abs(extremes[0] - extremes[1])) return {};
   for (double& extreme : decay.extremes) extreme -= zero;

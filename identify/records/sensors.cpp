@@ -11,16 +11,16 @@ namespace dualdamp::identify {
 
 namespace {
 
-/// Of the first signal: away from the draws that laws and excitations of the same seed make.
+/// Stream number of the first signal, apart from the streams of laws and excitations with the same seed.
 constexpr std::uint32_t first_stream = 16;
 
-/// A sensor at work: readings in order.
+/// Takes the readings of one signal, in order.
 class Reader {
  public:
   Reader(const Sensor& sensor, std::uint64_t seed, std::uint32_t stream)
       : sensor_(sensor), draws_{.seed = seed, .stream = stream} {}
 
-  /// One of `size` readings.
+  /// The next one of `size` readings.
   struct Place {
     std::size_t number = 0;
     std::size_t size = 1;
@@ -39,7 +39,7 @@ class Reader {
     return sum / periods;
   }
 
-  /// Error of a phase [rad] of a signal of this amplitude.
+  /// The error of a phase [rad], for a signal of this amplitude.
   double phase_error(double amplitude, double omega, int periods) {
     double sum = 0.0;
     for (int i = 0; i < periods; ++i) sum += noise();
@@ -95,13 +95,13 @@ void require_sound(const Sensors& sensors) {
   }
 }
 
-/// In [0, 2 pi).
+/// The angle in [0, 2 pi).
 double wrapped(double phase) {
   constexpr double turn = 2.0 * std::numbers::pi;
   return phase - turn * std::floor(phase / turn);
 }
 
-/// What was not known before is not known after.
+/// Keeps `unknown` values unknown.
 Pair read_pair(const Pair& exact, Readers& readers, int periods, Reader::Place place) {
   Pair pair = exact;
   pair.Y = readers.y.amplitude(exact.Y, periods, place);

@@ -24,8 +24,8 @@ double mean_square(std::span<const double> signal) {
   return sum / static_cast<double>(signal.size());
 }
 
-/// Mean frequency of a motion [Hz]: that of the sine with the same rms of x and v. Differences over the whole
-/// signal in few steps, for noise would otherwise decide.
+/// Mean frequency of a motion [Hz]: that of a sine with the same rms of x and v. The differences use long steps,
+/// because noise dominates short ones.
 double mean_frequency(const History& history) {
   const std::size_t step = std::max<std::size_t>(1, history.x.size() / 2000);
   std::vector<double> thinned;
@@ -93,12 +93,12 @@ ZeroPhaseFilter::ZeroPhaseFilter(double cutoff, double sample_rate) {
   b_ = warped * warped * norm;
   a1_ = 2.0 * (warped * warped - 1.0) * norm;
   a2_ = (1.0 - std::numbers::sqrt2 * warped + warped * warped) * norm;
-  // The transient decays like exp(-2 pi cutoff t/sqrt(2)): a thousandth is left after seven time constants.
+  // The transient of the filter decays like exp(-2 pi cutoff t/sqrt(2)), to a thousandth in seven time constants.
   constexpr double time_constants = 7.0;
   edge_ = static_cast<std::size_t>(std::ceil(time_constants * sample_rate / (std::numbers::sqrt2 * pi * cutoff)));
 }
 
-/// In place, from the steady state of the first sample.
+/// Filters in place, from the steady state for the value of the first sample.
 void ZeroPhaseFilter::run(std::vector<double>& signal) const {
   const double level = signal.front();
   double z2 = (b_ - a2_) * level;
@@ -149,8 +149,8 @@ Motion motion_of(const History& history, double cutoff) {
   } else {
     motion.a = history.v.empty() ? second_difference(motion.x, rate) : central_difference(motion.v, rate);
   }
-  // Where friction turns, the acceleration jumps: a filter moves the zero of the velocity there, the less the
-  // higher its cut-off.
+  // The acceleration jumps where the friction changes its sign. A filter moves the zero of the velocity there; a
+  // higher cut-off moves it less.
   constexpr double sharper = 4.0;
   std::vector<double> turning;
   if (history.v.empty() && filter)
@@ -169,7 +169,7 @@ Motion motion_of(const History& history, double cutoff) {
 
   const bool differentiated = history.v.empty() || history.a.empty();
   const std::size_t edge = filter ? filter->edge() : (differentiated ? 1 : 0);
-  // Four samples a period of the cut-off hold all that has passed the filter.
+  // Four samples per period of the cut-off hold the whole filtered signal.
   const std::size_t step = filter ? std::max<std::size_t>(1, static_cast<std::size_t>(rate / (4.0 * cutoff))) : 1;
   for (std::vector<double>* signal :
        {&motion.y, &motion.x, &motion.v, &motion.a, &motion.force, &motion.sign, &motion.drag}) {

@@ -1,9 +1,9 @@
 #pragma once
-/// Signals of a test made ready for a regression: filtered without lag, differentiated, trimmed and thinned.
+/// Prepares the signals of a test for a regression: filters them without lag, differentiates, trims and thins them.
 ///
-/// A filter is linear, so that the equation of motion holds between filtered signals as well as between raw ones,
-/// provided that ALL of them pass through the same filter, sgn v included ("parallel" filtering). What remains to
-/// be wrong is the differentiation, whose error beyond the cut-off is then removed.
+/// A filter is linear, so the equation of motion also holds between filtered signals if ALL of them, sgn v
+/// included, pass through the same filter ("parallel" filtering). The remaining error is that of the
+/// differentiation; the filter removes its part above the cut-off.
 
 #include <cstddef>
 #include <optional>
@@ -16,21 +16,21 @@
 
 namespace dualdamp::identify {
 
-/// (x[i+1] - x[i-1])/2 times the rate [Hz]; at the ends the same second order one-sided. Zeros from fewer than
-/// three samples. Gain on i w: sin(wT)/(wT).
+/// (x[i+1] - x[i-1])/2 times the rate [Hz]; at the ends one-sided, also of second order. Zeros if there are fewer
+/// than three samples. Gain relative to i w: sin(wT)/(wT).
 [[nodiscard]] std::vector<double> central_difference(std::span<const double> x, double sample_rate);
 
-/// (x[i+1] - 2 x[i] + x[i-1]) times the rate squared; the ends repeat their neighbours. Zeros from fewer than three
-/// samples.
+/// (x[i+1] - 2 x[i] + x[i-1]) times the rate squared; the ends repeat their neighbours. Zeros if there are fewer
+/// than three samples.
 [[nodiscard]] std::vector<double> second_difference(std::span<const double> x, double sample_rate);
 
-/// From zero at the first sample on, by trapezoids.
+/// Integral from the first sample, where it is zero, by trapezoids.
 [[nodiscard]] std::vector<double> running_integral(std::span<const double> x, double sample_rate);
 
-/// Mean of x[i-2] ... x[i+2]; towards the ends of fewer samples, still centred. No lag.
+/// Mean of x[i-2] ... x[i+2]; near the ends of fewer samples, still centred. No lag.
 [[nodiscard]] std::vector<double> five_point_average(std::span<const double> x);
 
-/// What that makes of a sine at `omega` [rad/s]: (1 + 2 cos wT + 2 cos 2wT)/5.
+/// Gain of `five_point_average` at `omega` [rad/s]: (1 + 2 cos wT + 2 cos 2wT)/5.
 [[nodiscard]] double five_point_gain(double omega, double sample_rate);
 
 /// Butterworth's low-pass filter of second order, run forwards and backwards: no lag and the gain
@@ -41,7 +41,7 @@ class ZeroPhaseFilter {
   ZeroPhaseFilter(double cutoff, double sample_rate);
 
   [[nodiscard]] std::vector<double> operator()(std::span<const double> signal) const;
-  /// Samples at each end that depend on how the signal was continued there.
+  /// Number of samples at each end that depend on the continuation of the signal.
   [[nodiscard]] std::size_t edge() const { return edge_; }
 
  private:
@@ -53,8 +53,8 @@ class ZeroPhaseFilter {
   std::size_t edge_ = 0;
 };
 
-/// One history, ready: signals of equal length, through one filter, without its edges, and no more samples than
-/// its bandwidth needs.
+/// A prepared history: signals of equal length after the same filter, without the edges of the filter, thinned to
+/// the number of samples that the bandwidth needs.
 struct Motion {
   double start = 0.0;        ///< time of the first sample [s]
   double sample_rate = 0.0;  ///< Hz
@@ -63,24 +63,24 @@ struct Motion {
   std::vector<double> drag;  ///< v |v| [m^2/s^2]
 };
 
-/// Velocity and acceleration are taken from the history or, where they were not measured, differentiated from x.
-/// `cutoff` [Hz] 0: no filter, nothing trimmed or thinned. y and force that were not measured are zero. The
-/// history must be sound (`fault_of`), and longer than the filter's edges.
+/// Velocity and acceleration are those of the history or, if they were not measured, derivatives of x. y and force
+/// are zero if they were not measured. `cutoff` [Hz]; 0: no filter, no trimming, no thinning. `fault_of` and
+/// `fault_of_cutoff` must find no fault.
 [[nodiscard]] Motion motion_of(const History& history, double cutoff);
 
-/// Cut-offs to use [Hz]: those of the options, or else the method's own choice: a twentieth of the rate, or eight
-/// times the mean frequency of the motion where that is more, and 0.6 and 0.4 of it; no filter at all (one cut-off
-/// 0) where velocity and acceleration were measured.
+/// Cut-offs to use [Hz]: those of the options; else, if velocity and acceleration were measured, the single cut-off
+/// 0 (no filter); else f, 0.6 f and 0.4 f. f is a twentieth of the sample rate or eight times the mean frequency of
+/// the motion, whichever is larger, but at most a fifth of the sample rate.
 [[nodiscard]] std::vector<double> cutoffs_for(const History& history, const FilterOptions& options);
 
-/// Why a history cannot be used at all: no x, signals of different length or not finite, no rate; empty: it can.
+/// Why a history cannot be used: no x, signals of different lengths or not finite, no sample rate. Empty: no fault.
 [[nodiscard]] std::string fault_of(const History& history);
 
-/// Why it cannot be filtered like that; empty when it can.
+/// Why a history cannot be filtered with this cut-off. Empty: no fault.
 [[nodiscard]] std::string fault_of_cutoff(const History& history, double cutoff);
 
-/// Histories that can be used with this cut-off choice, by their numbers from 1; the others go to the estimate's
-/// exclusions. None: the estimate has been refused.
+/// The histories that can be used with these options, numbered from 1. Others are added to the exclusions of the
+/// estimate. If there is none, the estimate is refused.
 struct NumberedHistory {
   int number = 0;
   const History* history = nullptr;
@@ -88,16 +88,16 @@ struct NumberedHistory {
 [[nodiscard]] std::vector<NumberedHistory> usable_histories(const Record& record, const FilterOptions& options,
                                                             Estimate& estimate);
 
-/// The longest history that can be used as it is, for the methods that take one alone and need mass and stiffness;
-/// the others go to the exclusions. Nothing: the estimate has been refused.
+/// The longest usable history, for methods that use a single history and need mass and stiffness. Others are added
+/// to the exclusions. Nothing: the estimate is refused.
 [[nodiscard]] std::optional<NumberedHistory> longest_history(const Record& record, const KnownConstants& constants,
                                                              Estimate& estimate);
 
-/// Samples slower than this are left out of a regression on speed [m/s]: the option, or a hundredth of the largest
-/// speed, for the sign of a slower one is that of the noise.
+/// Least speed of the samples in a regression [m/s]: the option, or a hundredth of the largest speed. The sign of a
+/// slower sample is that of its noise.
 [[nodiscard]] double least_speed_for(const std::vector<Motion>& motions, const RegressionOptions& options);
 
-/// `lacks` of the methods on histories: "the record holds no time histories".
+/// `lacks` of the methods that need histories: "the record holds no time histories", or empty.
 [[nodiscard]] std::string lacks_histories(const Record& record);
 
 }  // namespace dualdamp::identify

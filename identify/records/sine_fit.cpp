@@ -15,15 +15,15 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// sum of cos(angle tau) over n samples tau = -(n-1)/2, ..., (n-1)/2: Dirichlet's kernel.
+/// Dirichlet's kernel: the sum of cos(angle tau) over n samples tau = -(n-1)/2, ..., (n-1)/2.
 double dirichlet(double angle, double n) {
   const double half = std::remainder(0.5 * angle, std::numbers::pi);
   if (std::abs(half) < 1e-9) return n;
   return std::sin(n * half) / std::sin(half);
 }
 
-/// The columns 1, cos k theta tau and sin k theta tau of all samples, counted from the middle of the record: there
-/// cosines and sines are orthogonal, and products of each kind sum to Dirichlet's kernel.
+/// The columns 1, cos k theta tau and sin k theta tau of all samples. tau counts from the middle of the record, so
+/// cosines and sines are orthogonal, and the sums of their products are values of Dirichlet's kernel.
 class Basis {
  public:
   Basis(std::size_t samples, double theta, int harmonics)
@@ -54,7 +54,7 @@ class Basis {
   /// Calls `take(i, tau, columns)` for every sample; columns in the order 1, cosines, sines.
   template <typename Take>
   void for_each_sample(Take take) const {
-    constexpr std::size_t restart = 256;  // rotations add up their rounding for no longer
+    constexpr std::size_t restart = 256;  // rotations accumulate rounding errors over at most so many samples
     const double middle = 0.5 * static_cast<double>(samples_ - 1);
     VectorXd columns = VectorXd::Ones(size());
     VectorXd turn_cos(odd_);
@@ -111,20 +111,20 @@ class Basis {
   Eigen::LDLT<MatrixXd> odd_gram_;
 };
 
-/// The linear fit at one frequency, and what a change of the frequency would do.
+/// The linear fit at one frequency, and its derivative by the frequency.
 struct Trial {
   VectorXd coefficients;
   double sum_of_squares = 0.0;
-  double lagged_product = 0.0;  ///< of neighbouring residuals
-  VectorXd slope_moments;       ///< of the derivative d by theta with the basis
-  double slope_square = 0.0;    ///< of the part of d orthogonal to the basis
+  double lagged_product = 0.0;  ///< sum of products of neighbouring residuals
+  VectorXd slope_moments;       ///< products of the derivative d by theta with the basis
+  double slope_square = 0.0;    ///< square of the part of d that is orthogonal to the basis
   double step = 0.0;            ///< Gauss-Newton, in theta
 };
 
 Trial fit_at(const Basis& basis, std::span<const double> signal) {
   Trial trial;
   VectorXd moments = VectorXd::Zero(basis.size());
-  // About the mean, which would cost digits where the signal is small beside its offset.
+  // The mean is subtracted, since a large offset would cost digits.
   const double mean = std::reduce(signal.begin(), signal.end()) / static_cast<double>(signal.size());
   basis.for_each_sample(
       [&](std::size_t i, double, const VectorXd& columns) { moments.noalias() += (signal[i] - mean) * columns; });
@@ -155,7 +155,7 @@ Trial fit_at(const Basis& basis, std::span<const double> signal) {
   return trial;
 }
 
-/// Amplitudes and phases at the first sample, with the errors that the coefficients' and the frequency's make.
+/// Amplitudes and phases at the first sample, with the errors from the coefficients and from the frequency.
 void describe(SineFit& fit, const Basis& basis, const Trial& trial, std::size_t samples, bool refined) {
   const double parameters = static_cast<double>(basis.size()) + (refined ? 1.0 : 0.0);
   const double variance = trial.sum_of_squares / (static_cast<double>(samples) - parameters);
@@ -175,7 +175,7 @@ void describe(SineFit& fit, const Basis& basis, const Trial& trial, std::size_t 
     const double a = trial.coefficients(c);
     const double b = trial.coefficients(s);
     const double amplitude = std::hypot(a, b);
-    // a cos + b sin = A cos(k theta tau - psi), and the first sample stands at tau = -middle.
+    // a cos + b sin = A cos(k theta tau - psi); the first sample is at tau = -middle.
     const double lead = k * middle;
     const double phase = -std::atan2(b, a) - lead * basis.theta();
     Harmonic harmonic{amplitude, std::remainder(phase, two_pi), 0.0, 0.0};
@@ -199,7 +199,7 @@ std::string fault_of(std::size_t samples, double theta, const SineFitOptions& op
   if (samples <= 2 * static_cast<std::size_t>(options.harmonics) + 2)
     return "there are fewer samples than unknowns";
   if (!(theta > 0.0)) return "there is no frequency to fit a sine of";
-  constexpr double rounding = 1e-9;  // a period that is a whole number of samples may be stated a little longer
+  constexpr double rounding = 1e-9;  // rounding may make a period of a whole number of samples slightly longer
   if (theta * static_cast<double>(samples) < two_pi * (1.0 - rounding))
     return "the record is shorter than one period";
   if (theta * options.harmonics >= std::numbers::pi)
@@ -213,7 +213,7 @@ SineFit refused(std::string reason) {
   return fit;
 }
 
-/// The fitted waveform over an angle of the fundamental, or its derivative.
+/// The fitted waveform, or its derivative, at an angle of the fundamental.
 double waveform(const SineFit& fit, double angle, bool derivative) {
   double value = 0.0;
   for (std::size_t i = 0; i < fit.harmonics.size(); ++i) {
@@ -224,7 +224,7 @@ double waveform(const SineFit& fit, double angle, bool derivative) {
   return value;
 }
 
-/// The largest value of `sign` times the waveform without its offset.
+/// The largest value of `sign` times the waveform, without its offset.
 double extreme(const SineFit& fit, double sign) {
   const int grid = 32 * static_cast<int>(fit.harmonics.size());
   const double cell = two_pi / grid;
@@ -252,7 +252,7 @@ SineFit fit_sine(std::span<const double> signal, double sample_rate, double omeg
     const Basis basis(signal.size(), theta, options.harmonics);
     if (!basis.is_regular()) return refused("the harmonics cannot be told apart in so short a record");
     const Trial trial = fit_at(basis, signal);
-    // A step of more than a quarter of a turn over the record leaves the range where the model is linear.
+    // The model is linear only for steps of less than a quarter of a turn over the record.
     const double step = std::clamp(trial.step, -std::numbers::pi / 2.0 / n, std::numbers::pi / 2.0 / n);
     if (options.refine && !(trial.slope_square > 0.0)) return refused("a constant signal has no frequency");
     if (!options.refine || std::abs(step) * n < 1e-10) {
@@ -279,7 +279,7 @@ double guess_frequency(std::span<const double> signal, double sample_rate) {
   double first = 0.0;
   double last = 0.0;
   int crossings = 0;
-  bool armed = false;  // the signal was below the band since the last crossing
+  bool armed = false;  // whether the signal was below the band since the last crossing
   std::size_t below = 0;
   for (std::size_t i = 0; i < signal.size(); ++i) {
     const double value = signal[i] - mean;
@@ -287,7 +287,7 @@ double guess_frequency(std::span<const double> signal, double sample_rate) {
     if (value < -band) armed = true;
     if (!armed || value <= band) continue;
     armed = false;
-    // The last step from below the mean, interpolated.
+    // The crossing is interpolated in the last step from below the mean.
     const double under = mean - signal[below];
     last = static_cast<double>(below) + under / (under + signal[below + 1] - mean);
     if (crossings++ == 0) first = last;

@@ -3,15 +3,15 @@
 ///
 ///   s(t) = offset + sum_k A_k cos(k w t + phi_k),   k = 1 ... K,   t from the first sample
 ///
-/// Unlike a Fourier sum this needs no whole number of periods in the record. The frequency is known, or refined
-/// from a first guess by Gauss-Newton steps with the other parameters eliminated; the guess must be within about
-/// half a period over the whole record. Standard errors assume residuals without correlation, and `correlation`
-/// tells whether they are: at K = 1 and many periods they are those of the closed form, std(A) = sigma sqrt(2/n),
-/// std(phi) = std(A)/A, std(w) = sigma/A sqrt(24/n^3)/T.
+/// The record need not hold a whole number of periods. The frequency is known, or refined from a first guess by
+/// Gauss-Newton steps with the other parameters eliminated; over the whole record the guess must be right to about
+/// half a period. Standard errors assume uncorrelated residuals; `correlation` shows whether they are. For K = 1
+/// and many periods they are those of the closed form, std(A) = sigma sqrt(2/n), std(phi) = std(A)/A, std(w) =
+/// sigma/A sqrt(24/n^3)/T, T the time between samples.
 ///
-/// Source: ieee1057, the sine fits of three and four parameters, here with harmonics.
-/// Errors: `outcome`, not_identifiable: fewer samples than parameters, less than one period, K w beyond half the
-/// sample rate, a constant signal where the frequency is to be refined. Cost: about 10 ns a sample and harmonic.
+/// Source: ieee1057, the sine fits of three and four parameters, here with harmonics. Errors: `outcome` is
+/// not_identifiable for fewer samples than parameters, less than one period, K w beyond half the sample rate, or a
+/// constant signal whose frequency is to be refined. Cost: about 10 ns a sample and harmonic.
 
 #include <span>
 #include <vector>
@@ -34,7 +34,7 @@ struct Harmonic {
 struct SineFit {
   core::Outcome outcome;
   double omega = 0.0;      ///< rad/s
-  double omega_std = 0.0;  ///< 0 where the frequency was known
+  double omega_std = 0.0;  ///< 0 if the frequency was known
   double offset = 0.0;
   double offset_std = 0.0;
   std::vector<Harmonic> harmonics;  ///< K of them, the fundamental first
@@ -51,7 +51,8 @@ struct SineFitOptions {
 [[nodiscard]] SineFit fit_sine(std::span<const double> signal, double sample_rate, double omega,
                                const SineFitOptions& options = {});
 
-/// Frequency [rad/s] from the crossings of the mean, with a dead band against noise; `unknown` below two periods.
+/// Frequency [rad/s] from the crossings of the mean, with a dead band against noise; `unknown` for less than two
+/// periods.
 [[nodiscard]] double guess_frequency(std::span<const double> signal, double sample_rate);
 
 /// Half of peak to trough of the fitted waveform.

@@ -28,13 +28,13 @@ std::vector<double> differences(const std::vector<double>& signal) {
   return list;
 }
 
-/// The median of some differences as a standard deviation of normal noise.
+/// The standard deviation of normal noise, from the median of some differences.
 double deviation_of(std::vector<double> differences) {
   constexpr double normal = 1.4826;
   return normal * upper_median(std::move(differences));
 }
 
-/// The least step between neighbouring samples: the resolution of a signal that is rounded.
+/// The smallest step between neighbouring samples: the resolution of a rounded signal.
 double resolution_of(const std::vector<double>& signal) {
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 1; i < signal.size(); ++i)
@@ -42,7 +42,7 @@ double resolution_of(const std::vector<double>& signal) {
   return std::isfinite(least) ? least : 0.0;
 }
 
-/// The surroundings of sample i.
+/// The values within 20 samples of sample i.
 std::vector<double> around(const std::vector<double>& list, std::size_t i) {
   constexpr std::size_t reach = 20;
   const auto begin = static_cast<std::ptrdiff_t>(i - std::min(i, reach));
@@ -50,7 +50,7 @@ std::vector<double> around(const std::vector<double>& list, std::size_t i) {
   return {list.begin() + begin, list.begin() + end};
 }
 
-/// From trough to peak, without sample i.
+/// The range from trough to peak around sample i, without its value.
 double range_around(const std::vector<double>& signal, std::size_t i) {
   std::vector<double> others = around(signal, i);
   std::erase(others, signal[i]);
@@ -71,7 +71,8 @@ std::vector<Spike> spikes_of(const std::vector<double>& signal) {
   for (std::size_t i = neighbours; i + neighbours < signal.size(); ++i) {
     if (!(off[i] > far * deviation) || !(off[i] > clearly * std::max(off[i - 1], off[i + 1]))) continue;
     const double noise = std::max(deviation, deviation_of(around(off, i)));
-    // Where friction turns, the acceleration jumps; without noise such a bend is far off, but not large.
+    // The acceleration jumps where the friction changes its sign. Without noise, this bend is many deviations off,
+    // but small relative to the range.
     constexpr double share = 0.03;
     const bool large = off[i] > share * range_around(signal, i);
     if (large && off[i] > far * noise) spikes.push_back({i, off[i] / noise, smooth_at(signal, i)});
@@ -92,11 +93,12 @@ std::vector<std::string> treat_spikes(std::vector<History>& histories, bool repl
         for (const Spike& spike : spikes) signal[spike.sample] = spike.smooth;
       constexpr int digits = 4;
       const double first = history.start + static_cast<double>(spikes.front().sample) / history.sample_rate;
-      sentences.push_back(std::string(name) + (history.sweep.empty() ? "" : " of " + history.sweep) + " holds " +
-                          std::to_string(spikes.size()) + (spikes.size() == 1 ? " spike" : " spikes") +
-                          ", the first at t = " + core::format_number(first, digits) + " s, " +
-                          core::format_number(spikes.front().deviations, 2) + " standard deviations off: " +
-                          (replace ? "replaced by what the neighbours say" : "'robust' (--robust) replaces them"));
+      sentences.push_back(
+          std::string(name) + (history.sweep.empty() ? "" : " of " + history.sweep) + " holds " +
+          std::to_string(spikes.size()) + (spikes.size() == 1 ? " spike" : " spikes") +
+          ", the first at t = " + core::format_number(first, digits) + " s, " +
+          core::format_number(spikes.front().deviations, 2) + " standard deviations off: " +
+          (replace ? "replaced by values from the neighbours" : "'robust' (--robust) replaces them"));
     }
   }
   return sentences;

@@ -14,8 +14,8 @@ double stiffness_at(const RigBase& base, double s) { return base.F0 / (s * base.
 
 std::vector<double> only_stiffness(const RigBase& base, double s) { return {stiffness_at(base, s)}; }
 
-/// Damping of bristles of this stiffness [N/m]: a tenth of the critical one for the mass on them. It is what makes
-/// bristle laws tend to Coulomb's with the root of their deflection.
+/// Damping of bristles of this stiffness [N/m]: a tenth of the critical damping of the mass on them. Because of it,
+/// bristle laws tend to Coulomb friction with the root of their deflection.
 double bristle_damping(const RigBase& base, double stiffness) {
   return 0.2 * std::sqrt(stiffness * base.model.oscillator.mass);
 }
@@ -49,7 +49,7 @@ sim::Model elasto_plastic(const RigBase& base, RigValues p) {
                    {"elastic_limit", 0.5 * base.F0 / p[0]}});
 }
 
-/// Four elements that slip at equal shares of the level, one after the other, none of them before half of the mean
+/// Four elements with equal shares of the friction. They slip one after the other, the first at half of the mean
 /// deflection.
 sim::Model generalized_maxwell_slip(const RigBase& base, RigValues p) {
   std::vector<ParameterValues> elements;
@@ -114,7 +114,7 @@ std::vector<Rig> sliders() {
        .largest = 1.0,
        .values_at = only_stiffness},
       {.name = "contact_compliance",
-       .meaning = "the contact gives way before it slides: a spring in series with Coulomb friction",
+       .meaning = "the contact yields elastically before it slides: a spring in series with Coulomb friction",
        .parameters = {contact_parameter},
        .build = contact_compliance,
        .severity = "deflection of the contact F0/K over the amplitude X",
@@ -142,14 +142,14 @@ std::vector<Rig> sliders() {
        .build = iwan,
        .severity = "mean deflection of the sliders over the amplitude X",
        .largest = 1.0,
-       // The last slider slides at a stretch of twice F0 over the stiffness.
+       // The last slider slips at a stretch of 2 F0/stiffness.
        .values_at = [](const RigBase& base, double s) { return std::vector{2.0 * stiffness_at(base, s)}; }},
       {.name = "rigid_and_compliant",
        .meaning = "two contacts in parallel, one rigid and one behind a spring",
        .parameters = {contact_parameter,
                       {.name = "share",
                        .unit = "1",
-                       .meaning = "of the compliant contact in F0",
+                       .meaning = "share of the compliant contact in F0",
                        .range = {.low = 0.0, .high = 1.0},
                        .start = 0.5,
                        .low = 0.01,

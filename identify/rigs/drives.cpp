@@ -29,7 +29,7 @@ sim::Model base_clipping(const RigBase& base, RigValues p) {
   model.excitation.amplitude = shares[0] * Y;
   for (std::size_t j = 1; j < shares.size(); ++j) {
     const double share = shares[j];
-    // A phase takes the sign that an amplitude must not have.
+    // Amplitudes must be positive: the sign goes into the phase.
     model.excitation.harmonics.push_back({.order = static_cast<int>(2 * j + 1),
                                           .amplitude = std::abs(share) * Y,
                                           .phase = share < 0.0 ? std::numbers::pi : 0.0});
@@ -43,7 +43,7 @@ sim::Model base_distortion(const RigBase& base, RigValues p) {
   return model;
 }
 
-/// A spring of the force k x + k3 x^3, driven at another frequency than the one that is stated.
+/// A spring of the force k x + k3 x^3, driven at a frequency other than stated.
 sim::Model spring_and_drive(const RigBase& base, double k3, double offset) {
   sim::Model model = with_coulomb(base);
   model.oscillator.cubic_stiffness = k3;
@@ -61,8 +61,8 @@ sim::Model detuning(const RigBase& base, RigValues p) {
   return spring_and_drive(base, base.model.oscillator.cubic_stiffness, p[0]);
 }
 
-/// Part of the mass rides on a spring and a damper of its own. The second mode lies at about four times the
-/// natural frequency, between the odd harmonics that friction has: near one of them rigs would differ by chance.
+/// Part of the mass rides on a spring and a damper of its own. The second mode lies at about four times the natural
+/// frequency, between the odd harmonics of friction: close to one of them, rigs would differ by chance.
 sim::Model second_mode(const RigBase& base, RigValues p) {
   constexpr double frequency = 4.0;       // over the natural one
   constexpr double damping_ratio = 0.02;  // of the rider on a base that is held
@@ -127,7 +127,7 @@ std::vector<Rig> drives() {
        .values_at = [](const RigBase&, double s) { return std::vector{-s}; },
        .forced_only = true},
       {.name = "detuning",
-       .meaning = "the drive is not at the resonance that the method takes it to be at",
+       .meaning = "the drive is not at the resonance that the method assumes",
        .parameters = {offset_parameter},
        .build = detuning,
        .severity = "forcing frequency over the stated one, less 1",

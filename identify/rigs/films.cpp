@@ -28,7 +28,7 @@ sim::Model viscous_saturating(const RigBase& base, RigValues p) {
   return with_film(base, "viscous_saturating", {{"coefficient", base.c() * loss}, {"saturation_velocity", p[0]}});
 }
 
-/// A damper warms by c V^2/2 in the mean.
+/// The mean heat of a damper is c V^2/2.
 sim::Model warming_film(const RigBase& base, RigValues p) {
   const double heat = 0.5 * base.c() * base.reference.speed() * base.reference.speed();
   return with_film(base, "viscous_power",
@@ -39,7 +39,7 @@ sim::Model warming_film(const RigBase& base, RigValues p) {
 
 constexpr RigParameter exponent_parameter = {.name = "exponent",
                                              .unit = "1",
-                                             .meaning = "of the speed",
+                                             .meaning = "exponent of the speed",
                                              .range = positive,
                                              .start = 0.6,
                                              .low = 0.1,
@@ -52,7 +52,7 @@ std::vector<Rig> film_rigs() {
       Family::velocity,
       {
           {.name = "quadratic_drag",
-           .meaning = "drag that goes with the square of speed, beside the damper",
+           .meaning = "drag proportional to the square of speed, in addition to the damper",
            .parameters = {{.name = "drag",
                            .unit = "N.s^2/m^2",
                            .meaning = "force over the square of speed",
@@ -67,7 +67,7 @@ std::vector<Rig> film_rigs() {
                            double s) { return std::vector{s * base.c() / base.reference.speed()}; },
            .plausible = {{"", {5.0}, "a damper that has a sixth of its force from turbulence in mid range"}}},
           {.name = "viscous_power",
-           .meaning = "the viscous force goes with a power of speed: a film that thins under shear",
+           .meaning = "the viscous force is proportional to a power of speed: a film that thins under shear",
            .parameters = {exponent_parameter},
            .build = viscous_power,
            .severity = "exponent of the speed, less 1",

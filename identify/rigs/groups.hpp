@@ -1,5 +1,5 @@
 #pragma once
-/// The groups that the table of rigs is made of, and the pieces that several of them share.
+/// The groups of the table of rigs, and functions that several of them share.
 
 #include <span>
 #include <string_view>
@@ -12,17 +12,17 @@ namespace dualdamp::identify::rigs {
 
 /// Friction that yields before it slips: contacts behind a stiffness, and bristles.
 [[nodiscard]] std::vector<Rig> contact_rigs();
-/// Coulomb friction that depends on speed, position, warmth or the load of the contact.
+/// Coulomb friction that depends on speed, position, temperature or the load of the contact.
 [[nodiscard]] std::vector<Rig> sliding_rigs();
 /// Viscous friction that is not proportional to speed.
 [[nodiscard]] std::vector<Rig> film_rigs();
 /// Drives, springs and structures that differ from what the laboratory states.
 [[nodiscard]] std::vector<Rig> drive_rigs();
 
-/// Laboratories that do not know their constants or their sensors.
+/// Laboratories that state wrong constants or have wrong sensors.
 [[nodiscard]] std::vector<Rig> laboratory_rigs();
 
-/// Gives a family to those of a group that have none of their own.
+/// Sets the family of those rigs of a group that have none.
 [[nodiscard]] std::vector<Rig> of_family(Family family, std::vector<Rig> group);
 
 [[nodiscard]] std::vector<Rig> joined(const std::vector<std::vector<Rig>>& groups);
@@ -30,8 +30,8 @@ namespace dualdamp::identify::rigs {
 /// Values of a rig's parameters, SI.
 using RigValues = std::span<const double>;
 
-/// `model` with the law beside those it has; defaults of `values` are filled in. Errors: `std::logic_error` when
-/// the law is unknown or refuses the values, which is a fault of the table.
+/// `model` with the law added; defaults of `values` are filled in. Errors: `std::logic_error` if the law is unknown
+/// or refuses the values, which is a fault of the table.
 [[nodiscard]] sim::Model with_law(sim::Model model, std::string_view law, friction::ParameterValues values);
 
 /// The base with Coulomb friction F0; `values` are further parameters of the law.
@@ -47,10 +47,10 @@ using RigValues = std::span<const double>;
 /// heat in the reference motion [W].
 [[nodiscard]] double when_cold(const RigBase& base, double found, double heat, double power);
 
-/// Severities of laws whose friction falls with speed say "over 0.1 of the peak speed".
+/// Speed over which friction falls in several departures: a tenth of the peak speed.
 [[nodiscard]] inline double tenth_of_speed(const RigBase& base) { return 0.1 * base.reference.speed(); }
 
-/// What several rigs have.
+/// Parameters that several rigs have.
 inline constexpr friction::Range positive = {.low = 0.0, .low_open = true};
 inline constexpr RigParameter excess_parameter = {.name = "excess",
                                                   .unit = "1",

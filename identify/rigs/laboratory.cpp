@@ -6,7 +6,7 @@ namespace {
 
 std::vector<double> no_values(const RigBase&, double) { return {}; }
 
-/// The rig is as it should be; what the laboratory makes of it is not.
+/// A rig without a departure, in a laboratory that states or reads something wrong.
 Rig misled(std::string_view name, std::string_view meaning, std::string_view severity, Family family,
            void (*mislead)(Laboratory&, const ReferenceMotion&, double)) {
   Rig rig{.name = name, .meaning = meaning, .parameters = {}, .build = coulomb_viscous};
@@ -18,7 +18,7 @@ Rig misled(std::string_view name, std::string_view meaning, std::string_view sev
   return rig;
 }
 
-/// Friction that grows from (1 - s/2) F0 to (1 + s/2) F0.
+/// The first sweep of friction that grows from (1 - s/2) F0 to (1 + s/2) F0.
 sim::Model grown_by_half(const RigBase& base, RigValues p) {
   RigBase first = base;
   first.F0 *= 1.0 - 0.5 * p[0];

@@ -25,7 +25,7 @@ const Rig* find(const std::vector<Rig>& list, std::string_view name) {
 }
 
 RigBase base_of(const Apparatus& apparatus, const RigFriction& friction, double Y) {
-  // Friction of boundary lubrication falls over the first 10 mm/s.
+  // In boundary lubrication friction falls over the first 10 mm/s.
   RigBase base{.F0 = friction.F0,
                .reference = apparatus.reference,
                .warming_time = apparatus.warming_time,

@@ -1,16 +1,16 @@
 #pragma once
-/// Rigs: an oscillator with Coulomb + viscous friction and one thing beside, each a real law or drive of this
-/// program, so that what it does to a test is computed and not described.
+/// Rigs: an oscillator with Coulomb + viscous friction and one addition. Each addition is a real law or drive of
+/// this program, so that its effect on a test is computed from the motion.
 ///
-/// One table serves two questions.
+/// One table serves two purposes.
 ///
-/// * The stress test takes a rig as a *departure*. One pure number, the severity s > 0, sets all parameters of the
-///   rig, so that the harm that different laws do to an identification can be compared. The departure tends to
+/// * The stress test uses a rig as a *departure*. One pure number, the severity s > 0, sets all parameters of the
+///   rig, so that the harm of different laws to an identification can be compared. The departure tends to
 ///   Coulomb + viscous friction as s -> 0. Severities are ratios to the reference motion: amplitude X and peak
 ///   speed V of Coulomb + viscous friction in the middle of the range of excitation.
-/// * The study of mechanisms takes a rig as a *mechanism*, with parameters in SI units, so that it can be compared
-///   with a laboratory. F0 and c are there what a test in the middle of the range would find: where a mechanism
-///   changes the viscous force itself, c is the damper that gives the same force at the speed V.
+/// * The study of mechanisms uses a rig as a *mechanism*, with parameters in SI units, so that it can be compared
+///   with a laboratory. F0 and c are then what a test in the middle of the range would find: if a mechanism changes
+///   the viscous force itself, c is the damper that gives the same force at the speed V.
 ///
 /// A rig is one entry of a group: `contacts.cpp`, `sliding.cpp`, `films.cpp`, `drives.cpp` or `laboratory.cpp`.
 
@@ -25,7 +25,7 @@
 
 namespace dualdamp::identify::rigs {
 
-/// The motion that parameters are measured by.
+/// The motion that parameters are relative to.
 struct ReferenceMotion {
   double amplitude = 0.0;  ///< X [m]
   double frequency = 0.0;  ///< w [rad/s]
@@ -40,24 +40,24 @@ struct RigBase {
   sim::Model model{};  ///< oscillator with its damper c, and its drive; without friction laws
   double F0 = 0.0;     ///< Coulomb friction [N]
   ReferenceMotion reference{};
-  double warming_time = 0.0;       ///< in which contact or film warms [s]
+  double warming_time = 0.0;       ///< time constant with which contact or film warms [s]
   double boundary_velocity = 0.0;  ///< over which friction falls from its value at rest as a film forms [m/s]
-  /// Whether F0 and c are what the reference motion finds; else they are those of a cold rig at low speed.
+  /// Whether F0 and c are those that the reference motion has; else they are those of a cold rig at low speed.
   bool found_at_reference = false;
 
   [[nodiscard]] double c() const { return model.oscillator.damping; }
 };
 
-/// What a departure is a departure of. Scores are averaged within families first, so that a family counts once,
-/// however many departures it has.
+/// Kind of a departure. Scores are averaged within families first, so that a family counts once, however many
+/// departures it has.
 enum class Family {
   none,        ///< Coulomb + viscous friction, all as stated
   presliding,  ///< contacts that yield before they slip
   velocity,    ///< friction that depends on speed in another way
-  position,    ///< friction that depends on the place
-  memory,      ///< friction that depends on what was before: warmth, a lag
+  position,    ///< friction that depends on the position
+  memory,      ///< friction that depends on earlier motion: warmth, a lag
   spring,      ///< spring and structure that are not one linear spring
-  sensors,     ///< readings that are off
+  sensors,     ///< wrong readings
   constants,   ///< mass or stiffness that are not as stated
   drive,       ///< a drive that is not as stated
   pairs,       ///< two of these together
@@ -66,11 +66,11 @@ enum class Family {
 /// "presliding"
 [[nodiscard]] std::string_view name_of(Family family);
 
-/// What a laboratory believes, how it reads, and what goes on while it measures.
+/// Constants that a laboratory states, its sensors, and changes of the rig while it measures.
 struct Laboratory {
   identify::KnownConstants constants;
   identify::Sensors sensors;
-  /// By how much all friction grows from the first sweep of the record to the last, over that of the model.
+  /// Growth of all friction from the first sweep of the record to the last, over that of the model.
   double friction_growth = 0.0;
 };
 
@@ -78,15 +78,15 @@ struct RigParameter {
   std::string_view name;
   std::string_view unit;  ///< SI
   std::string_view meaning;
-  friction::Range range;  ///< what has a meaning at all
-  /// Where the fit of a mechanism begins and the interval it keeps to, over `natural_scale`. With low > 0 the fit
-  /// changes the parameter by ratios.
+  friction::Range range;  ///< values that have a meaning
+  /// Start and bounds of the fit of a mechanism, over `natural_scale`. With low > 0 the fit changes the parameter
+  /// by ratios.
   double start = 1.0;
   double low = 0.0;
   double high = 0.0;
 };
 
-/// Values that a real rig may well have.
+/// Values that a real rig may have.
 struct PlausibleValues {
   std::string_view name;       ///< which of several; may be empty
   std::vector<double> values;  ///< SI, in the order of the parameters
@@ -101,60 +101,60 @@ struct Rig {
   /// `values`: SI, in the order of the parameters.
   sim::Model (*build)(const RigBase& base, std::span<const double> values);
 
-  // As a departure; a rig without `severity` is none.
+  // For departures. A rig without `severity` is not a departure.
   std::string_view severity{};  ///< what s is, in words: "deflection of the contact F0/K over X"
-  double largest = 0.0;         ///< beyond it s has no meaning
+  double largest = 0.0;         ///< largest s that has a meaning
   /// The parameters at severity s.
   std::vector<double> (*values_at)(const RigBase& base, double s) = nullptr;
 
-  // As a mechanism; a rig without plausible values is none.
+  // For mechanisms. A rig without plausible values is not a mechanism.
   std::vector<PlausibleValues> plausible{};
-  bool forced_only = false;  ///< it lies in drive or spring: a free decay on another spring does not have it
+  bool forced_only = false;  ///< it is in the drive or the spring: a free decay on another spring does not have it
 
   Family family = Family::none;
-  /// Whether one F0, one zeta is still there to be found; a score of it needs that.
+  /// Whether the rig has one F0 and one zeta. Only then are the estimates of it scored.
   bool has_F0 = true;
   bool has_zeta = true;
-  /// It shows in records of several sweeps alone.
+  /// It is seen only in records of several sweeps.
   bool needs_sweeps = false;
-  /// Changes what the laboratory believes or reads, or what goes on meanwhile; may be absent.
+  /// Changes what the laboratory states or reads, or the rig while it measures; may be absent.
   void (*mislead)(Laboratory& laboratory, const ReferenceMotion& reference, double s) = nullptr;
 };
 
 /// All rigs, sorted by name.
 [[nodiscard]] const std::vector<Rig>& rigs();
 
-/// Those that are departures, and those that are mechanisms; sorted by name.
+/// The rigs that are departures, and those that are mechanisms; sorted by name.
 [[nodiscard]] const std::vector<Rig>& departures();
 [[nodiscard]] const std::vector<Rig>& mechanisms();
 
-/// nullptr when there is no such departure, no such mechanism.
+/// nullptr if there is no such departure, or no such mechanism.
 [[nodiscard]] const Rig* find_departure(std::string_view name);
 [[nodiscard]] const Rig* find_mechanism(std::string_view name);
 
-/// Coulomb + viscous friction: what the methods assume, and are to find.
+/// Coulomb + viscous friction, which the methods assume and are to find.
 struct Truth {
   sim::Model model;  ///< with the damper c; without friction laws
   double F0 = 0.0;   ///< N
 };
 
-/// The truth itself.
+/// The truth without a departure.
 [[nodiscard]] sim::Model undisturbed(const Truth& truth);
 
 /// The truth with a departure of severity s.
 [[nodiscard]] sim::Model departed(const Rig& departure, const Truth& truth, const ReferenceMotion& reference,
                                   double s);
 
-/// What is known of a laboratory's rig, and the motion in the middle of its tests.
+/// A laboratory's rig, and the motion in the middle of its tests.
 struct Apparatus {
   sim::Oscillator oscillator;  ///< its damping is not used
   ReferenceMotion reference;   ///< its frequency is the one that the laboratory sets
-  /// In which contact or film warms [s]. A minute is long against a free decay, which stays cold. Steady states
-  /// depend on it by the ratio of a period to it, and are found the sooner the shorter it is.
+  /// Time constant with which contact or film warms [s]. A minute is long beside a free decay, which stays cold. A
+  /// steady state depends only on the ratio of a period to it; the shorter it is, the sooner the state is found.
   double warming_time = 60.0;
 };
 
-/// Friction of a rig beside its mechanism.
+/// Coulomb and viscous friction of a rig beside its mechanism.
 struct RigFriction {
   double F0 = 0.0;  ///< N, > 0
   double c = 0.0;   ///< N.s/m

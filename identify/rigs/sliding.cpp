@@ -8,7 +8,7 @@ namespace {
 
 using friction::ParameterValues;
 
-/// Friction that is larger forward, v > 0, than backward by this share of their mean: the level and the damper.
+/// Coulomb and viscous friction are (1 + p) times their mean forward, v > 0, and (1 - p) times backward.
 sim::Model asymmetry(const RigBase& base, RigValues p) {
   sim::Model model = base.model;
   model.oscillator.damping = (1.0 - p[0]) * base.c();
@@ -29,7 +29,7 @@ sim::Model friction_lag(const RigBase& base, RigValues p) {
 constexpr double mu = 0.3;
 double weight_of(const RigBase& base) { return base.F0 / mu; }
 
-/// The rider's own vibration is ten times as fast as the forcing and damped to a tenth.
+/// The rider's normal vibration has ten times the forcing frequency and a damping ratio of 0.1.
 sim::Model normal_vibration(const RigBase& base, RigValues p) {
   constexpr double approach = 1e-6;
   const double weight = weight_of(base);
@@ -50,8 +50,9 @@ sim::Model position_dependence(const RigBase& base, RigValues p) { return on_slo
 
 sim::Model position_slope(const RigBase& base, RigValues p) { return on_slope(base, p[0]); }
 
-/// A share of the friction follows rate and state, with F0 in steady sliding at the reference motion's peak speed:
-/// the share, not a, tends to 0, since the smooth engine needs mu0/a of some 40 at most.
+/// A share of the friction follows rate and state, and the total is F0 in steady sliding at the peak speed of the
+/// reference motion. With the severity this share tends to 0, not a: the smooth engine needs mu0/a of at most
+/// some 40.
 sim::Model rate_state(const RigBase& base, RigValues p) {
   constexpr double mu0 = 0.2;
   RigBase rest = base;
@@ -65,7 +66,7 @@ sim::Model rate_state(const RigBase& base, RigValues p) {
                    {"reference_velocity", base.reference.speed()}});
 }
 
-/// Friction that varies along the way, the same each time the mass comes by.
+/// Friction that varies along the way, in the same way at each passage.
 sim::Model rough_way(const RigBase& base, RigValues p) {
   const ParameterValues roughness{{"ratio", p[0]}, {"correlation_length", p[1]}, {"seed", 1.0}};
   return with_coulomb(base, {{"fluctuation", std::vector<ParameterValues>{roughness}}});
@@ -108,7 +109,7 @@ std::vector<Rig> by_direction() {
 std::vector<Rig> by_speed() {
   return {
       {.name = "friction_lag",
-       .meaning = "friction falls with speed, and follows the speed late",
+       .meaning = "friction falls with speed, and follows the speed with a lag",
        .parameters = {excess_parameter,
                       fall_parameter,
                       {.name = "lag",
@@ -165,7 +166,7 @@ std::vector<Rig> by_speed() {
   };
 }
 
-/// Coulomb friction that changes with the place.
+/// Coulomb friction that changes with the position.
 std::vector<Rig> by_place() {
   return {
       {.name = "position_dependence",
@@ -206,11 +207,11 @@ std::vector<Rig> by_place() {
   };
 }
 
-/// Constant Coulomb friction, and one that falls with warmth.
+/// Constant Coulomb friction, and friction that falls as the contact warms.
 std::vector<Rig> by_warmth() {
   return {
       {.name = "coulomb_viscous",
-       .meaning = "nothing: what the method assumes",
+       .meaning = "no mechanism: the friction that the method assumes",
        .parameters = {},
        .build = coulomb_viscous,
        .plausible = {{"", {}, "what the method's own neglect of H bends"}}},

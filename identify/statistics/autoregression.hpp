@@ -1,5 +1,5 @@
 #pragma once
-/// Errors that are alike from sample to sample, made independent: an autoregression.
+/// Makes errors independent that are correlated from sample to sample, by an autoregression.
 ///
 ///   e_t = a_1 e_(t-1) + ... + a_p e_(t-p) + s n_t,   n of unit variance
 ///
@@ -18,20 +18,20 @@ struct Autoregression {
   double deviation = 1.0;        ///< s
 };
 
-/// First and last + 1 of the rows of each record, in `count` rows. `blocks`: rows at which another record begins; 0
-/// need not be named.
+/// First row and last row + 1 of each record, in `count` rows. `blocks`: rows at which another record begins; 0 may
+/// be left out.
 [[nodiscard]] std::vector<std::pair<Eigen::Index, Eigen::Index>> block_ranges(
     const std::vector<Eigen::Index>& blocks, Eigen::Index count);
 
-/// Mean products of errors at lags 0 ... most. `blocks`: rows at which another record begins, across which nothing
-/// correlates; 0 need not be named. `freedom`: what sums are divided by.
+/// Mean products of errors at lags 0 ... most. `blocks`: rows at which another record begins; errors of different
+/// records are uncorrelated; 0 may be left out. `freedom`: divisor of the sums.
 [[nodiscard]] Eigen::VectorXd covariances_of(const Eigen::VectorXd& errors, const std::vector<Eigen::Index>& blocks,
                                              int most, double freedom);
 
-/// From covariances at lags 0 ... the order at most. `count`: rows that the order is chosen for.
+/// The autoregression from covariances at lags 0 ... largest order. `count`: number of rows, for the choice of p.
 [[nodiscard]] Autoregression autoregression_of(const Eigen::VectorXd& covariances, double count);
 
-/// The rows with independent errors; the first p of each block are gone, or the whole block where it has no more.
+/// The rows with independent errors. The first p rows of each block are dropped, or all if it has no more.
 [[nodiscard]] Eigen::MatrixXd whitened(const Eigen::MatrixXd& rows, const std::vector<Eigen::Index>& blocks,
                                        const Autoregression& autoregression);
 

@@ -28,7 +28,7 @@ double product_at(const Eigen::VectorXd& r, const Ranges& blocks, Eigen::Index l
   return sum;
 }
 
-/// The same at lags 0 ... most by Fourier's transform: a residual that lasts is alike over thousands of samples,
+/// The same at lags 0 ... most, by the Fourier transform. Residuals may be correlated over thousands of samples,
 /// and sums lag by lag would take the square of the number of samples.
 std::vector<double> products_up_to(const Eigen::VectorXd& r, const Ranges& blocks, Eigen::Index most) {
   std::vector<double> products(static_cast<std::size_t>(most) + 1, 0.0);
@@ -46,8 +46,8 @@ std::vector<double> products_up_to(const Eigen::VectorXd& r, const Ranges& block
   return products;
 }
 
-/// How many lags the covariance looks at, 0 among them: twice the first at which the residuals' autocorrelation has
-/// died down to chance, a tenth of the residuals at most.
+/// Number of lags in the covariance, with lag 0: twice the first lag at which the autocorrelation of the residuals
+/// has fallen to that of chance, at most a tenth of the residuals.
 std::size_t lags_of(const Eigen::VectorXd& r, const Ranges& blocks) {
   const double variance = r.squaredNorm();
   if (!(variance > 0.0)) return 1;
@@ -66,8 +66,8 @@ std::size_t lags_of(const Eigen::VectorXd& r, const Ranges& blocks) {
   return static_cast<std::size_t>(longest) + 1;
 }
 
-/// Sum over pairs of rows of their products, with Bartlett's weights 1 - lag/lags: that of the products of all sums
-/// of `lags` rows on end, over `lags`. One pass, however many lags.
+/// Sum of the products of pairs of rows, with Bartlett's weights 1 - lag/lags. It equals the sum over all windows
+/// of `lags` rows of the product of the window's sum with itself, over `lags`: one pass for any number of lags.
 Eigen::MatrixXd bartlett_sum(const Eigen::MatrixXd& rows, const Ranges& blocks, std::size_t lags) {
   const auto window = static_cast<Eigen::Index>(lags);
   Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(rows.cols(), rows.cols());
@@ -119,7 +119,7 @@ std::optional<CorrelatedFit> fit_correlated(const Eigen::MatrixXd& columns, cons
   const Eigen::MatrixXd root = scale.cwiseInverse().asDiagonal() * inverse;
   const Eigen::MatrixXd scores = fit.residuals.asDiagonal() * scaled;
   fit.covariance = root * bartlett_sum(scores, parts, lags) * root.transpose();
-  // As least squares of independent errors has N - p in place of N.
+  // As N - p replaces N in least squares with independent errors.
   fit.covariance *= 1.0 + static_cast<double>(count) / fit.freedom();
   return fit;
 }

@@ -1,17 +1,16 @@
 #pragma once
-/// What Eigen's decompositions of matrices are needed for. One translation unit holds them: each takes seconds to
-/// compile.
+/// Linear algebra by Eigen's decompositions, in one translation unit, because each takes seconds to compile.
 
 #include <Eigen/Core>
 #include <optional>
 
 namespace dualdamp::identify {
 
-/// The x that minimises |columns x - values|, by Householder's QR. For columns that are independent: as many rows
-/// as columns at least. Cost: 2 rows columns^2 operations.
+/// The x that minimises |columns x - values|, by Householder's QR. Columns must be independent, with at least as
+/// many rows as columns. Cost: 2 rows columns^2 operations.
 [[nodiscard]] Eigen::VectorXd linear_least_squares(const Eigen::MatrixXd& columns, const Eigen::VectorXd& values);
 
-/// The same where columns may be nearly dependent: with column pivoting, dependent columns get 0.
+/// The same for columns that may be nearly dependent, by column pivoting: dependent columns get 0.
 [[nodiscard]] Eigen::VectorXd pivoted_least_squares(const Eigen::MatrixXd& columns, const Eigen::VectorXd& values);
 
 /// An orthonormal basis of what the columns span, by QR with column pivoting: columns that are dependent to
@@ -19,7 +18,7 @@ namespace dualdamp::identify {
 [[nodiscard]] Eigen::MatrixXd orthonormal_basis(const Eigen::MatrixXd& columns,
                                                 std::optional<double> threshold = std::nullopt);
 
-/// Of a square matrix that is not singular, by LU.
+/// Inverse of a square matrix that is not singular, by LU.
 [[nodiscard]] Eigen::MatrixXd inverse_of(const Eigen::MatrixXd& matrix);
 
 /// Eigenvalues, from the least to the largest, and orthonormal eigenvectors as columns.
@@ -28,7 +27,7 @@ struct SymmetricSpectrum {
   Eigen::MatrixXd vectors;
 };
 
-/// Of a symmetric matrix; its lower triangle is read.
+/// Spectrum of a symmetric matrix; only its lower triangle is read.
 [[nodiscard]] SymmetricSpectrum symmetric_spectrum(const Eigen::MatrixXd& matrix);
 
 }  // namespace dualdamp::identify

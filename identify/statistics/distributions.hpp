@@ -1,5 +1,5 @@
 #pragma once
-/// The distributions that intervals and tests refer to.
+/// Distributions for intervals and tests.
 
 namespace dualdamp::identify {
 

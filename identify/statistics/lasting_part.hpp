@@ -1,5 +1,5 @@
 #pragma once
-/// The part of a signal that lasts from one sample to the next: what white noise has not.
+/// The part of a signal that lasts from one sample to the next. White noise has none.
 
 #include <span>
 
@@ -10,11 +10,11 @@ class LastingPart {
  public:
   void add(std::span<const double> signal);
 
-  /// Mean product of neighbours, the mean square of what lasts; negative by chance.
+  /// Mean product of neighbours: the mean square of the lasting part. May be negative by chance.
   [[nodiscard]] double mean_product() const { return products_ / pairs_; }
   /// The mean product over the mean square; 0 for a signal of zeros.
   [[nodiscard]] double correlation() const;
-  /// With what chance may hide of it under white noise of this level.
+  /// Upper bound of the mean product: white noise of this level may hide a part of it by chance.
   [[nodiscard]] double at_most(double noise) const;
 
  private:

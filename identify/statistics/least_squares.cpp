@@ -42,7 +42,7 @@ class Cost final : public ceres::CostFunction {
   mutable Eigen::MatrixXd jacobian_;
 };
 
-/// Ends the solver early; exceptions do not go through it.
+/// Ends the solver early, because exceptions cannot pass through it.
 class StopIfCancelled final : public ceres::IterationCallback {
  public:
   ceres::CallbackReturnType operator()(const ceres::IterationSummary& /*summary*/) override {
@@ -50,7 +50,7 @@ class StopIfCancelled final : public ceres::IterationCallback {
   }
 };
 
-/// One run of the solver from `parameters` to where it ends, with the parameters numbered in `held` as they are.
+/// One run of the solver from `parameters` to its end; the parameters numbered in `held` are constant.
 ceres::Solver::Summary solve(const LeastSquaresProblem& problem, const std::vector<int>& held, int most_iterations,
                              Eigen::VectorXd& parameters) {
   ceres::Problem ceres_problem;
@@ -89,7 +89,7 @@ std::optional<Linearised> linearised(const LeastSquaresProblem& problem, const E
   return at;
 }
 
-/// Takes the parameters to their bounds that the linearised problem wants beyond them, and numbers these.
+/// Sets to its bound each parameter that the linearised problem would move beyond it, and returns their numbers.
 std::vector<int> take_to_bounds(const LeastSquaresProblem& problem, Eigen::VectorXd& parameters) {
   const auto at = linearised(problem, parameters);
   if (!at) return {};
@@ -104,7 +104,7 @@ std::vector<int> take_to_bounds(const LeastSquaresProblem& problem, Eigen::Vecto
   return taken;
 }
 
-/// Would the sum of squares fall beyond the bound of each of these parameters?
+/// Would the sum of squares decrease beyond the bound of each of these parameters?
 bool are_held(const LeastSquaresProblem& problem, const Eigen::VectorXd& parameters,
               const std::vector<int>& numbers) {
   const auto at = linearised(problem, parameters);
@@ -114,9 +114,9 @@ bool are_held(const LeastSquaresProblem& problem, const Eigen::VectorXd& paramet
          });
 }
 
-/// Within bounds. Where one of them is met the solver's steps, made for the whole space and cut off at the bound,
-/// creep along it: a hundred instead of ten. So what the bounds should hold is held there, and let go if they do
-/// not.
+/// A run within bounds. The solver makes its steps for the whole space and cuts them off at a bound: along a bound
+/// it needs a hundred steps instead of ten. Parameters that end at a bound are therefore held there, and released
+/// if the sum of squares does not decrease beyond the bound.
 ceres::Solver::Summary solve(const LeastSquaresProblem& problem, Eigen::VectorXd& parameters) {
   const int most_iterations = problem.most_iterations;
   constexpr int first_iterations = 4;
@@ -135,8 +135,8 @@ ceres::Solver::Summary solve(const LeastSquaresProblem& problem, Eigen::VectorXd
   return solve(problem, {}, most_iterations, parameters);
 }
 
-/// Ceres tells standard error of a fit that came to where the model ends, whatever its options say. The outcome
-/// says so too.
+/// Ceres writes to standard error when a fit reaches parameters at which the model has no value, whatever its
+/// options are. The outcome says this already.
 void keep_silent() {
   static const bool once = [] {
     FLAGS_minloglevel = google::GLOG_FATAL;
@@ -165,7 +165,7 @@ LeastSquaresFit fit(const LeastSquaresProblem& problem) {
 
   result.jacobian.resize(problem.residuals, problem.start.size());
   const bool has_value = problem.evaluate(result.parameters, result.residuals, &result.jacobian);
-  // Where rounding is all that is left no step reduces the cost any more, which Ceres counts as a failure.
+  // If only rounding is left, no step reduces the cost, which Ceres counts as a failure.
   const bool usable = summary.IsSolutionUsable() || (has_value && summary.num_successful_steps > 0);
   if (!usable || !has_value) result.outcome = {core::OutcomeKind::not_identifiable, "the fit did not converge"};
   result.sum_of_squares = result.residuals.squaredNorm();

@@ -3,8 +3,8 @@
 ///
 ///   min_p sum_i r_i(p)^2,   low <= p <= high
 ///
-/// Parameters should be of order one: scale them. Errors: `outcome`. Cost: tens of evaluations, with bounds that
-/// are met too.
+/// Parameters should be of order one: scale them. Errors: `outcome`. Cost: tens of evaluations, also if bounds are
+/// met.
 
 #include <Eigen/Core>
 #include <functional>
@@ -22,7 +22,7 @@ struct LeastSquaresProblem {
   /// Relative decrease of the sum of squares at which the fit may end. 0: at rounding.
   double tolerance = 0.0;
   int most_iterations = 200;
-  /// Fills the residuals, and their derivatives (residuals x parameters) where `jacobian` is there. False: the
+  /// Fills the residuals, and their derivatives (residuals x parameters) if `jacobian` is not null. False: the
   /// model has no value at these parameters, and the step is shortened.
   std::function<bool(const Eigen::VectorXd& parameters, Eigen::VectorXd& residuals, Eigen::MatrixXd* jacobian)>
       evaluate;
@@ -38,8 +38,8 @@ struct LeastSquaresFit {
 
 [[nodiscard]] LeastSquaresFit fit(const LeastSquaresProblem& problem);
 
-/// Covariance of the parameters for residuals of unit variance, (J^T J)^-1; nothing when the data leave a direction
-/// of the parameters undetermined, an empty one where there is none.
+/// Covariance of the parameters for residuals of unit variance, (J^T J)^-1. Nothing if the data leave a direction
+/// of the parameters undetermined; an empty matrix if there are no parameters.
 [[nodiscard]] std::optional<Eigen::MatrixXd> unit_covariance(const Eigen::MatrixXd& jacobian);
 
 }  // namespace dualdamp::identify

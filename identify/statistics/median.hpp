@@ -1,6 +1,6 @@
 #pragma once
-/// The middle one of some values, the upper of two. It is one of the values: a step of a time axis, a number of
-/// samples; Boost's median is the mean of two.
+/// The median as one of the values: the upper one of the middle two, where Boost's median is their mean. For steps
+/// of a time axis or numbers of samples.
 
 #include <vector>
 

@@ -16,7 +16,7 @@ double fourth_difference(std::span<const double> x, std::size_t i) {
   return x[i] - 4.0 * x[i + 1] + 6.0 * x[i + 2] - 4.0 * x[i + 3] + x[i + 4];
 }
 
-// Sums of the squared coefficients: what a difference makes of the variance.
+// Sums of the squared coefficients: variance of a difference over that of the noise.
 constexpr double second_gain = 6.0;
 constexpr double fourth_gain = 70.0;
 

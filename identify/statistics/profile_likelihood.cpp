@@ -19,7 +19,7 @@ struct Point {
   double deviance = 0.0;
 };
 
-/// One parameter on its way out, the other following the ridge.
+/// The profile of one parameter; the other one follows the ridge.
 class Profile {
  public:
   struct Parameter {
@@ -31,7 +31,7 @@ class Profile {
   Profile(Parameter own, Parameter other, double correlation, Deviance deviance, double half_width)
       : own_(own), other_(other), correlation_(correlation), deviance_(std::move(deviance)), limit_(half_width) {}
 
-  /// From the estimate to where the deviance has passed its limit, or to as far as it is followed.
+  /// Points from the estimate to where the deviance has passed its limit, or at most `most_steps`.
   [[nodiscard]] std::vector<Point> side(double sign) const {
     std::vector<Point> points;
     double other = other_.value;
@@ -48,7 +48,7 @@ class Profile {
     return points;
   }
 
-  /// Where the deviance reaches its limit. Its root is nearly a straight line, so false position needs few rounds.
+  /// Where the deviance reaches its limit. Its square root is nearly linear, so false position needs few rounds.
   [[nodiscard]] std::optional<double> end(const std::vector<Point>& side) const {
     Point inner{own_.value, other_.value, 0.0};
     for (const Point& outer : side) {
@@ -60,7 +60,7 @@ class Profile {
 
  private:
   static constexpr double step = 0.1;    // of the half width of the symmetric interval
-  static constexpr double beyond = 1.5;  // times the limit of the deviance are drawn
+  static constexpr double beyond = 1.5;  // the curve goes to this many times the limit of the deviance
   static constexpr int most_steps = 60;
 
   static double root_of(const Point& point) { return std::sqrt(std::max(point.deviance, 0.0)); }
@@ -79,7 +79,7 @@ class Profile {
 
   [[nodiscard]] Point best(double value, double guess) const {
     const auto along = [&](double other) { return deviance_(value, other); };
-    // At the best fit the other parameter scatters by this much; the guess is better than that.
+    // Scatter of the other parameter at the best fit; the first guess is better than that.
     const double width = other_.deviation * std::max(std::sqrt(1.0 - correlation_ * correlation_), 1e-3) + 1e-300;
     double reach = 4.0 * limit_ * width;
     constexpr int digits = 26;

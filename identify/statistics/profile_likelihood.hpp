@@ -1,12 +1,13 @@
 #pragma once
-/// Profile likelihood of zeta and F0: for each value of the one, the best fit over the other.
+/// Profile likelihood of zeta and F0: for each value of one of them, the best fit over the other.
 ///
 ///   D(theta) = min over the other parameter of (Q - Q_min)/s^2
 ///
-/// with Q the weighted sum of squares and s^2 the variance of a datum. The 95 % interval is where D <= t^2, t being
-/// Student's quantile (D is then an F statistic with one degree of freedom above). It follows the curvature of the
-/// model, which an interval of +- t standard errors does not, and the curve of the other parameter along it is the
-/// ridge on which the two trade. Source: bates1988 (chapter 6). Cost: about 2,000 evaluations of the deviance.
+/// with Q the weighted sum of squares and s^2 the variance of a datum. The 95 % interval is where D <= t^2 with
+/// Student's quantile t (D is then an F statistic with one degree of freedom above). It follows the curvature of
+/// the model, which an interval of +- t standard errors does not. The curve of the other parameter along it is the
+/// ridge on which a change of one parameter compensates a change of the other. Source: bates1988 (chapter 6). Cost:
+/// about 2,000 evaluations of the deviance.
 
 #include <functional>
 
@@ -19,9 +20,9 @@ namespace dualdamp::identify {
 using Deviance = std::function<double(double zeta, double x_f)>;
 
 /// Adds the curves `profile_zeta` and `profile_F0` and the further parameters of these names with their likelihood
-/// intervals; says so in a warning where an end is off that of the symmetric interval by more than a tenth of its
-/// width, or lies nowhere. `half_width`: t. Nothing for an estimate without standard errors, or with
-/// errors that are rounding.
+/// intervals. Warns if an end differs from that of the symmetric interval by more than a tenth of its width, or
+/// does not exist. `half_width`: t. Does nothing if the estimate has no standard errors, or errors that are only
+/// rounding.
 void add_profiles(Estimate& estimate, const Deviance& deviance, double half_width, const KnownConstants& constants);
 
 }  // namespace dualdamp::identify

@@ -13,11 +13,11 @@
 
 namespace dualdamp::identify {
 
-/// Does one more term explain more of the residuals than chance would? F test of a fit with the columns `jacobian`
+/// Does one more term explain more of the residuals than chance? F test of a fit with the columns `jacobian`
 /// against the same fit with `term` added, both linearised at the estimate. `range` is that of the data: the scale
-/// of `effect`, and of the rounding below which residuals carry no information. Nothing when no degree of freedom
-/// would be left or the term depends linearly on the columns. `spent`: degrees of freedom that went into the
-/// residuals beside the columns.
+/// of `effect`, and of the rounding below which residuals carry no information. Nothing if no degree of freedom
+/// would be left, or if the term depends linearly on the columns. `spent`: degrees of freedom used beside those of
+/// the columns.
 [[nodiscard]] std::optional<LackOfFit> added_term_test(const Eigen::MatrixXd& jacobian,
                                                        const Eigen::VectorXd& residual, const Eigen::VectorXd& term,
                                                        double range, std::string name, int spent = 0);
@@ -25,37 +25,38 @@ namespace dualdamp::identify {
 /// zeta and x_f [m] with what follows from them: c = 2 zeta sqrt(m k), F0 = k x_f.
 [[nodiscard]] ParameterSet parameters(double zeta, double x_f, const KnownConstants& constants);
 
-/// Standard errors, intervals value +- half_width std, covariance and correlation of `estimate` from the covariance
-/// of (zeta, x_f [m]).
+/// Sets standard errors, intervals value +- half_width std, covariance and correlation of `estimate` from the
+/// covariance of (zeta, x_f [m]).
 void set_uncertainty(Estimate& estimate, const Eigen::Matrix2d& covariance, double half_width,
                      const KnownConstants& constants);
 
-/// Why constants cannot be used; empty when they can. Mass and stiffness must be positive and finite.
+/// Why constants cannot be used; empty if they can. Mass and stiffness must be positive and finite.
 [[nodiscard]] std::string fault_of(const KnownConstants& constants);
 
-/// An estimate that is none: `outcome` not_identifiable with the reason.
+/// Marks that there is no estimate: `outcome` becomes not_identifiable, with the reason.
 void refuse(Estimate& estimate, std::string reason);
 
-/// Moves the 95 % intervals, where there are any, by what the method misreads. `read(theta)`: what it makes of data
-/// that the exact law gives at theta; nothing where the law has none. The truth is where it reads the estimate,
-/// which is sought in two steps, and the estimate stays what the method gives. `own`: read(estimate).
+/// Corrects the 95 % intervals, if there are any, for the bias of the method. `read(theta)`: what the method
+/// estimates from data that the exact law gives at theta; nothing if the law gives none. The truth is the theta for
+/// which the method reads the estimate; two steps find it. The estimate itself is not changed. `own`:
+/// read(estimate).
 void allow_for_misreading(Estimate& estimate, const ParameterSet& own,
                           const std::function<std::optional<ParameterSet>(const ParameterSet&)>& read);
 
 /// A signed percentage for messages: "+9.6 %".
 [[nodiscard]] std::string percent(double fraction);
 
-/// Diagnostic of one parameter that cannot be negative: it came out negative, or is not to be told from zero. A
-/// reason not to use the estimate is appended to `faults`, a lesser one to the estimate's warnings. `least`: what
-/// rounding alone makes of a parameter that is zero. `interval`: of 95 %; nullptr: there is none.
+/// Diagnostic of one parameter that cannot be negative: it came out negative, or cannot be told from zero. A reason
+/// not to use the estimate is appended to `faults`, a lesser one to the estimate's warnings. `least`: what rounding
+/// alone makes of a parameter that is zero. `interval`: of 95 %; nullptr: there is none.
 void judge_sign(double value, double least, const std::array<double, 2>* interval, const std::string& name,
                 Estimate& estimate, std::vector<std::string>& faults);
 
-/// That of zeta and of the Coulomb friction, by x_f; `least_x_f` in m.
+/// The diagnostics of zeta and of the Coulomb friction, by x_f; `least_x_f` in m.
 void judge_signs(Estimate& estimate, double least_x_f, std::vector<std::string>& faults);
 
-/// Sets `sound`, `usable` and `reason`: usable when neither `faults` nor the estimate's findings say anything, and
-/// then it rests on `basis`.
+/// Sets `sound`, `usable` and `reason`. The estimate is usable if there are neither `faults` nor findings; `basis`
+/// is then the reason.
 void conclude(Estimate& estimate, const std::vector<std::string>& faults, std::string basis);
 
 }  // namespace dualdamp::identify

@@ -12,7 +12,7 @@ namespace dualdamp::identify {
 
 namespace {
 
-/// Standard errors that the synthetic records show, and by how much the record's own are beyond chance.
+/// Standard errors on the synthetic records, and the ratio to them of errors that are larger than chance allows.
 class Errors {
  public:
   explicit Errors(Eigen::Index size) : squares_(Eigen::VectorXd::Zero(size)), largest_(squares_) {}
@@ -60,7 +60,7 @@ std::optional<BootstrapSpread> bootstrap_spread(
   BootstrapSpread spread;
   spread.bias = mean - truth;
   spread.covariance = ratio.asDiagonal() * (squares / (count - 1)) * ratio.asDiagonal();
-  // Where the record is not like the synthetic records its bias need not be theirs.
+  // If the record is not like the synthetic records, its bias need not be theirs.
   if (ratio.maxCoeff() > 1.0) spread.covariance += spread.bias * spread.bias.transpose();
   spread.half_width = quantile95(count - 1) * std::sqrt(1.0 + 1.0 / count);
   // A bias as large as the mass or the stiffness is no correction.
@@ -95,8 +95,8 @@ void set_estimate(Estimate& estimate, const ForceParameters& force, const std::o
   if (!spread) {
     estimate.value = parameters(force);
     estimate.findings.emplace_back(
-        "no interval is claimed: a mass with the estimated friction does not move as the measured one, or the "
-        "method makes nothing of its motion, or another mass or stiffness");
+        "no interval is claimed: in synthetic records with the estimated friction the mass moves otherwise than "
+        "measured, or the method finds no estimate in them, or a different mass or stiffness");
     return;
   }
   const Eigen::VectorXd& b = spread->bias;

@@ -30,7 +30,8 @@ std::size_t length_of(const RandomResponse& response) {
   return std::min(response.measured.x.size(), static_cast<std::size_t>(samples_of(response, most_periods)));
 }
 
-/// Stretches of the recorded drive under half-sine windows, two at a time, whose squares add up to one.
+/// Adds stretches of the recorded drive under half-sine windows. Two overlap at a time; their squares add up to
+/// one.
 void add_stretches(const RandomResponse& response, const core::RandomStream& random, History& drawn) {
   constexpr double periods = 0.5;
   const std::size_t available = response.measured.x.size();
@@ -55,7 +56,7 @@ bool moves(const std::vector<double>& signal) {
   return std::ranges::any_of(signal, [](double value) { return value != 0.0; });
 }
 
-/// Under the drive of `history`; an empty x where the motion is too fast for the sample rate.
+/// Motion under the drive of `history`; x is empty if the motion is too fast for the sample rate.
 void respond(const ForceParameters& law, double x0, double v0, History& history) {
   Eigen::VectorXd x;
   Eigen::VectorXd v;
@@ -64,8 +65,8 @@ void respond(const ForceParameters& law, double x0, double v0, History& history)
   history.v = followed ? std::vector<double>(v.begin(), v.end()) : std::vector<double>{};
 }
 
-/// Under white acceleration, by Euler's method with the newer velocity; friction stops the mass but does not drive
-/// it.
+/// Motion under white acceleration, by Euler's method with the new velocity. Friction stops the mass, but does not
+/// drive it.
 void respond_to_kicks(const RandomResponse& response, const core::RandomStream& random, double x, double v,
                       History& history) {
   const ForceParameters& law = response.law;

@@ -34,7 +34,7 @@ std::vector<double> vector_of(const Eigen::VectorXd& values) { return {values.be
 struct Steering {
   double stiffness = 0.0;
   double damping = 0.0;
-  std::vector<double> x, v;  ///< where to
+  std::vector<double> x, v;  ///< the motion to follow
 
   Steering() = default;
   Steering(const History& history, double mass) {
@@ -45,15 +45,15 @@ struct Steering {
     };
     x = smooth(history.x);
     v = smooth(history.v.empty() ? central_difference(history.x, history.sample_rate) : history.v);
-    // Alone with the mass, critically damped and as slow as the motion itself.
+    // With the mass alone: critically damped, with the frequency of the motion itself.
     const double omega = root_mean_square(v) / root_mean_square(x);
     stiffness = mass * omega * omega;
     damping = 2.0 * mass * omega;
   }
 };
 
-/// y and force that make `SampledOscillator` steer when its stiffness and damping are the sums of both: its y is
-/// the mean of base and record, weighted by their springs.
+/// y and force that make `SampledOscillator` steer if its stiffness and damping are those of law and steering
+/// together: its y is the mean of base and record, weighted by their stiffnesses.
 History drive_of(const History& history, const ForceParameters& law, const Steering& steering, double offset) {
   History drive;
   drive.sample_rate = history.sample_rate;
@@ -72,7 +72,7 @@ History drive_of(const History& history, const ForceParameters& law, const Steer
 
 double sign(double value) { return static_cast<double>((value > 0.0) - (value < 0.0)); }
 
-/// What drives the mass against its friction: k (y - x) + f - offset - c v.
+/// Force on the mass beside friction: k (y - x) + f - offset - c v.
 std::vector<double> pull_of(const History& history, const ForceParameters& law, double offset) {
   std::vector<double> pull(history.x.size());
   for (std::size_t i = 0; i < pull.size(); ++i)
@@ -91,7 +91,7 @@ class SyntheticHistory {
         steering_(steered ? Steering(measured, law.m) : Steering()),
         at_{law.m, law.c + steering_.damping, law.k + steering_.stiffness, law.F0, 0.0, 0.0} {}
 
-  /// With all of x, v and a, under the measured drive.
+  /// The history with all of x, v and a, under the measured drive. Nothing if the motion cannot be computed.
   [[nodiscard]] std::optional<History> history() {
     SampledOscillator model(drive_of(measured_, law_, steering_, offset_));
     Eigen::VectorXd x;
@@ -125,7 +125,7 @@ class SyntheticHistory {
   }
 
  private:
-  /// Sets the initial state that brings the motion closest to the record: Gauss and Newton's method.
+  /// Sets the initial state that brings the motion closest to the record, by Gauss-Newton steps.
   bool meet(SampledOscillator& model) {
     using By = SampledOscillator::By;
     const Eigen::Map<const Eigen::VectorXd> x_measured(measured_.x.data(),
@@ -166,7 +166,7 @@ bool close(const History& synthetic, const History& measured) {
   return root_mean_square(difference(measured.x, synthetic.x)) < of_the_motion * root_mean_square(measured.x);
 }
 
-/// Of a signal that was measured beside a synthetic motion.
+/// Noise of a signal for which there is a synthetic motion.
 struct MotionNoise {
   RobustNoiseLevel beside, own;
 
@@ -175,11 +175,11 @@ struct MotionNoise {
     beside.add(difference(measured, synthetic));
     own.add(measured);
   }
-  /// The synthetic motion has the noise of the drive in it, and the signal its jumps.
+  /// The lesser of two estimates: the synthetic motion contains noise of the drive, the signal contains jumps.
   [[nodiscard]] double deviation() const { return std::min(beside.deviation(), own.deviation()); }
 };
 
-/// Of all histories together: a sensor is the same in each.
+/// Noise levels of all histories together, because the sensors are the same.
 struct NoiseLevels {
   RobustNoiseLevel y, force, balance;
   MotionNoise x, v, a;
@@ -191,7 +191,7 @@ struct NoiseLevels {
     v.add(measured.v, synthetic.v);
     a.add(measured.a, synthetic.a);
     if (measured.y.empty() && measured.force.empty()) return;
-    // Of the forces, what neither inertia nor spring takes up; friction and damping are smooth beside it.
+    // The forces less inertia and spring. What is left is noise, beside friction and damping, which are smooth.
     const std::vector<double> acceleration =
         measured.a.empty() ? second_difference(measured.x, measured.sample_rate) : measured.a;
     std::vector<double> left(measured.x.size());
@@ -213,8 +213,9 @@ struct NoiseLevels {
   }
 };
 
-/// A drive that is read with noise moves the synthetic mass beside the measured one: the noise is no more than that
-/// motion admits, for what looks like noise at high frequency may be a drive indeed.
+/// Bounds the noise of the drive. What looks like noise at high frequency may be a real drive. Noise in the
+/// recorded drive makes the synthetic motion differ from the measured one: it cannot be larger than this difference
+/// allows.
 void bound_drive_noise(const std::vector<NumberedHistory>& histories,
                        const std::vector<SyntheticHistory>& candidates, const Record& exact, std::uint64_t seed,
                        Sensors& sensors) {
@@ -265,7 +266,7 @@ std::optional<SyntheticRecords> synthetic_records(const std::vector<NumberedHist
     const History& measured = *item.history;
     std::optional<History> history;
     for (const bool steered : {false, true}) {
-      if (!steered && truth.k == 0.0) continue;  // it would drift
+      if (!steered && truth.k == 0.0) continue;  // without a spring it would drift
       SyntheticHistory candidate(measured, truth, offset, steered);
       history = candidate.history();
       if (!history || !close(*history, measured)) continue;

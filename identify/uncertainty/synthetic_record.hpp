@@ -1,20 +1,21 @@
 #pragma once
-/// A record like a measured one whose truth is known: free of noise it obeys
+/// A record like a measured one, whose truth is known. Without noise it obeys
 ///
 ///   m a + c v + F0 sgn v + k (x - y) + offset = f
 ///
-/// exactly, with friction that is the same at rest, and its motion stays close to the measured one; beside it the
-/// noise of the measured signals.
+/// exactly, with static friction F0, and its motion is close to the measured one. The noise of the measured signals
+/// is added to it.
 ///
-/// Motion of the synthetic record: that of a system with these parameters under the recorded drive
-/// (`sampled_oscillator.hpp`), from the initial state that brings it closest to the record. A mass that would
-/// drift, having no spring, or move more than a tenth beside the record, is held to it by a spring and damper,
-/// whose force is added to the synthetic record's. Noise of x, v and a: what is left of them beside the synthetic
-/// motion, at high frequency, where the law plays no part. Noise of y and force: their own at high frequency; at
-/// most what the balance of forces leaves there, and what would move the synthetic mass as far as it lies beside
-/// the record.
+/// Motion: that of a system with these parameters under the recorded drive (`sampled_oscillator.hpp`), from the
+/// initial state that brings it closest to the record. A mass without a spring would drift, and a mass may differ
+/// from the record by more than a tenth. Such a mass is held to the record by a spring and a damper, whose force is
+/// added to the force of the synthetic record.
 ///
-/// Cost: about 2 us a sample; of a synthetic record, 50 ns a sample and noisy signal.
+/// Noise of x, v and a: the difference between record and synthetic motion at high frequency, where the law plays
+/// no part. Noise of y and force: their own at high frequency, with two upper bounds: what the balance of forces
+/// leaves there, and what would move the synthetic mass as far as it differs from the record.
+///
+/// Cost: about 2 us a sample, and for each synthetic record 50 ns a sample and noisy signal.
 
 #include <cstdint>
 #include <optional>
@@ -27,8 +28,8 @@
 
 namespace dualdamp::identify {
 
-/// Seed from the record itself (FNV-1a over the bits of x): another record has other draws, so that over many
-/// records an interval holds as often as its t quantile says.
+/// Seed from the record itself (FNV-1a over the bits of x). Different records have different draws, so that over
+/// many records the intervals have the coverage of their t quantile.
 [[nodiscard]] std::uint64_t seed_of(const std::vector<NumberedHistory>& histories);
 
 struct SyntheticRecords {
@@ -36,12 +37,12 @@ struct SyntheticRecords {
   Sensors sensors;
   std::uint64_t seed = 0;  ///< from the measured record
 
-  /// With noise: other noise for each number, the same at every call.
+  /// The record with noise: other noise for each number, the same at every call.
   [[nodiscard]] Record record(int number) const;
 };
 
-/// Parameters that drive instead of damp count as zero in the synthetic record, and `truth` is set so.
-/// Nothing when the law with these parameters does not follow the measured motion.
+/// A negative c or F0 is set to zero, in `truth` as well. Nothing if the law with these parameters does not follow
+/// the measured motion.
 [[nodiscard]] std::optional<SyntheticRecords> synthetic_records(const std::vector<NumberedHistory>& histories,
                                                                 ForceParameters& truth, double offset);
 

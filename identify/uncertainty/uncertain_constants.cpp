@@ -15,7 +15,7 @@ namespace dualdamp::identify {
 
 namespace {
 
-/// What is measured, with the constants it is read with.
+/// A record and the constants that it is read with.
 struct Input {
   Record record;
   KnownConstants constants;
@@ -54,14 +54,14 @@ void multiply_x(Input& input, double factor) {
   multiply(input.record, &History::x, factor);
 }
 
-/// A speed that was read off v changes with the gain of v.
+/// A mean square speed from v changes with the square of the gain of v.
 void multiply_v(Input& input, double factor) {
   if (input.record.pairs)
     for (Pair& pair : input.record.pairs->pairs) pair.mean_square_speed *= factor * factor;
   multiply(input.record, &History::v, factor);
 }
 
-/// One constant that may be off, and how an input looks when it is `factor` times as large.
+/// One constant that may be off. `multiply` makes an input in which it is `factor` times as large.
 struct Constant {
   std::string_view name;
   void (*multiply)(Input& input, double factor);
@@ -98,11 +98,11 @@ constexpr std::array<Constant, 8> all_constants = {{
      [](const ConstantUncertainties& u, const KnownConstants&) { return u.gain_force; }, holds<&History::force>},
 }};
 
-/// The estimates with one constant lower and higher than stated; where one of them fails, that as stated stands in.
+/// The estimates with one constant lower and higher than stated. If one fails, the stated one is in its place.
 struct Bracket {
   const Estimate* low = nullptr;
   const Estimate* high = nullptr;
-  double step = 0.0;  ///< from low to high, in the constant's deviation
+  double step = 0.0;  ///< from low to high, in deviations of the constant
 };
 
 /// A record read again with one constant off.
@@ -111,7 +111,7 @@ class Variation {
   Variation(const Reader& read, const Input& input, const Estimate& stated)
       : read_(read), input_(input), stated_(stated) {}
 
-  /// The estimates at both sides, `deviation` being relative.
+  /// The estimates at both sides; `deviation` is relative.
   [[nodiscard]] std::optional<Bracket> at(const Constant& constant, double deviation) {
     low_ = run(constant, 1.0 - deviation);
     high_ = run(constant, 1.0 + deviation);
@@ -147,9 +147,9 @@ constexpr std::array<Member, 4> members = {{{&ParameterSet::zeta, &ParameterInte
                                             {&ParameterSet::x_f, &ParameterIntervals::x_f},
                                             {&ParameterSet::F0, &ParameterIntervals::F0}}};
 
-/// A method that knows its bias states it in its interval alone: the middle of that moves with a constant that the
-/// bias depends on, though the value stays. The joint model, which is no method of the list, has no bias, and its
-/// intervals reach over what is nearly seen.
+/// The value corrected for bias. A method that knows its bias corrects only its interval for it: if the bias
+/// depends on a constant, only the middle of the interval shows this. The joint model is not in the list of
+/// methods: it has no bias, and its intervals cover what is nearly seen.
 double corrected(const Estimate& estimate, const Member& member) {
   if (!estimate.interval95 || find_method(estimate.method) == nullptr) return estimate.value.*member.value;
   const auto& [low, high] = (*estimate.interval95).*member.interval;
@@ -163,7 +163,7 @@ double difference(const Bracket& bracket, const Member& member) {
   return change / bracket.step;
 }
 
-/// By the name of the parameter; nothing where one of the estimates lacks it.
+/// The same for a further parameter of this name; nothing if one of the estimates lacks it.
 std::optional<double> difference(const Bracket& bracket, const std::string& name) {
   const auto find = [&name](const Estimate& estimate) {
     return std::ranges::find(estimate.others, name, &FurtherParameter::name);
@@ -201,8 +201,8 @@ void add(const Bracket& bracket, Estimate& estimate) {
   }
 }
 
-/// Of a parameter from one estimate to another; zero where it is zero, NaN where there is none: zeta without a
-/// spring.
+/// Relative change of a parameter from one estimate to another. Zero if the value is zero; NaN if there is none, as
+/// for zeta without a spring.
 double relative_change(const Estimate& from, const Estimate& to, const Member& member) {
   const double value = corrected(from, member);
   return value == 0.0 ? 0.0 : (corrected(to, member) - value) / value;

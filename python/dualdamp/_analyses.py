@@ -1,4 +1,4 @@
-"""A function for each analysis, with the signature and the docstring that its table gives."""
+"""A function for each analysis, with signature and docstring from the table of the analysis."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ _COMMON = [
     {"name": "numerics", "values": "mapping", "required": False, "meaning": "tolerance, solver and verification, as in a scenario file"},
     {"name": "title", "values": "str", "required": False, "meaning": "a title in one line"},
     {"name": "out", "values": "path", "required": False, "meaning": "directory for the files that the program writes"},
-    {"name": "threads", "values": "int", "required": False, "meaning": "at most so many; default: all cores"},
+    {"name": "threads", "values": "int", "required": False, "meaning": "largest number of threads; default: all cores"},
     {"name": "progress", "values": "callable or True", "required": False, "meaning": "as in `run`"},
 ]
 _EXAMPLES = {
@@ -44,7 +44,7 @@ def _run_analysis(name, system, excitation, keys):
 
 
 def docs_of(item, example=None):
-    """The docstring of an analysis, as lines."""
+    """The lines of the docstring of an analysis."""
     keys = [key for key in item["keys"]]
     lines = [item["summary"][:1].upper() + item["summary"][1:] + "."]
     lines += _tables.section(
@@ -53,13 +53,13 @@ def docs_of(item, example=None):
             "system : System or mapping",
             "    The oscillator.",
             "excitation : Excitation or mapping, optional",
-            "    What drives it; default: nothing.",
+            "    The excitation; default: none.",
             *_tables.parameter_docs([*keys, *_COMMON]),
         ],
     )
     results = [f"``{field['path']}``" + (f" [{field['unit']}]" if field["unit"] not in ("", "1") else "") + f": {field['meaning']}" for field in item["results"]]
     lines += _tables.section("Returns", ["Result", *[f"    {line}" for line in results]])
-    lines += _tables.section("Raises", ["InvalidScenario, NumericalFailure, CheckFailed", "    As `run`."])
+    lines += _tables.section("Raises", ["InvalidScenario, NumericalFailure, CheckFailed", "    As in `run`."])
     if example is not None:
         lines += _tables.section(
             "Examples",
@@ -82,7 +82,7 @@ def function(name):
     def analyse(system, excitation=None, **keys):
         return _run_analysis(name, system, excitation, _tables.as_keys(keys))
 
-    # An analysis that has a common key of its own, such as initial of a free decay, keeps it.
+    # If an analysis has a common key itself, such as `initial` of a free decay, its own key is used.
     known = {key["name"] for key in item["keys"]}
     common = [key for key in _COMMON if key["name"] not in known]
     either = inspect.Parameter.POSITIONAL_OR_KEYWORD

@@ -1,4 +1,4 @@
-"""Checks of arguments before the libraries see them: what is wrong is said by its name."""
+"""Checks of arguments before they reach the libraries. A message names the wrong argument."""
 
 from __future__ import annotations
 
@@ -16,17 +16,17 @@ _MOST_THREADS = 1024
 
 
 def path_text(value, name="a path"):
-    """The text of a path."""
+    """The text of a path. Raises ValueError, with `name`, for an empty path or one with a null character."""
     text = os.fsdecode(value)
     if not text:
         raise ValueError(f"{name} is empty")
-    if "\0" in text:  # what stands before it would be taken for the name
+    if "\0" in text:  # the operating system would cut the name there
         raise ValueError(f"{name} holds a null character: {text!r}")
     return text
 
 
 def thread_count(threads):
-    """At most so many threads; 0: all cores."""
+    """The number of threads as an int; 0: all cores. Raises TypeError or ValueError."""
     try:
         count = operator.index(threads)
     except TypeError:
@@ -37,13 +37,13 @@ def thread_count(threads):
 
 
 def refuse_masked(name, array):
-    """Numbers behind a mask would be used like the others."""
+    """Refuses an array with masked values: the numbers behind the mask would be used."""
     if isinstance(array, np.ma.MaskedArray) and np.ma.is_masked(array):
         raise ValueError(f"{name} has masked values: leave them out, or fill them, before they are used")
 
 
 def refuse_twice(function, options, names):
-    """Options that are the function's own."""
+    """Refuses options that the function itself sets."""
     for name in names:
         if name in options:
             raise TypeError(f"{function} has no option {name!r}")

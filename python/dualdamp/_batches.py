@@ -12,18 +12,18 @@ from ._run import close, reporter
 
 
 class SteadyStates:
-    """Steady states of many oscillators; where all parameters are numbers, of one.
+    """Steady states of many oscillators, or of one if all parameters are numbers.
 
     Attributes
     ----------
     amplitude, peak, trough : float or ndarray
         (peak - trough)/2, max x, min x [m]. NaN where there is no steady state.
     phase : float or ndarray
-        Lag of the fundamental of x behind the drive [rad], in [0, 2 pi).
+        Phase lag of the fundamental of x behind the drive [rad], in [0, 2 pi).
     multiplier : float or ndarray
-        Largest modulus of a Floquet multiplier of the full period.
+        Largest modulus of the Floquet multipliers over one forcing period.
     stops : int or ndarray
-        Stops in a period.
+        Number of stops in a period.
     outcome : str or ndarray of str
         ``"done"``, or why there is no steady state: ``"no_steady_state"``, ``"not_unique"``, ``"event_limit"``, ....
     """
@@ -83,49 +83,49 @@ def steady_state(
     progress=None,
     **keys,
 ):
-    """The steady state under a harmonic excitation: of any system, or of arrays of oscillators with Coulomb friction.
+    """The steady state of a system, or of arrays of oscillators with Coulomb friction, under a harmonic excitation.
 
-    ``steady_state(system, excitation)`` runs a scenario, with any friction law. Without a system the parameters are SI numbers or
-    arrays, which are broadcast; many oscillators at once are computed in vector registers on all cores.
+    ``steady_state(system, excitation)`` runs a scenario, with any friction law. Without a system, the parameters are numbers or
+    arrays in SI. Arrays are broadcast, and their oscillators are computed in vector registers on all cores.
 
     Parameters
     ----------
     system : System or mapping, optional
         The oscillator.
     excitation : Excitation or mapping, optional
-        A harmonic one.
+        A harmonic excitation.
     mass, stiffness : array_like
         kg and N/m, > 0.
     damping, zeta : array_like
-        Viscous damping c [N.s/m], or c / (2 sqrt(m k)); one of the two.
+        Viscous damping c [N.s/m], or damping ratio c / (2 sqrt(m k)) [1]; one of the two.
     F0 : array_like
         Kinetic friction force [N], >= 0.
     static : array_like, optional
-        Static force limit [N], >= F0; default: F0.
+        Static friction force [N], >= F0; default: F0.
     Y, force : array_like
         Amplitude of the base [m], or of a force on the mass [N]; one of the two.
     omega : array_like, optional
         Frequency of the drive [rad/s], > 0; default: sqrt(k/m).
     damper_to : {"ground", "base"}, optional
-        Other end of the damper; default: ground. A system has its own.
+        Other end of the damper; default: ground. Only without a system; a system has this key itself.
     threads : int, optional
-        At most so many; 0: all cores.
+        Largest number of threads; 0: all cores.
     progress : callable or True, optional
-        As in `run`, where there are more oscillators than some hundred thousand.
+        As in `run`; called if there are more than some hundred thousand oscillators.
     **keys
-        With a system: further parts of the scenario, ``initial`` and ``numerics``; ``out`` as in `run`.
+        Only with a system: the sections ``initial`` and ``numerics`` of the scenario; ``out`` as in `run`.
 
     Returns
     -------
     Result or SteadyStates
-        A Result for a system, SteadyStates for arrays. These agree with the result of a scenario to rounding, not to the bit.
+        A Result for a system, SteadyStates for arrays. SteadyStates agree with the result of a scenario to rounding, not to the bit.
 
     Raises
     ------
     InvalidScenario
         A value is out of range.
     NumericalFailure
-        There is no steady state, where one is asked for. In an array it is NaN, and its outcome says why.
+        A single steady state does not exist. In an array, a missing steady state is NaN, and its outcome says why.
 
     Examples
     --------
@@ -179,7 +179,7 @@ def steady_state(
 
 
 def _numbers(name, value):
-    """In double precision: products of small integers, or of float32, would overflow or be rounded."""
+    """The value in double precision. Products of small integers would overflow, products of float32 would be rounded."""
     if value.__class__ is int:
         return float(value)
     refuse_masked(name, value)
@@ -189,7 +189,7 @@ def _numbers(name, value):
     return float(array) if array.ndim == 0 else array.astype(np.float64, copy=False)
 
 
-# Of a mass or a stiffness out of range any value will do: the core refuses the mass or the stiffness itself.
+# If the mass or the stiffness is out of range, the values of these functions do not matter: the core refuses the mass or stiffness.
 
 
 def _damping(zeta, mass, stiffness):

@@ -1,4 +1,4 @@
-"""The stress test as a benchmark that methods written in Python, and programs outside, take part in."""
+"""The stress test as a benchmark for methods written in Python and for other programs."""
 
 from __future__ import annotations
 
@@ -16,22 +16,22 @@ from ._library import core
 from ._run import run_source, source_of
 from ._systems import quantity
 
-# Of a row of answers; docs/benchmark.md says what each means.
+# Columns of a row of answers; docs/benchmark.md explains them.
 _COLUMNS = ("zeta", "F0", "zeta_low", "zeta_high", "F0_low", "F0_high", "p_value", "usable")
 
 
 @dataclass(frozen=True, eq=False)
 class Case:
-    """What a laboratory has of one rig: records and constants, and no word of the truth.
+    """The records and constants that a laboratory has of one rig, without the truth.
 
     Attributes
     ----------
     number : int
-        Of the case, from 1; cases are in a random order.
+        Number of the case, from 1. Cases are in random order.
     mass, stiffness, frequency : float
-        As the laboratory believes them to be [kg, N/m, rad/s].
+        The values that the laboratory measured [kg, N/m, rad/s]; they may be wrong.
     sigma_x, sigma_Y : float
-        Standard deviation of an amplitude by the noise of the sensors [m].
+        Standard deviation of a measured amplitude, from the noise of the sensors [m].
     record : numpy.ndarray
         Structured array in SI: steady states with ``Y``, ``x``, perhaps ``omega``, ``phase``, ``fundamental``,
         ``mean_square_speed``, ``sweep``; or histories, ``t``, ``x``, ``y``, ``v``, ``a``, ``force``.
@@ -52,7 +52,7 @@ class Case:
     random: np.ndarray | None = None
 
     def identify(self, **options):
-        """`dualdamp.identify` of the record on the constants of the case; `options` are its own."""
+        """Calls `dualdamp.identify` with the record and the constants of the case. `options` are those of `identify`."""
         units = {name: unit for name, unit in (("omega", "rad/s"), ("phase", "rad")) if name in self.record.dtype.names}
         frequency = quantity(self.frequency, "rad/s")
         return identify(self.record, mass=self.mass, stiffness=self.stiffness, frequency=frequency, units=units, **options)
@@ -64,17 +64,17 @@ def benchmark(scenario, methods, *, changes=None, seed=None, out=None, threads=0
     Parameters
     ----------
     scenario : mapping, str or path
-        With the analysis ``stress_test``, such as ``"scenarios/stress/benchmark.yaml"``.
+        A scenario with the analysis ``stress_test``, such as ``"scenarios/stress/benchmark.yaml"``.
     methods : mapping of str to callable
         Each is called as ``method(case)`` with a `Case`, and returns a mapping with any of ``zeta``, ``F0``, ``zeta_low``,
-        ``zeta_high``, ``F0_low``, ``F0_high`` (95 % intervals), ``p_value``, ``usable``; or None. Without ``zeta`` or without
-        ``F0`` it is no answer.
+        ``zeta_high``, ``F0_low``, ``F0_high`` (95 % intervals), ``p_value``, ``usable``; or None. A mapping without ``zeta`` or
+        without ``F0`` counts as no answer.
     changes : mapping, optional
-        Values laid over the scenario, as in `run`.
+        Values that replace those of the scenario, as in `run`.
     seed : int, optional
-        Of all noise. Default: drawn at random.
+        Seed of all noise. Default: drawn at random.
     out, threads, progress
-        As in `run`; `progress` is that of the program's own methods.
+        As in `run`; `progress` counts the cases of the program's own methods.
 
     Returns
     -------
@@ -84,11 +84,11 @@ def benchmark(scenario, methods, *, changes=None, seed=None, out=None, threads=0
     Raises
     ------
     InvalidScenario
-        The scenario is no stress test; or an answer is none, by the number of its case.
+        The scenario is no stress test, or an answer is invalid; the message names the case.
 
     Notes
     -----
-    Exceptions of a method end the benchmark; a note says in which case. A method is called for one case at a time.
+    An exception of a method ends the benchmark; a note of the exception names the case. A method is called for one case at a time.
 
     Examples
     --------
@@ -109,18 +109,18 @@ def benchmark(scenario, methods, *, changes=None, seed=None, out=None, threads=0
 
 
 def stress_export(scenario, directory, *, changes=None, seed=None, threads=0):
-    """Write the records of all cases of a stress test, their constants, and the key to them.
+    """Write the records and constants of all cases of a stress test, and the key.
 
     Parameters
     ----------
     scenario, changes
         As in `benchmark`.
     directory : path
-        For ``cases/``, ``constants.csv`` and ``key.json``; docs/benchmark.md says what they hold. `cases` reads them.
+        Directory for ``cases/``, ``constants.csv`` and ``key.json``; docs/benchmark.md explains them. `cases` reads them.
     seed : int, optional
-        Of all noise. Default: a hidden one, drawn at random.
+        Seed of all noise. Default: a hidden one, drawn at random.
     threads : int, optional
-        At most so many; 0: all cores.
+        Largest number of threads; 0: all cores.
 
     Returns
     -------
@@ -143,7 +143,7 @@ def cases(directory):
     Parameters
     ----------
     directory : path
-        Of an export, with or without its key.
+        Directory of an export, with or without the key.
 
     Yields
     ------
@@ -158,7 +158,7 @@ def cases(directory):
 
 
 def stress_score(scenario, key, answers, *, changes=None, out=None, threads=0, progress=None):
-    """Score answers to an exported stress test beside the methods.
+    """Score answers to an exported stress test beside the methods of the program.
 
     Parameters
     ----------
@@ -167,9 +167,9 @@ def stress_score(scenario, key, answers, *, changes=None, out=None, threads=0, p
     key : path
         ``key.json`` of the export.
     answers : mapping of str to path or columns
-        By the name of who takes part: a file of answers, or its columns as a DataFrame, a structured array or a dict.
+        By the name of the participant: a file of answers, or its columns as a DataFrame, a structured array or a dict.
     out, threads, progress
-        As in `run`. A second call with the same `out` scores only: the answers of the methods are there.
+        As in `run`. A second call with the same `out` only scores, because the estimates of the methods are stored there.
 
     Returns
     -------
@@ -179,14 +179,14 @@ def stress_score(scenario, key, answers, *, changes=None, out=None, threads=0, p
     Raises
     ------
     InvalidScenario
-        A key of another stress test; answers that are none, with their place.
+        The key is that of another stress test, or answers are invalid; the message has their places.
     """
     with tempfile.TemporaryDirectory() as folder:
         files = []
         for i, (name, columns) in enumerate(answers.items()):
             path = columns
             if not isinstance(columns, (str, os.PathLike)):
-                # Messages name the file: who takes part, as far as a file can be named so.
+                # Messages name the file, so it gets the name of the participant where that is a valid file name.
                 path = Path(folder) / str(i) / (name if name.isidentifier() else "answers")
                 path.parent.mkdir()
                 path.write_text(in_memory(columns))
@@ -195,7 +195,7 @@ def stress_score(scenario, key, answers, *, changes=None, out=None, threads=0, p
 
 
 def _table(path):
-    """A structured array from a file that the program wrote; units of the names are SI."""
+    """A structured array from a file that the program wrote, in SI."""
     with open(path) as file:
         names = [name.split(" ")[0] for name in file.readline().strip().split(",")]
         numbers = np.loadtxt(file, delimiter=",", ndmin=2)

@@ -14,13 +14,13 @@ class Diagnostic:
     message : str
         What is wrong.
     file : str
-        The file, or what stands for it: ``scenario`` for a text or a dict.
+        The name of the file; ``scenario`` if the scenario is a text or a dict.
     line, column : int
-        The place in the file, from 1; 0 where it is not known. Of a dict, the place in its text (`scenario_text`).
+        The place in the file, from 1; 0 if it is not known. If the scenario is a dict, the place in its text as YAML.
     text : str
         The line itself.
     allowed, found, suggestion : str
-        What would have been accepted, what stood there, and what was perhaps meant; empty where there is nothing to say.
+        What is accepted, what was found, and what was perhaps meant; empty if there is nothing to say.
     """
 
     message: str
@@ -34,16 +34,16 @@ class Diagnostic:
 
 
 class DualdampError(Exception):
-    """What every exception of the package is."""
+    """Base class of all exceptions of the package."""
 
 
 class InvalidScenario(DualdampError, ValueError):
-    """A scenario, or its data, cannot be run. Its text is the program's message, with every problem at once.
+    """A scenario or its data are invalid. The text of the exception is the program's message, with all problems.
 
     Attributes
     ----------
     diagnostics : tuple of Diagnostic
-        Each problem by its parts.
+        The parts of each problem.
     """
 
     def __init__(self, message, diagnostics=()):
@@ -64,7 +64,7 @@ class _WithResult(DualdampError):
 
 
 class NumericalFailure(_WithResult, ArithmeticError):
-    """The scenario is valid, and there is no result. Its text says why: there is no steady state, a law broke its contract, ...
+    """The scenario is valid, but there is no result. The text of the exception says why: no steady state, a law broke its contract, ...
 
     Attributes
     ----------
@@ -74,7 +74,7 @@ class NumericalFailure(_WithResult, ArithmeticError):
 
 
 class CheckFailed(_WithResult, AssertionError):
-    """A value differs from the one that the scenario expects, or the verification by another engine disagrees.
+    """A value differs from the one that the scenario expects, or the verification found a difference.
 
     Attributes
     ----------
@@ -88,4 +88,4 @@ class OutputError(DualdampError, OSError):
 
 
 class IncompleteResult(UserWarning):
-    """There is a result, and something in it is missing: an identification without an answer, a campaign with failed cases."""
+    """There is a result, but a part of it is missing: an identification without an answer, a stress test with failed cases."""

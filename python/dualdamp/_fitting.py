@@ -1,4 +1,4 @@
-"""Fitting of laws and constants to records, and prediction of other records by them."""
+"""Fitting of laws and constants to records, and prediction of other records."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from ._run import run_source, source_of
 from ._scenario import flow, plain
 from ._systems import as_mapping
 
-# What each record has of its own; a prediction fits it anew.
+# Parameters of a single record, which a prediction fits anew.
 _OF_RECORDS = ("position", "velocity", "offset", "release")
 
 
@@ -33,30 +33,30 @@ def fit(
     threads=0,
     **options,
 ):
-    """Fit a friction law, and the rig around it, to records.
+    """Fit the parameters of a friction law and of the rig to records.
 
-    What is not stated is sought: mass, stiffness, damping and the required numbers of the law.
+    The fit seeks every parameter that is not stated: mass, stiffness, damping and the required parameters of the law.
 
     Parameters
     ----------
     law : str, Law, mapping or list of str
-        A law by its name; or with some of its numbers stated, ``{"law": "lugre", "sigma2": 0}``; several names fit each law by
-        itself and compare them.
+        The name of a law; or a law with some of its parameters stated, ``{"law": "lugre", "sigma2": 0}``. A list of names fits
+        each of these laws separately and compares them.
     data : path, DataFrame, structured array, mapping of str to array_like, or list of such
-        One record or several of one rig, as for `identify`; docs/fit.md says what is compared.
+        One or several records of one rig, as in `identify`. docs/fit.md says what is compared.
     mass, stiffness, damping : str or float, optional
-        Constants that are known.
+        Known constants.
     frequency, amplitude : str, optional
-        Of the harmonic motion of the base: ``"4 Hz"``, ``"5 mm"``.
+        Frequency and amplitude of the harmonic motion of the base: ``"4 Hz"``, ``"5 mm"``.
     excitation : Excitation or mapping, optional
-        Another drive, in place of the two.
+        Another drive, in place of `frequency` and `amplitude`.
     initial : mapping, optional
-        The state at the start of histories, where it is known.
+        The state at the start of the histories, if it is known.
     validate : like data, optional
-        Records that are predicted with the fitted numbers, not fitted.
+        Records that are not fitted, but predicted with the fitted parameters.
     record : mapping or list of mapping, optional
-        What the data do not say of themselves: ``{"units": {"x": "mm"}, "sigma_x": "2 um", "loop": True}``. One mapping holds for all
-        of them; a list has one for each, those of `validate` behind those of `data`.
+        Statements about the records: ``{"units": {"x": "mm"}, "sigma_x": "2 um", "loop": True}``. One mapping applies to all records.
+        A list has one mapping for each record, first those of `data`, then those of `validate`.
     out, threads
         As in `run`.
     **options
@@ -65,8 +65,8 @@ def fit(
     Returns
     -------
     Result
-        ``parameters``, ``not_identifiable``, ``residual``, ``validation``, ``scenario``: the text of the fitted rig, which `run`
-        takes as ``result.result.scenario``.
+        ``parameters``, ``not_identifiable``, ``residual``, ``validation``, ``scenario``. The last one is the text of the fitted rig;
+        write ``result.result.scenario`` for it, since ``result.scenario`` is the scenario of the fit. `run` takes this text.
 
     Raises
     ------
@@ -101,23 +101,23 @@ def fit(
 
 
 def predict(fitted, data, *, excitation=None, record=None, out=None, threads=0):
-    """Predict other records of a rig by a fit, and say whether they contradict it.
+    """Predict other records of a rig with the parameters of a fit, and say whether they contradict the fit.
 
     Parameters
     ----------
     fitted : Result
-        Of `fit`.
+        The result of `fit`.
     data, record
-        As for `fit`.
+        As in `fit`.
     excitation : Excitation or mapping, optional
-        The drive of these records, where it is another one.
+        The drive of these records, if it is not that of the fit.
     out, threads
         As in `run`.
 
     Returns
     -------
     Result
-        The analysis ``predict``: errors, what is attainable, and the verdict.
+        Result of the analysis ``predict``: the error, the attainable error, and a statement whether the law is wrong.
 
     Raises
     ------
@@ -145,7 +145,7 @@ def _listed(data):
 
 
 def _records(data, record, texts):
-    """The value of the key `data`; what lies in memory goes to `texts`."""
+    """The value of the key `data`. The text of data in memory is added to `texts`."""
     said = list(record) if isinstance(record, (list, tuple)) else [record] * len(data)
     if len(said) != len(data):
         raise ValueError(f"there are {len(data)} records, and 'record' says something of {len(said)}")

@@ -11,7 +11,7 @@ from ._arguments import path_text, refuse_masked, refuse_twice
 from ._library import core
 from ._run import run_source, source_of
 
-# Stands for a file where data lie in memory.
+# In place of the name of a file, if the data are in memory.
 _IN_MEMORY = "data"
 
 
@@ -38,17 +38,18 @@ def identify(
     data : path, pandas.DataFrame, structured array or mapping of str to array_like
         A CSV, MATLAB or universal file; or columns by name: ``Y`` and ``x`` (amplitudes), ``t`` with ``x``, ``y``, ``v``, ``a``,
         ``force`` (histories), ``x`` alone (extremes of a free vibration), ``omega``, ``phase``, ``sweep``, .... A name may have a
-        unit, ``"x [mm]"``; without one numbers are SI. docs/data-files.md says all.
+        unit, ``"x [mm]"``; without one, the numbers are in SI. docs/data-files.md has the details.
     mass, stiffness : str or float, optional
-        Constants of the rig: ``"1.042 kg"``, also with their uncertainty, ``"1.042 kg +- 0.5 %"``.
+        Constants of the rig: ``"1.042 kg"``. An uncertainty may follow: ``"1.042 kg +- 0.5 %"``.
     frequency : str, optional
-        Of the drive, with its unit: ``"6.17 Hz"``.
+        Forcing frequency with its unit: ``"6.17 Hz"``.
     gravity_stiffness, coordinate : optional
-        Of a pendulum, and ``"angle"`` where x is one, as in a scenario file.
+        Gravity stiffness of a pendulum; ``"angle"`` if x is an angle. As in a scenario file.
     methods : list of str, optional
-        Default: all that fit the data. ``print(dualdamp.methods)`` lists them.
+        Names of methods; default: all that can read the data. ``print(dualdamp.methods)`` lists them.
     units, columns, scale : mapping, optional
-        What the data do not say of themselves: ``{"x": "mm"}``, ``{"x": "LVDT 2"}``, ``{"x": "2.5 mm/V"}``.
+        Unit, name and scale of a column, if the data do not state them: ``{"x": "mm"}``, ``{"x": "LVDT 2"}``,
+        ``{"x": "2.5 mm/V"}``.
     out, threads
         As in `run`.
     **options
@@ -57,14 +58,12 @@ def identify(
     Returns
     -------
     Result
-        ``answer`` (None where no method can be trusted; then ``answer_reason`` says why), ``estimates``, ``assumptions``,
-        ``verdict``.
+        ``answer`` (None if no method can be trusted; then ``answer_reason`` says why), ``estimates``, ``assumptions``, ``verdict``.
 
     Raises
     ------
     InvalidScenario
-        The data or the constants are not what an identification needs; every problem with its place. Row i of an array is line
-        i + 2.
+        The data or the constants are invalid. The message has all problems with their places; row i of an array is line i + 2.
     NumericalFailure
         No method gives an estimate.
 
@@ -90,12 +89,12 @@ def identify(
 def next(  # noqa: A001, of the package it is dualdamp.next, as the command is
     data, *, mass=None, stiffness=None, frequency=None, units=None, columns=None, scale=None, out=None, threads=0, **options
 ):
-    """Say which measurement would narrow the ranges over friction laws that a record leaves.
+    """Find the measurements that would narrow the ranges over friction laws of a record.
 
     Parameters
     ----------
     data, mass, stiffness, frequency, units, columns, scale
-        As for `identify`; the data are steady states.
+        As in `identify`; the data are steady states.
     out, threads
         As in `run`.
     **options
@@ -104,12 +103,12 @@ def next(  # noqa: A001, of the package it is dualdamp.next, as the command is
     Returns
     -------
     Result
-        ``candidates``: what to measure, the best first; ``advice``: the same in words.
+        ``candidates``: measurements, the best one first; ``advice``: the same in words.
 
     Raises
     ------
     InvalidScenario
-        As `identify`; also for data that are no steady states.
+        As in `identify`; also for data that are no steady states.
 
     Examples
     --------
@@ -144,7 +143,7 @@ def in_memory(data):
 
 
 def _columns_of(data):
-    """[(head, numbers or texts)] and their length."""
+    """A list of (heading, numbers or texts), and the number of rows."""
     if isinstance(data, np.ndarray):
         if data.dtype.names is None:
             raise TypeError("an array of data needs names: a structured array, a DataFrame, or a dict of columns such as {'Y': ..., 'x': ...}")
@@ -171,5 +170,5 @@ def _cells(name, values):
 
 
 def _head(text):
-    """A field of a CSV file."""
+    """A text as a field of a CSV file, quoted where needed."""
     return '"' + text.replace('"', '""') + '"' if any(c in text for c in ',"\n#') else text

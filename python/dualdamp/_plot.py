@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-# Abscissa and ordinates of the tables that have a natural chart; an ordinate that a table lacks is left out.
+# Possible abscissas and ordinates of the chart of a table. The first abscissa that the table has is drawn, and all ordinates that it has.
 _CHARTS = {
     "curve": (("Y", "omega"), ("x",)),
     "branch": (("Y", "omega"), ("x",)),
@@ -17,7 +17,7 @@ def _label(name, unit):
 
 
 def _chart_of(name, columns):
-    """(abscissa, ordinates)"""
+    """The abscissa and the ordinates of the chart of a table; None: it has no chart."""
     abscissas, ordinates = _CHARTS.get(name, ((), ()))
     first = next((column for column in abscissas if column in columns), None)
     drawn = [column for column in ordinates if column in columns]

@@ -1,7 +1,7 @@
 """Friction laws written in Python or C.
 
-A law crosses the border as a table of C functions (friction_models/dualdamp_law.h), the same as that of a plugin; here the
-functions are Python's, or compiled from a C text. Names and layout of the structures are those of the header.
+A law is handed to the libraries as a table of C functions (friction_models/dualdamp_law.h), as a plugin is. Here the functions are
+those of a Python class, or compiled from a C text. Names and layout of the structures are those of the header.
 """
 
 from __future__ import annotations
@@ -26,14 +26,14 @@ _Doubles = c.POINTER(c.c_double)
 
 
 class Instant(c.Structure):
-    """The mass at one instant, as a law of Python sees it.
+    """The state of the mass at one instant, for a law written in Python.
 
     Attributes
     ----------
     t, x, v : float
         Time [s], position [m], velocity [m/s].
     direction : int
-        Of slip: -1 or 1; 0 while the mass sticks. Write ``direction * v`` where the formula has the absolute value of v.
+        Direction of slip: -1 or 1; 0 while the mass sticks. Write ``direction * v`` for the absolute value of v.
     """
 
     _fields_ = [
@@ -47,7 +47,7 @@ class Instant(c.Structure):
     ]
 
     def limit(self, nominal):
-        """The force limit that is `nominal` without modifiers (drift, fluctuation, ...), at this instant."""
+        """The force limit at this instant. `nominal`: its value without modifiers (drift, fluctuation, ...)."""
         return 0.0 if nominal <= self.limit_vanished else self.limit_factor * nominal + self.limit_offset
 
 
@@ -113,15 +113,16 @@ def parameter(unit, meaning, *, above=None, at_least=None, at_most=None, default
     Parameters
     ----------
     unit : str
-        SI, ``"1"`` for a plain number.
+        SI unit; ``"1"`` for a number without unit.
     meaning : str
-        One line.
+        The meaning, in one line.
     above, at_least, at_most : float, optional
-        Its range.
+        Range of the values.
     default : float, optional
-        Without one it is required.
+        Default value; without one, the parameter is required.
     is_limit : bool, optional
-        A force limit, or what multiplies the whole force: modifiers act on it, if the law asks ``now.limit(value)``.
+        Whether the parameter is a force limit or multiplies the whole force. Modifiers act on it if the law calls
+        ``now.limit(value)``.
 
     Returns
     -------
@@ -132,11 +133,11 @@ def parameter(unit, meaning, *, above=None, at_least=None, at_most=None, default
 
 
 def friction_law(kind):
-    """Make a friction law of a class; a decorator.
+    """Make a class a friction law; a decorator.
 
-    The law then is one like any other: `law` and scenarios take it by the name of the class, its parameters are checked, all
-    analyses run it with the smooth engine. A call into Python takes about two microseconds, and a motion makes thousands of them;
-    `compile_law` has full speed.
+    `law` and scenarios take the law by the name of the class. Its parameters are checked, and all analyses run it with the smooth
+    engine. A call into Python takes about two microseconds, and a motion needs thousands of calls. For full speed, write the law in C
+    and use `compile_law`.
 
     Parameters
     ----------
@@ -145,17 +146,17 @@ def friction_law(kind):
 
         * a docstring, whose first line is the summary;
         * ``equation``: the formula as text;
-        * ``parameters``: dict of name to `parameter`; ``__init__`` gets their values in SI numbers, by name, and raises
-          ValueError for values that do not go together;
+        * ``parameters``: dict of name to `parameter`; ``__init__`` gets their values in SI, by name, and raises
+          ValueError for values that are not allowed together;
         * ``force(self, now)``: the force [N], > 0 opposing v > 0; `now` is an `Instant`;
-        * or, of a law that remembers: ``states``, their number; ``scales(self)``, the size of each in a motion that slips; and
-          ``respond(self, now, states)``, which returns the force and the rate of each state;
+        * or, for a law with internal states: ``states``, their number; ``scales(self)``, the size of each state in a motion that
+          slips; and ``respond(self, now, states)``, which returns the force [N] and the rate of each state;
         * optional: ``start(self, now)``, the states at the start; ``static_limit(self, now)`` or ``static_limit(self, now, states)``,
-          the force up to which the law makes the mass stick; ``dissipation(self, now, states)``, the power turned to heat [W], of a
-          law that stores energy;
+          the largest force that the law holds while the mass sticks [N]; ``dissipation(self, now, states)``, the power that becomes
+          heat [W], for a law that stores energy;
         * optional: ``is_odd``, ``is_passive`` (default: True), ``version``, ``sources``, ``caution``.
 
-        Its functions are pure: several threads call them, and the same arguments give the same results.
+        Its functions must be pure: several threads call them, and the same arguments must give the same results.
 
     Returns
     -------
@@ -165,12 +166,12 @@ def friction_law(kind):
     Raises
     ------
     InvalidScenario
-        The class is not what a law needs.
+        The class lacks a part of a law, or a part is invalid.
 
     Notes
     -----
     Define laws before other threads run scenarios. A class of the same name replaces the law. An exception in a function of the
-    law ends the run, and is the cause of the `NumericalFailure`. Between events the direction of slip is frozen: write
+    law ends the run; it is the cause of the `NumericalFailure`. The direction of slip is constant between events: write
     ``now.direction`` for the sign of v, and ``now.direction * now.v`` for its absolute value.
 
     Examples
@@ -201,24 +202,24 @@ def friction_law(kind):
 
 
 def compile_law(source, *, compiler=None):
-    """Compile a friction law in C and load it: the interface of docs/plugins.md, at full speed.
+    """Compile and load a friction law in C, with the interface of docs/plugins.md.
 
     Parameters
     ----------
     source : str or path
-        The C text, which has more than one line, or the name of a file of it. It includes ``dualdamp_law.h``.
+        The C text, which has more than one line, or the name of a C file. It must include ``dualdamp_law.h``.
     compiler : str, optional
         Default: the environment variable ``CC``, or ``cc``.
 
     Raises
     ------
     InvalidScenario
-        The library is no law; or its name is taken.
+        The library is no law, or another law has its name.
     RuntimeError
-        The compiler refuses the text; its messages.
+        The compiler refuses the text; the exception has its messages.
     """
     text = source if isinstance(source, str) and "\n" in source else Path(source).read_text(encoding="utf-8")
-    # The library stays loaded, and provenance names its file.
+    # The directory is not deleted: the library stays loaded, and provenance names its file.
     directory = Path(tempfile.mkdtemp(prefix="dualdamp-law-"))
     (directory / "law.c").write_text(text, encoding="utf-8")
     command = [compiler or os.environ.get("CC", "cc"), "-O2", "-shared", "-fPIC", f"-I{include_directory()}", "law.c", "-lm", "-o", "law.so"]
@@ -239,14 +240,14 @@ def include_directory():
     return str(Path(__file__).with_name("include"))
 
 
-# Tables and functions that the libraries call; a law that was replaced may still be in use.
+# Tables and functions that the libraries call. A law that was replaced is kept, since it may still be in use.
 _KEPT: list[_LawTable] = []
 # The exception that ended the last call of a law.
 last_error: BaseException | None = None
 
 
 class _LawTable:
-    """The C table of a class."""
+    """The table of C functions of a class."""
 
     def __init__(self, kind):
         self._kind = kind
@@ -303,7 +304,7 @@ class _LawTable:
             text = "".join(traceback.format_exception_only(error)).strip().encode("ascii", "replace")[: size - 1]
             c.memmove(message, text + b"\0", len(text) + 1)
             return _REFUSED
-        # The address of the object stands for it; it is never 0.
+        # The libraries know the object by its address, which is never 0.
         self._laws[id(made)] = made
         law[0] = id(made)
         return 0

@@ -15,7 +15,7 @@ from ._arguments import path_text
 
 
 class Record(dict):
-    """A dict whose values are attributes too: ``result.answer.zeta``."""
+    """A dict whose values are also attributes: ``result.answer.zeta``."""
 
     def __getattr__(self, name):
         try:
@@ -28,34 +28,35 @@ class Record(dict):
 
 
 class Result:
-    """What a scenario gave.
+    """The result of a scenario.
 
-    Each value of the result is an attribute: ``result.amplitude``, ``result.answer.zeta``, ``result.estimates[0].std.zeta``; a list
-    of equal rows is a structured array: ``result.points["x"]``. Numbers are SI. Results are immutable; pickles hold the files that the program would write.
+    Each value of the result is an attribute: ``result.amplitude``, ``result.answer.zeta``, ``result.estimates[0].std.zeta``. A list
+    of equal rows is a structured array: ``result.points["x"]``. Numbers are in SI. Results are immutable. A pickle of a result holds
+    the files that the program would write.
 
     Attributes
     ----------
     result : Record
         The whole result, as in result.json.
     tables : dict of str to numpy.ndarray
-        Structured arrays, by the name of the program's CSV file: ``result.tables["curve"]``. A number that does not exist is NaN;
-        a column of whole numbers or truths in which one is missing is a column of floats.
+        Structured arrays, by the name of the program's CSV file: ``result.tables["curve"]``. A number that does not exist is NaN.
+        A column of integers or booleans in which a value is missing becomes a column of floats.
     units : dict of str to dict
-        Unit of each column of each table; an empty text: none.
+        Unit of each column of each table; empty for a column without a unit.
     analysis : str
         Type of the analysis.
     scenario : Record
-        The scenario with SI numbers, defaults filled in.
+        The scenario with numbers in SI and with all defaults.
     status : int
-        Exit status of the program: 0, or 1, 4, 5 for a result that lacks something.
+        Exit status of the program: 0; or 1, 4, 5 if a check failed or a part of the result is missing.
     failure : str
-        What it lacks.
+        What is missing; empty if nothing is.
     warnings : list of str
-        What the program warns of.
+        The warnings of the program.
     checks : list of Record
         The comparison with the values that the scenario expects.
     document : Record
-        The whole of result.json, with provenance; the sums of the tables stand in files alone.
+        The whole of result.json, with provenance, but without the SHA-256 sums of the tables; only a saved file has these.
     """
 
     def __init__(self, run):
@@ -64,7 +65,7 @@ class Result:
     @cached_property
     def document(self):
         document = json.loads(self._run.document(), object_hook=Record)
-        document.provenance.pop("tables", None)  # of a run in memory no table is written yet
+        document.provenance.pop("tables", None)  # sums of written tables; a run in memory has written none
         return document
 
     @cached_property
@@ -112,17 +113,17 @@ class Result:
         return self.document.checks
 
     def columns(self, table):
-        """The columns of a table without a copy.
+        """The columns of a table, without a copy.
 
         Parameters
         ----------
         table : str
-            Its name, as in `tables`.
+            Name of the table, as in `tables`.
 
         Returns
         -------
         dict of str to numpy.ndarray
-            Read-only arrays over the memory of the result; texts are lists.
+            Read-only arrays over the memory of the result; a column of texts is a list.
         """
         for name, _, columns in self._run.tables():
             if name == table:
@@ -133,7 +134,7 @@ class Result:
         if name.startswith("_"):
             raise AttributeError(name)
         numbers = self._numbers
-        # Null stands for a list that is a table.
+        # A list that is also a table is null here.
         if isinstance(numbers, dict) and numbers.get(name) is not None:
             return numbers[name]
         for table, (key, array, _) in self._arrays.items():
@@ -165,17 +166,17 @@ class Result:
         return [(name, value) for name, value in numbers.items() if isinstance(value, (int, float)) and not isinstance(value, bool)]
 
     def save(self, directory):
-        """Write what the program writes: result.json, a CSV file for each table, report.html.
+        """Write the files that the program writes: result.json, a CSV file for each table, report.html.
 
         Parameters
         ----------
         directory : path
-            Created if need be.
+            Created if it is missing.
 
         Returns
         -------
         list of str
-            What there is to tell: that the result of another scenario was replaced.
+            Messages for the user, such as: the result of another scenario was replaced.
 
         Raises
         ------
@@ -185,12 +186,12 @@ class Result:
         return self._run.save(os.fsencode(path_text(directory)))
 
     def report(self):
-        """The page of the result.
+        """The page of the result, as the program writes it.
 
         Returns
         -------
         str
-            HTML, one document that needs no network.
+            One HTML document that needs no network.
         """
         with tempfile.TemporaryDirectory() as directory:
             self._run.save(directory)
@@ -214,7 +215,7 @@ class Result:
         Parameters
         ----------
         table : str, optional
-            Its name, as in `tables`; default: the first one. ``frame.attrs["units"]`` has the units.
+            Name of the table, as in `tables`; default: the first one. ``frame.attrs["units"]`` has the units.
 
         Returns
         -------
@@ -233,9 +234,9 @@ class Result:
         Parameters
         ----------
         table : str, optional
-            Its name, as in `tables`; default: the first one that can be drawn.
+            Name of the table, as in `tables`; default: the first one that can be drawn.
         ax : matplotlib.axes.Axes, optional
-            Where to; default: a new figure.
+            Axes to draw into; default: those of a new figure.
 
         Returns
         -------
@@ -262,7 +263,7 @@ class Result:
 
 
 class _StoredRun:
-    """A run that was unpickled: its files and tables."""
+    """The files and tables of a run that was unpickled."""
 
     def __init__(self, values, files, tables):
         vars(self).update(values)
@@ -288,12 +289,12 @@ def _restored(values, files, tables):
 
 
 def _own(cells):
-    """Without the memory of the result behind it."""
+    """A copy that does not keep the memory of the result."""
     return cells.copy() if isinstance(cells, np.ndarray) else cells
 
 
 def _texts(cells):
-    """(texts, which of them each row has)"""
+    """`cells`: the texts, and for each row the index of its text; None: one text for each row."""
     texts, choices = cells
     array = np.array(texts, dtype=object)
     return array if choices is None else array[choices]
@@ -308,7 +309,7 @@ def _converted(kind, cells):
 
 
 def _structured(columns):
-    """One array of the columns; each is copied into its place."""
+    """One structured array with a copy of the columns."""
     cells = [_converted(kind, cells) for _, _, kind, cells in columns]
     array = np.empty(len(cells[0]) if cells else 0, dtype=[(column[0], part.dtype) for column, part in zip(columns, cells)])
     for column, part in zip(columns, cells):

@@ -20,21 +20,21 @@ def run(scenario, changes=None, *, out=None, threads=0, resume=False, overwrite=
     Parameters
     ----------
     scenario : mapping, str or path
-        A dict as a scenario file holds it; or the text of such a file, which has more than one line or begins with a brace, as
-        `check` returns it; or the name of one.
+        A dict with the keys of a scenario file; or the text of a scenario, which has more than one line or begins with a brace (as
+        the text that `check` returns); or the name of a scenario file.
     changes : mapping, optional
-        Values laid over the scenario, by path: ``{"system.friction.kinetic": "3 N"}``, as the program's ``--set``.
+        Values that replace those of the scenario, by path: ``{"system.friction.kinetic": "3 N"}``. The same as the program's ``--set``.
     out : path, optional
         Directory for the files that the program writes: result.json, a CSV file for each table, report.html.
     threads : int, optional
-        At most so many; 0: all cores.
+        Largest number of threads; 0: all cores.
     resume, overwrite : bool, optional
-        A stress test or a sweep goes on where an earlier run with the same `out` was interrupted, or discards what it left; without
-        either such cases are an error.
+        For a stress test or a sweep whose earlier run with the same `out` was interrupted: `resume` computes the missing cases,
+        `overwrite` discards the finished ones. If finished cases exist and neither is True, the run is refused.
     verify : bool, optional
-        Compute the result again by another engine and compare.
+        Compute the result again in another way and compare the two.
     progress : callable or True, optional
-        Called as ``progress(done, all)`` while a long run lasts, from one thread at a time. True: a bar of tqdm where that is
+        Called as ``progress(done, all)`` during a long run, from one thread at a time. True: a bar of tqdm if that is
         installed, else a line on stderr.
 
     Returns
@@ -45,23 +45,23 @@ def run(scenario, changes=None, *, out=None, threads=0, resume=False, overwrite=
     Raises
     ------
     InvalidScenario
-        The scenario or its data cannot be run; every problem with its place.
+        The scenario or its data are invalid. The message has all problems with their places.
     NumericalFailure
-        There is no result: no steady state, values beyond the range of numbers, a law that broke its contract.
+        There is no result: no steady state, values beyond the range of double precision, a law that broke its contract.
     CheckFailed
-        A value of the result is not the one that the scenario expects, or the verification disagrees.
+        A value of the result differs from the one that the scenario expects, or the verification found a difference.
     KeyboardInterrupt
-        Ctrl-C, or "interrupt" in a notebook; within a tenth of a second or so.
+        Ctrl-C, or "interrupt" in a notebook; within about a tenth of a second.
 
     Warns
     -----
     IncompleteResult
-        The result lacks something: an identification without an answer, failed cases of a stress test.
+        A part of the result is missing: an identification without an answer, failed cases of a stress test.
 
     Notes
     -----
-    Data files of a scenario file or text lie in the directory of that file (of a text: in the current one) or below. A dict may
-    name any file. The lock of the interpreter is released while a scenario runs.
+    A scenario file may name data files in its own directory or below it. A text may name data files in the current directory or
+    below it. A dict may name any file. The lock of the interpreter is released while a scenario runs.
 
     Examples
     --------
@@ -89,12 +89,12 @@ def check(scenario, changes=None):
     Returns
     -------
     str
-        The scenario as one line of JSON, with SI numbers and defaults filled in; itself a valid scenario.
+        The scenario as one line of JSON, with numbers in SI and with all defaults. It is itself a valid scenario.
 
     Raises
     ------
     InvalidScenario
-        It cannot be run; every problem with its place.
+        The scenario is invalid. The message has all problems with their places.
     """
     return core.resolved(source_of(scenario, changes))
 
@@ -105,24 +105,24 @@ def load_plugin(path):
     Parameters
     ----------
     path : path
-        The library. It is loaded once and stays; call this before the first scenario is run.
+        The library. It stays loaded. Call this function before the first scenario is run.
 
     Raises
     ------
     InvalidScenario
-        It is no such library.
+        The file is no such library.
     """
     core.load_plugin(path_text(path))
 
 
 def source_of(scenario, changes=None, data=None):
-    """What the libraries are to read. `data`: texts that stand for data files, by name."""
+    """The source of a scenario for the libraries. `data`: texts in place of data files, by name."""
     if not isinstance(changes or {}, Mapping):
         raise TypeError(f"changes are a dict of path and value, such as {{'system.mass': '2 kg'}}, not {changes!r}")
     set_ = [f"{path}={flow(plain(value))}" for path, value in (changes or {}).items()]
     data = data or {}
     for text in set_:
-        text.encode()  # half a character raises what Python raises
+        text.encode()  # a lone surrogate raises UnicodeEncodeError
     if isinstance(scenario, Mapping):
         return core.Source(text_of(scenario), "scenario", data_anywhere=True, data=data, set=set_)
     if isinstance(scenario, str) and ("\n" in scenario or scenario.lstrip().startswith("{")):
@@ -140,7 +140,7 @@ def run_source(source, *, out=None, threads=0, resume=False, overwrite=False, pr
     if resume and out is None and not key:
         raise TypeError("resume goes on with what is in the directory `out`, and none is given")
     directory = b"" if out is None else fsencode(path_text(out, "out"))
-    laws = sys.modules.get(__package__ + "._python_laws")  # where no law is written in Python, none can fail
+    laws = sys.modules.get(__package__ + "._python_laws")  # the module is loaded only if a law is written in Python
     if laws is not None:
         laws.last_error = None
     try:
@@ -169,7 +169,7 @@ def _failed_checks(result):
 
 
 def reporter(progress):
-    """What is called as (done, all), or None."""
+    """The function to call as (done, all), or None."""
     if progress is True:
         return _Progress()
     if progress is None or progress is False or callable(progress):
@@ -178,7 +178,7 @@ def reporter(progress):
 
 
 def close(report):
-    """Behind the last call."""
+    """To be called after the last call of `report`."""
     if isinstance(report, _Progress):
         report.close()
 

@@ -1,4 +1,4 @@
-"""Scenarios as Python values: from dicts to the text that the libraries read."""
+"""The text of a scenario, as the libraries read it, from a dict."""
 
 from __future__ import annotations
 
@@ -12,13 +12,13 @@ _PLAIN_KEY = re.compile(r"[A-Za-z_][A-Za-z0-9_]*\Z")
 
 
 def plain(value):
-    """Mappings, lists and scalars as Python has them, without what is None; arrays become lists."""
+    """The value as plain dicts, lists and scalars. Arrays become lists; keys whose value is None are left out."""
     if hasattr(value, "to_dict") and not isinstance(value, Mapping) and hasattr(type(value), "_is_scenario_part"):
         return plain(value.to_dict())
     if isinstance(value, Mapping):
         return {str(key): plain(item) for key, item in value.items() if item is not None}
     if isinstance(value, (str, bool, int, float)):
-        # numpy.float64 is a float with another repr.
+        # numpy.float64 is a float, but its repr is another one.
         return float(value) if isinstance(value, float) else value
     if isinstance(value, os.PathLike):
         return os.fspath(value)
@@ -32,7 +32,7 @@ def plain(value):
 
 
 def flow(value):
-    """A plain value on one line."""
+    """A plain value as YAML on one line."""
     if isinstance(value, dict):
         return "{" + ", ".join(f"{_key(key)}: {flow(item)}" for key, item in value.items()) + "}"
     if isinstance(value, list):
@@ -61,7 +61,7 @@ def _lines(value, margin):
 
 
 def text_of(scenario):
-    """The text of a scenario that is given as a mapping.
+    """The text of a scenario from a mapping.
 
     Parameters
     ----------
@@ -72,7 +72,7 @@ def text_of(scenario):
     Returns
     -------
     str
-        YAML, one key a line. The places that messages about a dict give are places in this text.
+        YAML, one key a line. Messages about a dict give places in this text.
 
     Examples
     --------
@@ -84,5 +84,5 @@ def text_of(scenario):
     <BLANKLINE>
     """
     text = "\n".join(_lines({"schema": SCHEMA, **plain(scenario)}, "")) + "\n"
-    text.encode()  # half a character raises what Python raises
+    text.encode()  # a lone surrogate raises UnicodeEncodeError
     return text

@@ -1,7 +1,7 @@
 """Systems, laws and excitations: the parts of a scenario as values.
 
-Each is a small immutable value that is checked by the reader of scenario files when it is made, and becomes a part of a
-scenario's text when it is used. Pickles and copies hold the keys and values as they were given.
+Each is a small immutable value. The reader of scenario files checks systems and laws when they are made. A value becomes a part
+of the text of a scenario when it is used. Pickles and copies hold the keys and values as they were given.
 """
 
 from __future__ import annotations
@@ -35,8 +35,8 @@ class _Part:
         return [*super().__dir__(), *self._values]
 
     def to_dict(self):
-        """Its keys and values, as a scenario holds them."""
-        return plain(self._values)  # a copy of all that is in it: the part itself does not change
+        """The keys and values, as in a scenario."""
+        return plain(self._values)  # a deep copy, so that the part cannot be changed through it
 
     def __eq__(self, other):
         return type(self) is type(other) and self._values == other._values
@@ -65,7 +65,7 @@ def _arguments(values):
 
 
 def _check(system, excitation=None):
-    """Lets the reader of scenario files look at it."""
+    """Lets the reader of scenario files check a system. Raises `InvalidScenario`."""
     scenario = {"system": system, "excitation": excitation, "analysis": {"type": "simulate", "duration": "1 s"}}
     core.resolved(core.Source(text_of(scenario), "scenario"))
 
@@ -76,7 +76,7 @@ class Law(_Part):
     __slots__ = ()
 
     def replace(self, **parameters):
-        """The same law with other values; None takes one away."""
+        """The same law with other values; None removes a parameter."""
         values = {**self._values, **parameters}
         return law(values.pop("law"), **values)
 
@@ -91,14 +91,14 @@ def law(name, **parameters):
     Parameters
     ----------
     name : str
-        One of `laws`; ``print(dualdamp.laws)`` lists them, ``help(dualdamp.laws.lugre)`` shows the parameters of one.
+        One of `laws`. ``print(dualdamp.laws)`` lists them; ``help(dualdamp.laws.lugre)`` shows the parameters of one.
     **parameters
-        As in a scenario file: texts with units or SI numbers.
+        As in a scenario file: texts with units, or numbers in SI.
 
     Returns
     -------
     Law
-        For `System`.
+        For the key ``friction`` of a `System`.
 
     Raises
     ------
@@ -120,12 +120,12 @@ def law(name, **parameters):
 
 
 class Excitation(_Part):
-    """What drives an oscillator. `excitation` makes one."""
+    """The excitation of an oscillator. `excitation` makes one."""
 
     __slots__ = ()
 
     def replace(self, **keys):
-        """The same excitation with other values; None takes one away."""
+        """The same excitation with other values; None removes a key."""
         values = {**self._values, **keys}
         return excitation(values.pop("type"), **values)
 
@@ -157,8 +157,8 @@ def excitation(type, **keys):  # noqa: A002 - the key of the scenario file
 
     Notes
     -----
-    Its keys are checked when a scenario is run: an analysis may vary the amplitude or the frequency and then refuses or does not
-    need that key.
+    The names of the keys are checked at once, their values when a scenario is run: an analysis that varies the amplitude or the
+    frequency does not need that key, or refuses it.
 
     Examples
     --------
@@ -184,7 +184,7 @@ class System(_Part):
         _check(self)
 
     def replace(self, **keys):
-        """The same system with other values; None takes one away."""
+        """The same system with other values; None removes a key."""
         return System(**{**self._values, **keys})
 
     def __repr__(self):
@@ -208,12 +208,12 @@ class System(_Part):
 
 
 def quantity(values, unit):
-    """Numbers as texts with a unit, for lists of a scenario.
+    """Numbers as texts with a unit, for the values of a scenario.
 
     Parameters
     ----------
     values : float or array_like
-        The numbers; an array is taken in its order.
+        The numbers.
     unit : str
         Their unit: ``"Hz"``, ``"mm"``.
 
@@ -236,7 +236,7 @@ def quantity(values, unit):
 
 
 def law_maker(item):
-    """`law` for one law, with its signature and docstring."""
+    """A function like `law` for one law, with the signature and docstring of that law."""
 
     def make(**parameters):
         return law(item["name"], **parameters)
@@ -251,7 +251,7 @@ def law_maker(item):
 
 
 def excitation_maker(item):
-    """`excitation` for one type, with its signature and docstring."""
+    """A function like `excitation` for one type, with the signature and docstring of that type."""
 
     def make(**keys):
         return excitation(item["name"], **keys)

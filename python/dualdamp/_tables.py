@@ -1,4 +1,4 @@
-"""The tables of the format, from which signatures and docstrings are made."""
+"""The tables of the scenario format. Signatures and docstrings are made from them."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ _WIDTH = 110
 
 @lru_cache(maxsize=1)
 def tables():
-    """Laws, excitations, analyses, methods and sections, each with its keys; as the reader of scenario files has them."""
+    """Laws, excitations, analyses, methods and sections with their keys, from the reader of scenario files."""
     return json.loads(core.tables())
 
 
@@ -25,7 +25,7 @@ def entry(kind, name):
     Raises
     ------
     ValueError
-        There is none; the message names those there are.
+        There is no such entry; the message lists the names.
     """
     for item in tables()[kind]:
         if item["name"] == name:
@@ -35,17 +35,17 @@ def entry(kind, name):
 
 
 def python_name(key):
-    """A key as the name of a parameter: ``from`` is ``from_``, since Python has that word for itself."""
+    """A key as the name of a parameter: ``from`` becomes ``from_``, since ``from`` is a keyword of Python."""
     return key + "_" if words.iskeyword(key) else key
 
 
 def as_keys(arguments):
-    """Arguments by the names of the format."""
+    """The arguments with the names of the scenario format: ``from_`` becomes ``from``."""
     return {name[:-1] if name.endswith("_") and words.iskeyword(name[:-1]) else name: value for name, value in arguments.items()}
 
 
 def signature_of(keys, first=(), last=()):
-    """The keys as keyword-only parameters, those that must be there without default."""
+    """The keys as keyword-only parameters; required ones have no default."""
     keyword = inspect.Parameter.KEYWORD_ONLY
     named = [
         inspect.Parameter(python_name(key["name"]), keyword, default=inspect.Parameter.empty if key["required"] else None)
@@ -71,10 +71,7 @@ def section(title, lines):
 
 
 class _Names:
-    """The names of one list of the tables, each a function that makes one.
-
-    Printed, it is the list with one line for each name.
-    """
+    """The entries of one list of the tables as attributes. Its repr is a list with one line for each entry."""
 
     def __init__(self, kind, make):
         self._kind = kind
@@ -118,7 +115,7 @@ def _excitation_maker(item):
 
 
 class Method(dict):
-    """What is known of an identification method; printed as text."""
+    """The table entry of an identification method; its repr is a text."""
 
     def __repr__(self):
         lines = [f"{self['name']}: {self['summary']}", f"  needs: {self['needs']}", f"  assumes: {self['assumes']}", f"  {self['equation']}"]

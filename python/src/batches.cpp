@@ -24,7 +24,7 @@ namespace {
 using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
 using Shape = std::vector<py::ssize_t>;
 
-/// A number, or an array of them that is read as one of a larger shape.
+/// A number, or an array of numbers that is broadcast to a larger shape.
 class Input {
  public:
   explicit Input(const py::object& value) {
@@ -32,7 +32,7 @@ class Input {
       number_ = PyFloat_AS_DOUBLE(value.ptr());
       return;
     }
-    array_ = Numbers(value);  // throws what Python raises: no number, no memory
+    array_ = Numbers(value);  // throws the exception of Python: not a number, no memory
     if (array_.ndim() == 0) number_ = *array_.data();
   }
 
@@ -41,7 +41,7 @@ class Input {
     return array_ ? Shape(array_.shape(), array_.shape() + array_.ndim()) : Shape{};
   }
 
-  /// From now on it is read as an array of this shape, which its own can be broadcast to.
+  /// Broadcasts to this shape. The own shape must allow it.
   void broadcast(const Shape& shape) {
     const Shape own = this->shape();
     shape_ = shape;
@@ -53,7 +53,7 @@ class Input {
     }
   }
 
-  /// Numbers `first` to `first + out.size()` of the flattened shape. Needs no lock of the interpreter.
+  /// Copies the numbers `first` to `first + out.size()` of the flattened shape. Needs no lock of the interpreter.
   void read(std::size_t first, std::vector<double>& out) const {
     if (is_number()) {
       std::ranges::fill(out, number_);
@@ -61,7 +61,7 @@ class Input {
     }
     const auto length = static_cast<std::size_t>(shape_.back());
     for (std::size_t done = 0; done < out.size();) {
-      // A row of the last dimension, or what is left of it.
+      // A row of the last dimension, or the rest of it.
       const std::size_t column = (first + done) % length;
       const std::size_t count = std::min(length - column, out.size() - done);
       const double* place = start_of_row((first + done) / length);
@@ -108,7 +108,7 @@ Shape common_shape(const std::vector<Input>& inputs) {
   return common;
 }
 
-/// The number of its entries.
+/// Number of entries of an array of this shape.
 std::size_t size_of(const Shape& shape) {
   std::size_t size = 1;
   for (const py::ssize_t length : shape)
@@ -117,7 +117,7 @@ std::size_t size_of(const Shape& shape) {
   return size;
 }
 
-/// An array of that shape which takes the numbers over; a plain number where there is no dimension.
+/// An array of this shape that owns the numbers; a plain number if there is no dimension.
 template <typename Number>
 py::object output(std::unique_ptr<Number[]> numbers, const Shape& shape) {
   if (shape.empty()) return py::cast(numbers[0]);
@@ -126,7 +126,7 @@ py::object output(std::unique_ptr<Number[]> numbers, const Shape& shape) {
   return py::array_t<Number>(shape, kept, owner);
 }
 
-/// What is returned, one entry for each oscillator. NaN where there is no steady state.
+/// The results, one entry for each oscillator. NaN if there is no steady state.
 struct Output {
   explicit Output(std::size_t size)
       : peak(std::make_unique_for_overwrite<double[]>(size)),
@@ -155,16 +155,16 @@ struct Output {
     }
   }
 
-  // Not initialised: the memory of a large array is touched when it is written, and once.
+  // Not initialised, so that the memory of a large array is touched only once, when it is written.
   std::unique_ptr<double[]> peak, trough, lag, radius;
   std::unique_ptr<int[]> stops;
   std::unique_ptr<unsigned char[]> outcome;
 };
 
-/// Many oscillators are computed in chunks: what is copied stays in the cache of one core, and each copies its own.
+/// Size of a chunk. Each thread copies the numbers of its own chunk, which stay in the cache of its core.
 constexpr std::size_t chunk_size = 2'048;
 
-/// Fills the chunk with `count` oscillators from `first` on.
+/// Fills a chunk with `count` oscillators from `first` on.
 void fill(sim::OscillatorBatch& chunk, const std::vector<Input>& inputs, std::size_t first, std::size_t count) {
   std::vector<double>* const columns[] = {&chunk.mass,         &chunk.damping,   &chunk.stiffness, &chunk.kinetic,
                                           &chunk.static_level, &chunk.amplitude, &chunk.frequency};
@@ -174,7 +174,7 @@ void fill(sim::OscillatorBatch& chunk, const std::vector<Input>& inputs, std::si
   }
 }
 
-/// Tells now and then how many oscillators are done; from any thread.
+/// Reports from time to time how many oscillators are done. May be called from any thread.
 class BatchMeter {
  public:
   BatchMeter(ProgressCall& told, std::size_t all) : told_(told), all_(all) {}
@@ -214,7 +214,7 @@ py::tuple steady_states(bool moves_base, bool damper_to_base, int threads, const
     Output all(size);
     BatchMeter meter(told, size);
     sim::in_parts(size, chunk_size, threads, [&](std::size_t first, std::size_t count) {
-      thread_local sim::OscillatorBatch chunk;  // its memory is used again
+      thread_local sim::OscillatorBatch chunk;  // its memory is reused
       chunk.type = type;
       chunk.damper_to = damper_to;
       fill(chunk, inputs, first, count);

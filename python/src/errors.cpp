@@ -11,7 +11,7 @@ namespace py = pybind11;
 
 namespace {
 
-/// File names on a disk need not be UTF-8.
+/// The text of a file name, which need not be UTF-8: other bytes become surrogates.
 py::object text(const std::string& bytes) {
   return py::reinterpret_steal<py::object>(
       PyUnicode_DecodeUTF8(bytes.data(), static_cast<Py_ssize_t>(bytes.size()), "surrogateescape"));

@@ -8,7 +8,7 @@ namespace py = pybind11;
 
 namespace {
 
-/// Python's handler while ours stands in its place.
+/// Python's handler, while the one of this module replaces it.
 struct sigaction before;
 bool is_watching = false;
 volatile sig_atomic_t was_pressed = 0;
@@ -30,7 +30,7 @@ bool is_main_thread() {
 InterruptWatch::InterruptWatch() {
   if (!is_main_thread() || is_watching) return;
   if (::sigaction(SIGINT, nullptr, &before) != 0) return;
-  // Without a handler of Python's the signal ends the process, or is ignored, as its owner wants it.
+  // If Python has no handler, the signal ends the process or is ignored; that is left unchanged.
   if ((before.sa_flags & SA_SIGINFO) != 0 || before.sa_handler == SIG_DFL || before.sa_handler == SIG_IGN) return;
   was_pressed = 0;
   struct sigaction ours = before;

@@ -1,12 +1,12 @@
 #pragma once
-/// Computations without the interpreter's lock, which Ctrl-C ends.
+/// Runs computations without the interpreter's lock, so that Ctrl-C can end them.
 ///
 ///     const RunResult result = interruptible([&] { return scenarios::run(scenario, options); });
 ///
 /// While the main thread of the interpreter computes, the first Ctrl-C requests a cancellation
-/// (`core/cancellation.hpp`) and reaches Python's own handler as well; the call ends with KeyboardInterrupt, or
-/// with what that handler raises. Other threads are not watched over, but a cancellation ends their computations,
-/// too.
+/// (`core/cancellation.hpp`) and is passed on to Python's own handler. The call ends with KeyboardInterrupt, or
+/// with the exception of that handler. Only the main thread watches for Ctrl-C, but a cancellation also ends the
+/// computations of other threads.
 
 #include <pybind11/pybind11.h>
 
@@ -27,16 +27,17 @@ class InterruptWatch {
   InterruptWatch(const InterruptWatch&) = delete;
   InterruptWatch& operator=(const InterruptWatch&) = delete;
 
-  /// Throws what the cancellation means in Python.
+  /// Throws the exception of Python that belongs to the cancellation.
   [[noreturn]] void raise() const;
-  /// The same once Ctrl-C was pressed: a function of the user's may have ended the computation with its error.
+  /// The same, if Ctrl-C was pressed. A function of the user may have ended the computation with an error of its
+  /// own.
   void raise_if_pressed() const;
 
  private:
   bool is_set_ = false;
 };
 
-/// A function of the user's that is told how far a computation is.
+/// A function of the user that is called with the progress of a computation.
 class ProgressCall {
  public:
   using Function = std::function<void(std::size_t done, std::size_t all)>;
@@ -44,8 +45,8 @@ class ProgressCall {
 
   [[nodiscard]] bool is_wanted() const { return function_.has_value(); }
 
-  /// Without the interpreter's lock. The first exception of the function is kept, and ends this computation alone:
-  /// `core::Cancelled` leaves here, from then on in every thread.
+  /// To be called without the interpreter's lock. The first exception of the function is kept and ends this
+  /// computation only: from then on, each call throws `core::Cancelled`, in every thread.
   void operator()(std::size_t done, std::size_t all);
   void rethrow_if_any() const;
 
@@ -65,12 +66,12 @@ auto interruptible(Work work, const ProgressCall* progress = nullptr) {
   const InterruptWatch watch;
   try {
     auto result = unlocked(work);
-    // A run that was nearly over does not notice a cancellation.
+    // A run that is nearly finished does not check for a cancellation any more.
     if (progress != nullptr) progress->rethrow_if_any();
     watch.raise_if_pressed();
     return result;
   } catch (const core::Cancelled&) {
-    // The lock is back by now.
+    // The interpreter's lock is held again here; exceptions of Python can be thrown below.
   }
   if (progress != nullptr) progress->rethrow_if_any();
   watch.raise();

@@ -12,7 +12,7 @@ PYBIND11_MODULE(_core, module) {
   const core::BuildInfo build = core::build_info();
   module.attr("version") = std::string(build.version);
   module.attr("commit") = std::string(build.commit);
-  // Older ones take the size of a number from the wrong place there, and every row of a table for the first one.
+  // Older versions misread the size of a number in NumPy 2, and then take the first row of a table for every row.
   module.attr("knows_numpy_2") = PYBIND11_VERSION_HEX >= 0x020C0000;
   module.def("load_plugin", &friction::load_plugin, pybind11::arg("file"));
   module.def(

@@ -27,12 +27,12 @@ namespace py = pybind11;
 
 namespace {
 
-/// Where a scenario comes from, and what is laid over it.
+/// The source of a scenario, and the values that replace its own.
 struct Source {
-  std::string text;  ///< of the scenario; without one it is the file `name`
-  std::string name;  ///< of the file, or what stands for it in messages
+  std::string text;  ///< of the scenario; empty if it is the file `name`
+  std::string name;  ///< of the file, or for messages
   bool is_file = false;
-  bool data_anywhere = false;                    ///< data files may lie outside the scenario's directory
+  bool data_anywhere = false;                    ///< data files may be outside the scenario's directory
   std::map<std::string, std::string> data = {};  ///< data in memory
   std::vector<std::string> set = {};             ///< PATH=VALUE
 };
@@ -40,8 +40,8 @@ struct Source {
 struct Settings {
   std::string directory = {};
   int threads = 0;
-  scenarios::FoundCases found = scenarios::FoundCases::refuse;  ///< of a campaign: cases of an earlier run
-  std::string key = {};  ///< of an exported stress test whose answers are scored; empty: a run as it is
+  scenarios::FoundCases found = scenarios::FoundCases::refuse;  ///< what to do with cases of an earlier run
+  std::string key = {};  ///< of an exported stress test whose answers are scored; empty: an ordinary run
   std::vector<std::pair<std::string, std::string>> answers = {};  ///< name and file
 };
 
@@ -65,7 +65,7 @@ scenarios::Scenario load(const Source& source, const Settings& settings) {
   return bench::scored_scenario(loader(source), settings.key, answers);
 }
 
-/// A campaign writes its cases while it runs: where nobody says where to, they live as long as the run.
+/// A temporary directory for the cases that a stress test or sweep writes while it runs, if no directory is stated.
 class TemporaryDirectory {
  public:
   TemporaryDirectory() : path_((std::filesystem::temp_directory_path() / "dualdamp-XXXXXX").string()) {
@@ -118,7 +118,7 @@ Run run(const Source& source, const Settings& settings, std::optional<ProgressCa
   return done;
 }
 
-/// Returns the number of cases. `seed`: empty for a hidden one.
+/// Exports a stress test and returns the number of cases. `seed`: empty for a hidden one.
 std::size_t export_cases(const Source& source, const std::string& directory, const std::string& seed, int threads) {
   return interruptible([&] {
     const scenarios::Scenario scenario =
@@ -135,14 +135,15 @@ std::string document(const Run& run) {
   return std::move(out).str();
 }
 
-/// Writes what the program writes; returns what it tells.
+/// Writes the files that the program writes. Returns its messages.
 std::vector<std::string> save(const Run& run, const std::string& directory) {
   const core::Provenance& provenance = run.result->provenance;
   return cli::write_results(directory, provenance.source, provenance.data_sha256,
                             scenarios::output_files(run.scenario, run.result));
 }
 
-/// The numbers of a column without a copy, or its texts: (those that differ, which of them each row has).
+/// The numbers of a column without a copy; or its texts, as the distinct texts and the index of the text of each
+/// row.
 py::object cells_of(const scenarios::Column& column, const py::object& owner) {
   if (column.kind != scenarios::CellKind::text) {
     py::array_t<double> cells(static_cast<py::ssize_t>(column.numbers.size()), column.numbers.data(), owner);
@@ -154,7 +155,7 @@ py::object cells_of(const scenarios::Column& column, const py::object& owner) {
                                                                  column.choices.data()));
 }
 
-/// [(name, key in the result, [(column, unit, kind, cells)])]; without the tables that are only for a terminal.
+/// [(name, key in the result, [(column, unit, kind, cells)])], without the tables that are only printed.
 py::list tables_of(const py::object& self) {
   static constexpr const char* kinds[] = {"number", "count", "truth", "text"};
   py::list tables;
@@ -170,10 +171,10 @@ py::list tables_of(const py::object& self) {
 }
 
 using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
-/// A column of data: its head, and numbers or texts, which are fields of a CSV file.
+/// A column of data: its heading, and numbers or texts as fields of a CSV file.
 using DataColumn = std::pair<std::string, std::variant<Numbers, std::vector<std::string>>>;
 
-/// The text of a data file: numbers read back to the same bits.
+/// The text of a CSV file, whose numbers read back to the same bits.
 std::string csv_text(const std::vector<DataColumn>& columns, std::size_t rows) {
   std::string text;
   for (const auto& [head, cells] : columns) text += (text.empty() ? "" : ",") + head;

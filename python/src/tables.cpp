@@ -93,7 +93,7 @@ Json json_of(const identify::MethodEntry& method) {
           {"options", options}};
 }
 
-/// The maps that one key of the format may hold, by the name that chooses one.
+/// The alternative maps of a key of the format, by the name that chooses one.
 Json json_of(const scenarios::Choice& choice) {
   Json list = Json::array();
   for (const scenarios::Variant& variant : choice.variants)

@@ -1,13 +1,13 @@
 #pragma once
-/// The contract of an analysis: a question that a scenario may ask.
+/// The contract of an analysis: a question that a scenario can ask.
 ///
-/// One file pair holds what belongs to an analysis: its keys, what it needs of the other sections, its checks, its
-/// question with the run, and the fields of its result; the view of its page is a .js file of the same name beside
-/// the pair, or the one that draws all tables. The list (`analyses.hpp`) is explicit. To add one:
+/// One file pair holds all parts of an analysis: its keys, its needs of the other sections, its checks, its
+/// question with the run, and the fields of its result. The view of its page is a .js file of the same name beside
+/// the pair, or the default view, which draws all tables. The list (`analyses.hpp`) is explicit. To add one:
 /// docs/developing.md.
 ///
-/// A file is read by the keys, then checked: `check` adds problems and completes what the file left out. Only when
-/// there is no problem `ask` turns the checked values into a question, which is immutable and can be run.
+/// A file is read by the keys, then checked: `check` adds problems and fills in what the file left out. If there is
+/// no problem, `ask` turns the checked values into a question, which is immutable and can be run.
 
 #include <cstddef>
 #include <functional>
@@ -28,7 +28,7 @@
 
 namespace dualdamp::scenarios {
 
-/// What a question is run on: the checked scenario around it.
+/// The checked scenario on which a question is run.
 struct RunContext {
   const sim::Model& model;
   double tolerance = 0.0;       ///< closure of a steady state
@@ -46,15 +46,15 @@ struct RunContext {
 /// Some numbers of a result, computed in another way.
 struct OtherWay {
   std::string words;  ///< which
-  Answer answer;      ///< the numbers alone, by their keys in the result
+  Answer answer;      ///< only these numbers, by their keys in the result
 };
 
 class Question;
 
-/// A question about many points, asked of some of them.
+/// A question about many points, restricted to some of them.
 struct Sampled {
   std::unique_ptr<const Question> question;
-  std::function<Answer(const Answer&)> part;  ///< what the answer about all points says of these
+  std::function<Answer(const Answer&)> part;  ///< the part of the answer about all points that concerns these
   std::string words;                          ///< "36 of 3600 points"
 };
 
@@ -67,17 +67,17 @@ class Question {
 
   /// A number that does not exist is null in the answer; no result at all has a reason.
   [[nodiscard]] virtual Answer run(const RunContext& context) const = 0;
-  /// For a verification: what can also be computed by a method that run() does not use; none: nothing.
+  /// For a verification: numbers that can also be computed by a method that run() does not use; may be empty.
   [[nodiscard]] virtual std::optional<OtherWay> other_way(const RunContext& /*context*/,
                                                           const Answer& /*answer*/) const {
     return std::nullopt;
   }
-  /// For a verification that would take too long of all points; none: it takes all.
+  /// For a verification that would take too long at all points; nothing: it uses all points.
   [[nodiscard]] virtual std::optional<Sampled> sampled() const { return std::nullopt; }
 };
 
-/// The ability of a question whose run is long: it writes its cases to `options.directory` as it goes, can be
-/// resumed, and is shared by all processes, of which the first one answers. A question has it by deriving from it.
+/// Base of questions whose run is long: such a run writes its finished cases to `options.directory`, can be
+/// resumed, and is shared by all processes, of which the first one answers.
 class Campaign {
  public:
   Campaign() = default;
@@ -85,11 +85,11 @@ class Campaign {
   Campaign(const Campaign&) = delete;
   Campaign& operator=(const Campaign&) = delete;
 
-  /// What the run asks of the machine, in a title in one line.
+  /// The resources that the run needs, in one line.
   [[nodiscard]] virtual std::string size(const RunContext& context) const = 0;
 };
 
-/// What `ask` makes a question of: values without problems.
+/// Input of `ask`: values without problems.
 struct CheckedValues {
   const Json& analysis;
   const Json& system;      ///< null without one
@@ -101,16 +101,16 @@ struct CheckedValues {
   std::optional<identify::MeasuredSignal> compared = {};
 };
 
-/// What the main chart of a result shows: columns of one of its lists.
+/// The main chart of a result: columns of one of its lists.
 struct MainChart {
-  std::string_view table;  ///< the list as a CSV file; empty: the list stands in the result alone
+  std::string_view table;  ///< name of the list as a CSV file; empty: the list is only in the result
   std::string_view list;   ///< its path in the result; empty: it is only a file
   std::string_view x;      ///< column
   std::string_view y;      ///< column
   std::string_view x_label;
   std::string_view y_label;
   std::string_view further = {};  ///< a column that is drawn over x too
-  std::string_view by = {};       ///< rows that differ in this column are series of their own
+  std::string_view by = {};       ///< rows that differ in this column are separate series
   enum class Kind { line, points, cells } kind = Kind::line;
   std::string_view x_otherwise = {};  ///< column, where there is no column x
 };
@@ -121,27 +121,27 @@ struct Analysis {
   Section keys;              ///< of `analysis`, beside its type
   std::vector<Needs> needs;  ///< of the other sections
   std::vector<ResultField> results;
-  /// Single numbers by which results are compared and drawn, the most telling first: paths of `results`.
+  /// Single numbers by which results are compared and drawn, the most important first: paths of `results`.
   std::vector<std::string_view> main = {};
   MainChart chart = {};
-  bool uses_uncertainties = false;  ///< those of the system's constants and of the frequency
-  bool seeks_laws = false;          ///< what laws of the system lack is sought; the model has no friction
-  bool steady_vibrations = false;   ///< the result is about steady vibrations alone: structural damping has a place
+  bool uses_uncertainties = false;  ///< it uses the uncertainties of the system's constants and of the frequency
+  bool seeks_laws = false;          ///< numbers that laws of the system lack are fitted; the model has no friction
+  bool steady_vibrations = false;   ///< the result is about steady vibrations only: structural damping is allowed
   bool verifiable = false;          ///< the result follows from the model: another engine can compute it again
   /// Adds problems to the file and completes its values; may be absent.
   void (*check)(CheckedFile& file) = nullptr;
   std::unique_ptr<const Question> (*ask)(CheckedValues&& values) = nullptr;
-  /// How long a list of the result will be, where that is known before the run; may be absent.
+  /// Length of a list of the result, if it is known before the run; may be absent.
   std::optional<std::size_t> (*length_of)(const CheckedFile& file, std::string_view list) = nullptr;
 };
 
 /// Analyses live as long as the program.
 using AnalysisList = std::vector<const Analysis*>;
 
-/// nullptr when the list has none of that name.
+/// nullptr when the list has no analysis of that name.
 [[nodiscard]] const Analysis* find_analysis(const AnalysisList& list, std::string_view name);
 
-/// What the result of a checked section `analysis` may hold: fields of the analysis and of the choices in it.
+/// Fields that the result of a checked section `analysis` may hold: those of the analysis and of the choices in it.
 [[nodiscard]] std::vector<ResultField> result_fields(const Analysis& analysis, const Json& section);
 
 }  // namespace dualdamp::scenarios

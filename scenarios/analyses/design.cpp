@@ -77,19 +77,19 @@ Table candidate_table(const std::vector<Advice>& list) {
 }
 
 ResultFields design_fields() {
-  return {
-      {"candidates[].measurement", "", "what could be measured next, the best first"},
-      {"candidates[].cost", "1", "states to be measured, or releases"},
-      {"candidates[].hull_shrinks_to.zeta", "1", "expected width of the hull of zeta over that of now"},
-      {"candidates[].hull_shrinks_to.F0", "1", "the same of the friction force"},
-      {"candidates[].average_shrinks_to.zeta", "1", "expected deviation of the average over laws over that of now"},
-      {"candidates[].average_shrinks_to.F0", "1", "the same of the friction force"},
-      {"candidates[].power", "1", "mean probability to reject a wrong law at 5 %"},
-      {"candidates[].text", "", "the advice in words"},
-      {"hull95.zeta[]", "1", "ends of the hull of zeta as it is now"},
-      {"hull95.F0[]", "N", "ends of the hull of the friction force as it is now"},
-      {"power_now", "1", "mean probability with which the record itself rejects a wrong law"},
-      {"advice", "", "the best candidate in words, or that none helps"}};
+  return {{"candidates[].measurement", "", "what could be measured next, the best first"},
+          {"candidates[].cost", "1", "number of steady states to be measured, or of releases"},
+          {"candidates[].hull_shrinks_to.zeta", "1", "expected width of the hull of zeta over its present width"},
+          {"candidates[].hull_shrinks_to.F0", "1", "the same of the friction force"},
+          {"candidates[].average_shrinks_to.zeta", "1",
+           "expected standard deviation of the average over laws over the present one"},
+          {"candidates[].average_shrinks_to.F0", "1", "the same of the friction force"},
+          {"candidates[].power", "1", "mean probability to reject a wrong law at 5 %"},
+          {"candidates[].text", "", "the advice in words"},
+          {"hull95.zeta[]", "1", "ends of the present hull of zeta"},
+          {"hull95.F0[]", "N", "ends of the present hull of the friction force"},
+          {"power_now", "1", "mean probability with which the record itself rejects a wrong law"},
+          {"advice", "", "the best candidate in words, or that none helps"}};
 }
 
 std::string summary_of(const identify::Design& design) {

@@ -9,7 +9,7 @@ namespace dualdamp::scenarios {
 
 class DesignQuestion final : public Question {
  public:
-  /// `record`: how `identify` would read it.
+  /// `record`: the record as `identify` would read it.
   DesignQuestion(std::unique_ptr<const IdentifyQuestion> record, identify::AnyLawOptions options)
       : record_(std::move(record)), options_(std::move(options)) {}
 

@@ -29,16 +29,16 @@ Section fit_keys() {
   return {{data_list("data", "data files of the rig: pairs, responses, decays, histories, loops").required(),
            data_list("validate", "further data files, which the fitted rig has to predict"), law_list(),
            text("free",
-                "names of numbers to seek beside those that the system leaves out, with commas: \"kinetic, mass\"; "
-                "what the system states of them is where the search begins"),
+                "names of numbers to fit in addition to those that the system leaves out, separated by commas: "
+                "\"kinetic, mass\"; the search begins at the values that the system states"),
            section_list("bounds",
-                        {{text("name", "a number that is sought").required(), text("low", "its least value"),
+                        {{text("name", "name of a fitted number").required(), text("low", "its smallest value"),
                           text("high", "its largest value")}},
-                        "limits of numbers that are sought")
+                        "limits of fitted numbers")
                .items(1, 100),
-           boolean("robust", "bounds the influence of readings that do not belong to the others (Huber)"),
-           boolean("profile", "intervals by the profile of the likelihood too").with_fallback(true),
-           integer("starts", "starts of the search; default: 40, or 8 where every number is stated")
+           boolean("robust", "limits the influence of readings that do not agree with the others (Huber)"),
+           boolean("profile", "also compute intervals by the profile of the likelihood").with_fallback(true),
+           integer("starts", "number of starts of the search; default: 40, or 8 if every number is stated")
                .at_least(1)
                .at_most(10'000)}};
 }
@@ -74,7 +74,7 @@ Setup setup_of(const Json& analysis, const Json& system, const sim::Model& model
   return setup;
 }
 
-/// What naming parameters needs of the drive.
+/// The part of the drive that the names of parameters depend on.
 sim::Model outlined_model(const CheckedFile& file) {
   sim::Model model;
   model.oscillator.mass = file.number_at("system", "mass").value_or(identify::unknown);
@@ -162,7 +162,7 @@ Table law_table(const std::vector<identify::Fit>& fits, const std::vector<std::s
   return table;
 }
 
-/// Best first: by AICc, those without one behind, those without a fit last.
+/// Best first, by AICc; then laws without AICc, then those without a fit.
 std::vector<std::size_t> ranked(const std::vector<identify::Fit>& fits) {
   std::vector<std::size_t> order(fits.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -211,8 +211,8 @@ const Analysis& fit_analysis() {
       .summary = "laws and constants of the rig fitted to measured records, and what they predict",
       .keys = fit_keys(),
       .needs = {{"", excitations().names(), {}, false, ""}},
-      .results =
-          joined(joined(fit_fields(), validation_fields("validation.")), {{"verdict", "", "of the validation"}}),
+      .results = joined(joined(fit_fields(), validation_fields("validation.")),
+                        {{"verdict", "", "verdict of the validation"}}),
       .seeks_laws = true,
       .check = check_fit,
       .ask = ask_fit};

@@ -1,4 +1,4 @@
-// Measured and fitted curves over each other, and what is left between them.
+// Measured and fitted curves, drawn over each other, and their differences.
 
 /** Of the tables PREFIX_RECORD_SIGNAL. */
 function overlays(prefix, word) {

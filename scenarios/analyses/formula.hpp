@@ -1,5 +1,5 @@
 #pragma once
-/// `formula`: a closed form of the theory, of its arguments alone.
+/// `formula`: a closed form of the theory, which depends on its arguments alone.
 
 #include "scenarios/analyses/analysis.hpp"
 #include "scenarios/analyses/shared/formulas.hpp"

@@ -11,8 +11,9 @@ namespace {
 ResultFields free_decay_fields() {
   return {{"peaks[].t", "s", "time of the extreme"},
           {"peaks[].x", "m", "its position, signed"},
-          {"came_to_rest", "", "fewer extremes than wanted because the mass stuck"},
-          {"creeps", "", "fewer because the motion does not turn any more within 100 natural periods"}};
+          {"came_to_rest", "", "fewer extremes than wanted because the mass sticks"},
+          {"creeps", "",
+           "fewer extremes than wanted because the motion did not turn again within 100 natural periods"}};
 }
 
 std::unique_ptr<const Question> ask_free_decay(CheckedValues&& values) {

@@ -44,7 +44,8 @@ Field gain_uncertainty_field() {
     signals.fields.push_back(
         quantity(name, {"1"}, std::string("relative standard uncertainty of the gain of ") + name).at_least(0));
   return section("gain_uncertainty", std::move(signals),
-                 "how well the gains of the sensors are known: {x: 1 %}; y is that of Y too");
+                 "relative standard uncertainties of the gains of the sensors: {x: 1 %}; that of y holds for Y "
+                 "too");
 }
 
 std::optional<identify::Record> outlined_record(const CheckedFile& file) {
@@ -70,18 +71,19 @@ namespace {
 Section identify_keys() {
   std::vector<Field> fields = data_fields();
   std::ranges::move(measurement_fields(), std::back_inserter(fields));
-  fields.push_back(methods_key("all that fit the data"));
+  fields.push_back(methods_key("all that can read the data"));
   std::ranges::move(method_option_fields(), std::back_inserter(fields));
   fields.push_back(gain_uncertainty_field());
   fields.push_back(
       quantity("least_change", {"1"},
-               "relative change of zeta or F0, when an assumption is relaxed, from which on a departure matters")
+               "smallest relative change of zeta or F0, when an assumption is relaxed, for which a departure "
+               "counts")
           .with_fallback(identify::LedgerOptions{}.least_change)
           .at_least(0));
   fields.push_back(
       boolean("robust",
-              "bounds the influence of readings that do not belong to the others (Huber), and replaces "
-              "spikes in histories of a data file"));
+              "limits the influence of readings that do not agree with the others (Huber), and replaces spikes in "
+              "histories of a data file"));
   return {std::move(fields), {{{"data", "measurement"}, true}}};
 }
 
@@ -122,14 +124,14 @@ identify::ConstantUncertainties uncertainties_of(const CheckedValues& values) {
   return uncertainties;
 }
 
-/// What a method makes of any record.
+/// The estimate of a method from any record.
 identify::Reader reader_of(const identify::MethodEntry& method, const identify::OptionValues& options) {
   return [&method, &options](const identify::Record& record, const identify::KnownConstants& constants) {
     return method.run(record, constants, method.own(options));
   };
 }
 
-/// The estimate of the ledger's joint model, of any record.
+/// The estimate of the ledger's joint model from any record.
 identify::Reader joint_estimate(const identify::LedgerOptions& options) {
   return [options](const identify::Record& record, const identify::KnownConstants& constants) {
     return identify::ledger_of(record, constants, options)
@@ -139,7 +141,7 @@ identify::Reader joint_estimate(const identify::LedgerOptions& options) {
 }
 
 identify::KnownConstants constants_of(const sim::Model& model) {
-  // A measurement at several frequencies needs none of the excitation's own, which is then zero.
+  // A measurement at several frequencies does not need the frequency of the excitation, which is then zero.
   const bool has_frequency = model.excitation.is_harmonic() && model.excitation.frequency > 0.0;
   return {model.oscillator.mass, model.oscillator.stiffness,
           has_frequency ? model.excitation.frequency : identify::unknown, model.oscillator.coordinate};
@@ -201,7 +203,8 @@ identify::Record IdentifyQuestion::record(const RunContext& context, std::vector
   return record;
 }
 
-/// Of a method that takes seconds: the constants move it as they move plain friction.
+/// For a method that takes seconds. The effect of the constants' uncertainties is taken from the fit of plain
+/// friction.
 identify::Estimate IdentifyQuestion::slow_estimate(const identify::Reader& reader,
                                                    const identify::Record& record) const {
   identify::Estimate estimate = reader(record, methods_.constants);
@@ -237,7 +240,8 @@ std::vector<identify::Sensitivity> IdentifyQuestion::sensitivities(const identif
   const identify::Estimate& best = found.estimates[*found.answer];
   const identify::MethodEntry* method = identify::find_method(best.method);
   if (method != nullptr && method->takes_seconds) return {};
-  // With what was set free, and no more: a constant that is off would be set free, too, and say nothing.
+  // With the same relaxations and no others: otherwise a changed constant would itself be relaxed, and the
+  // sensitivity would be lost.
   const identify::Reader joint = [&](const identify::Record& moved, const identify::KnownConstants& constants) {
     return identify::joint_fit(moved, constants, found.ledger.relaxed);
   };

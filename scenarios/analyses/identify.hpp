@@ -31,7 +31,7 @@ class IdentifyQuestion final : public Question {
     identify::ConstantUncertainties uncertainties;
     identify::OptionValues options;
     identify::LedgerOptions ledger;
-    bool robust = false;  ///< bounds the influence of readings that do not belong to the others
+    bool robust = false;  ///< limits the influence of readings that do not agree with the others
   };
 
   IdentifyQuestion(identify::MeasuredRecord data, Methods methods)
@@ -39,7 +39,7 @@ class IdentifyQuestion final : public Question {
   IdentifyQuestion(Synthetic measurement, Methods methods)
       : source_(std::move(measurement)), methods_(std::move(methods)) {}
 
-  /// The measured record; nullptr when it is a synthetic one.
+  /// The measured record; nullptr for a synthetic one.
   [[nodiscard]] const identify::Record* measured() const;
   [[nodiscard]] const Methods& methods() const { return methods_; }
 
@@ -58,16 +58,16 @@ class IdentifyQuestion final : public Question {
   Methods methods_;
 };
 
-/// A record like the one that the methods will read; nothing when the file is too faulty to know.
+/// A record of the same kind as the methods will read; nothing when the file is too faulty for it.
 [[nodiscard]] std::optional<identify::Record> outlined_record(const CheckedFile& file);
 
-/// Of the gains of sensors: calibration leaves one, which noise does not show.
+/// Uncertainties of the sensors' gains, which remain after calibration and do not appear as noise.
 [[nodiscard]] Field gain_uncertainty_field();
 
-/// The gain of a sensor that `record` has not would be ignored.
+/// Complains about gains of sensors that are not in `record`, because they would be ignored.
 void check_gains(CheckedFile& file, const identify::Record& record);
 
-/// The record that a checked section `analysis` speaks of, without methods.
+/// The record that a checked section `analysis` describes, without methods.
 [[nodiscard]] std::unique_ptr<const IdentifyQuestion> record_question(CheckedValues&& values);
 
 [[nodiscard]] const Analysis& identify_analysis();

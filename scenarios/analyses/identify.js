@@ -1,4 +1,4 @@
-// The estimates, what they rest on, and what else the methods say.
+// The estimates, the assumptions they rest on, and further results of the methods.
 
 /** The 95 % ellipse of (zeta, F0). */
 function ellipse(estimate) {
@@ -53,7 +53,7 @@ const standings = {
 };
 const shareOf = (value) => {
   if (value === null || value === undefined) return null;
-  // What rounding leaves of nothing is nothing.
+  // Rounding errors of zero count as zero.
   return Math.abs(value) < 1e-9 ? '0 %' : `${value < 0 ? '−' : '+'}${short(Math.abs(100 * value), 2)} %`;
 };
 
@@ -246,7 +246,7 @@ function lawCharts(estimates) {
 
 function identifyView(result) {
   const {estimates} = result;
-  // The covariance is that of the damping ratio: without a spring there is none.
+  // The covariance contains the damping ratio, which does not exist without a spring.
   const known = estimates.filter((e) => e.zeta !== null && e.F0 !== null);
   const series = known.flatMap((e, i) => {
     const around = ellipse(e);
@@ -302,6 +302,6 @@ views.identify = {
   shown: ['answer', 'answer_reason', 'family_level', 'tested'],
   charts: identifyView,
   after: furtherTables,
-  // Why an estimate is not usable stands beside it.
+  // The reason why an estimate is not usable is shown beside it.
   said: ({estimates}) => estimates.map((e) => `${e.method} is not usable: ${e.diagnostics.reason}`),
 };

@@ -20,9 +20,11 @@ constexpr std::size_t most_parameters = 100;
 Section predict_keys() {
   return {{data_list("data", "data files that the rig has to predict").required(),
            text("free",
-                "names of the numbers that were fitted, with commas: what the same laws can attain is found by "
-                "fitting these to the data"),
-           quantities("covariance", {"1"}, "of these, row by row, SI: what their uncertainty explains")
+                "names of the numbers that were fitted, separated by commas; they are fitted to the data to find "
+                "the error that the same laws can attain"),
+           quantities("covariance", {"1"},
+                      "covariance of these numbers, row by row, SI; it gives the error that their uncertainty "
+                      "explains")
                .items(1, most_parameters * most_parameters)}};
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-/// `predict`: a fitted rig against a record that was not fitted.
+/// `predict`: comparison of a fitted rig with a record that was not fitted.
 
 #include <Eigen/Core>
 #include <vector>

@@ -31,13 +31,12 @@ ResultFields regime_map_fields() {
        {"points[].Y", "m or N", "input amplitude"},
        {"points[].x", "m", "output amplitude (peak - trough)/2"},
        {"points[].stops", "1", "stops in a period"},
-       {"points[].regime", "",
-        "never moves, rests (in a period, as often as it sticks), slides through, no steady state"},
+       {"points[].regime", "", "never moves, rests ('sticks' times in a period), slides through, no steady state"},
        {"points[].sticks", "1",
-        "sticks in a period; under laws that do not hold the mass: times longer than 2 % of a period at a "
-        "speed below 1e-3 of the largest"},
+        "sticks in a period; under laws that do not hold the mass: stretches of more than 2 % of a period in which "
+        "the speed is below 1e-3 of the largest"},
        {"points[].reason", "", "for a point without numbers: the reason"},
-       {"regimes[].regime", "", "as above"},
+       {"regimes[].regime", "", "as in points"},
        {"regimes[].stops", "1", "stops in a period"},
        {"regimes[].sticks", "1", "sticks in a period"},
        {"regimes[].points", "1", "points of the map in this regime"},
@@ -48,8 +47,8 @@ ResultFields regime_map_fields() {
        {"boundary[].omega", "rad/s", "forcing frequency"},
        {"boundary[].Y", "m or N", "smallest input amplitude whose steady state never sticks"},
        {"boundary[].x", "m", "output amplitude there"},
-       {"boundary[].Y_closed_form", "m", "the same from Den Hartog's closed form, where it holds"},
-       {"boundary[].reason", "", "where no boundary was found: the reason"}},
+       {"boundary[].Y_closed_form", "m", "smallest input amplitude by Den Hartog's closed form, if that holds"},
+       {"boundary[].reason", "", "if no boundary was found: the reason"}},
       certificate_fields());
 }
 
@@ -74,7 +73,7 @@ std::optional<std::size_t> regime_map_length_of(const CheckedFile& file, std::st
   return number_of_points(file, list);
 }
 
-/// The names are few: each point has the number of its own.
+/// There are few names: each point has the number of its name.
 Column regime_column(const sim::Curve& map) {
   Column column{.name = "regime", .kind = CellKind::text};
   for (const sim::Regime regime :
@@ -101,7 +100,7 @@ Table map_table(const sim::Curve& map, const std::string& unit) {
   return table;
 }
 
-/// The points of a map with as many stops and sticks in a period.
+/// The points of a map with equal numbers of stops and sticks in a period.
 struct Regime {
   sim::Regime kind = sim::Regime::no_steady_state;
   std::size_t points = 0;
@@ -120,9 +119,9 @@ struct Regime {
   }
 };
 
-/// What a map shows, in a few rows.
+/// A summary of a map in a few rows.
 Table regime_table(const sim::Curve& map, const std::string& unit) {
-  // By stops and sticks, then those without a steady state.
+  // Sorted by stops and sticks; points without a steady state are last.
   std::map<std::tuple<bool, int, int>, Regime> found;
   for (const sim::CurvePoint& point : map.points) found[{!point.ok(), point.stops, point.sticks}].add(point);
   const std::vector<std::pair<std::tuple<bool, int, int>, Regime>> rows(found.begin(), found.end());

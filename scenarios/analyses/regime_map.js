@@ -1,4 +1,4 @@
-// Where in the plane of frequency and amplitude the mass never moves, rests how often, slides through or has no steady state.
+// Regimes in the plane of frequency and amplitude: never moves, rests (and how often), slides through, no steady state.
 
 function mapView() {
   const { map, boundary } = tables;
@@ -9,7 +9,7 @@ function mapView() {
   const kind = (stops, sticks) => (sticks === null ? 1e6 : sticks === 1 && stops === 0 ? 1e5 : sticks);
   const label = (n) => (n === 1e6 ? "no steady state" : n === 1e5 ? "never moves" : n === 0 ? "slides through" : n === 1 ? "rests once" : `rests ${n} times`);
   const found = distinct(stops.map((n, i) => kind(n, sticks[i])));
-  // Rests from yellow to dark red by their number: the colours of other regimes do not come back however many there are.
+  // Rests are yellow to dark red by their number, so that the colours of other regimes never appear twice.
   const rests = found.filter((n) => n > 0 && n < 1e5);
   const warm = (t) => `hsl(${52 - 47 * t}, 85%, ${68 - 40 * t}%)`;
   const colourOf = (n) => (n === 1e6 ? 3 : n === 1e5 ? 6 : n === 0 ? 0 : warm(rests.indexOf(n) / Math.max(1, rests.length - 1)));

@@ -26,30 +26,30 @@ Section measured_keys() {
 }
 
 Section simulate_keys() {
-  return {{quantity("duration", {"s"}, "time to simulate").above(0),
-           quantity("cycles", {"1"}, "time to simulate, in forcing periods").above(0).at_most(max_periods),
-           quantity("sample_rate", {"1/s"}, "rows of history.csv in a second; without it the file is not written")
-               .above(0),
-           section("measured", measured_keys(),
-                   "a measured motion x to lay the simulated one over; its first sample is at t = 0, and "
-                   "history.csv has a row for each of its samples")},
-          {{{"duration", "cycles"}, true}}};
+  return {
+      {quantity("duration", {"s"}, "time to simulate").above(0),
+       quantity("cycles", {"1"}, "time to simulate, in forcing periods").above(0).at_most(max_periods),
+       quantity("sample_rate", {"1/s"}, "rows per second of history.csv; without this key the file is not written")
+           .above(0),
+       section("measured", measured_keys(),
+               "a measured motion x to compare with the simulated one; its first sample is at t = 0, and "
+               "history.csv has a row for each of its samples")},
+      {{{"duration", "cycles"}, true}}};
 }
 
 ResultFields simulate_fields() {
-  return joined(
-      {{"events[].t", "s", "time"},
-       {"events[].kind", "", "reversal, stop, release, grazing, switching"},
-       {"events[].x", "m", "position"},
-       {"events[].v", "m/s", "velocity"},
-       {"final.t", "s", "time at the end"},
-       {"final.x", "m", "position at the end"},
-       {"final.v", "m/s", "velocity at the end"},
-       {"residual.samples", "1", "measured samples within the duration; only with 'measured'"},
-       {"residual.rms", "m", "root mean square of measured less simulated position"},
-       {"residual.noise", "m", "standard deviation of the sensor's noise, stated or estimated"},
-       {"residual.noise_units", "1", "the one over the other: 1 where the model leaves nothing but noise"}},
-      joined(energy_fields(), certificate_fields()));
+  return joined({{"events[].t", "s", "time"},
+                 {"events[].kind", "", "reversal, stop, release, grazing, switching"},
+                 {"events[].x", "m", "position"},
+                 {"events[].v", "m/s", "velocity"},
+                 {"final.t", "s", "time at the end"},
+                 {"final.x", "m", "position at the end"},
+                 {"final.v", "m/s", "velocity at the end"},
+                 {"residual.samples", "1", "measured samples within the duration; only with 'measured'"},
+                 {"residual.rms", "m", "root mean square of measured less simulated position"},
+                 {"residual.noise", "m", "standard deviation of the sensor's noise, stated or estimated"},
+                 {"residual.noise_units", "1", "rms over noise; 1 if the residual is noise alone"}},
+                joined(energy_fields(), certificate_fields()));
 }
 
 void check_simulate(CheckedFile& file) {
@@ -80,7 +80,7 @@ std::unique_ptr<const Question> ask_simulate(CheckedValues&& values) {
                                             measured_motion(values));
 }
 
-/// Differences of fourth order need even times.
+/// Differences of fourth order need equally spaced times.
 bool is_even(std::span<const double> times) {
   const double step = (times.back() - times.front()) / static_cast<double>(times.size() - 1);
   for (std::size_t i = 1; i < times.size(); ++i)
@@ -88,7 +88,7 @@ bool is_even(std::span<const double> times) {
   return true;
 }
 
-/// Of the sensor [m]: stated, or estimated where the samples tell; else 0.
+/// Noise level of the sensor [m]: stated, or estimated if the samples allow it; otherwise 0.
 double noise_of(const MeasuredMotion& measured, std::size_t count) {
   constexpr std::size_t fewest = 20;
   if (measured.noise > 0.0) return measured.noise;
@@ -115,8 +115,8 @@ void add_residual(const MeasuredMotion& measured, const std::vector<sim::Sample>
     json["noise_units"] = rms / noise;
   } else {
     answer.warnings.emplace_back(
-        "the noise of the sensor is not known: an estimate takes 20 evenly spaced samples that vary; 'noise' "
-        "states it");
+        "the noise of the sensor is not known: its estimate needs 20 evenly spaced samples that are not all equal; "
+        "'noise' states it");
   }
   for (Column* column : {&signal, &residual}) answer.tables.back().columns.push_back(std::move(*column));
 }

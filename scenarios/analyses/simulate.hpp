@@ -1,6 +1,6 @@
 #pragma once
-/// `simulate`: the motion from its initial state, its events and its energy account; beside a measured one if there
-/// is any.
+/// `simulate`: the motion from its initial state, its events and its energy balance; compared with a measured
+/// motion if there is one.
 
 #include <utility>
 #include <vector>
@@ -9,7 +9,7 @@
 
 namespace dualdamp::scenarios {
 
-/// A measured motion beside the simulated one.
+/// A measured motion, with which the simulated one is compared.
 struct MeasuredMotion {
   std::vector<double> times;  ///< s, ascending from 0
   std::vector<double> x;      ///< m

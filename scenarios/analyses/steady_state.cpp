@@ -18,7 +18,7 @@ ResultFields steady_state_fields() {
                  {"amplitude", "m", "(peak - trough)/2"},
                  {"phase", "rad", "lag of x's fundamental behind the excitation, in [0, 2 pi)"},
                  {"period", "s", "period of the motion"},
-                 {"period_ratio", "1", "forcing periods in it; above 1: subharmonic"},
+                 {"period_ratio", "1", "forcing periods in one period of the motion; above 1: subharmonic"},
                  {"max_speed", "m/s", "max |v|"},
                  {"stops_per_cycle", "1", "stops in a period"},
                  {"sticks[].start", "s", "start of a stick, modulo one period"},
@@ -26,7 +26,7 @@ ResultFields steady_state_fields() {
                  {"sticks[].position", "m", "its position"},
                  {"multipliers[][]", "1", "Floquet multipliers over one period, [re, im]"},
                  {"stable", "", "all Floquet multipliers inside the unit circle"},
-                 {"others[].peak", "m", "of another steady state, where one is known: max x"},
+                 {"others[].peak", "m", "max x of another steady state, if one is known"},
                  {"others[].trough", "m", "its min x"},
                  {"others[].period_ratio", "1", "forcing periods in its period"}},
                 joined(energy_fields(), certificate_fields()));
@@ -36,8 +36,8 @@ std::unique_ptr<const Question> ask_steady_state(CheckedValues&& /*values*/) {
   return std::make_unique<SteadyStateQuestion>();
 }
 
-/// Of a period, for plots: as many in each of its forcing periods, so that orbits that begin with different ones
-/// can be compared.
+/// Samples of a period, for plots: equally many in each forcing period, so that orbits that begin with different
+/// forcing periods can be compared.
 int orbit_samples(int periods) {
   constexpr int least = 720;
   constexpr int least_of_each = 24;

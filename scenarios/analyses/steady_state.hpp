@@ -8,7 +8,7 @@ namespace dualdamp::scenarios {
 class SteadyStateQuestion final : public Question {
  public:
   [[nodiscard]] Answer run(const RunContext& context) const override;
-  /// The transient from the initial state over the periods of the answer, which takes no step of Newton's method.
+  /// The transient from the initial state over the periods of the answer, integrated without Newton's method.
   [[nodiscard]] std::optional<OtherWay> other_way(const RunContext& context, const Answer& answer) const override;
 };
 

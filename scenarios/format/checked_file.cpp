@@ -106,7 +106,7 @@ void CheckedFile::fill_in(const std::string& key, Json value) {
 void put_in_order(Json& values, const Section& section) {
   Json sorted = Json::object();
   for (const auto& [key, value] : values.items())
-    if (section.find(key) == nullptr) sorted[key] = value;  // the key that tells which section it is
+    if (section.find(key) == nullptr) sorted[key] = value;  // the key that selects the section
   for (const Field& field : section.fields)
     if (values.contains(field.name)) sorted[field.name] = values.at(field.name);
   values = std::move(sorted);

@@ -17,13 +17,13 @@
 
 namespace dualdamp::scenarios {
 
-/// Data that lie in memory, by the name that stands for their file: CSV or universal file format.
+/// Data in memory, by the name that replaces their file: CSV or universal file format.
 using DataTexts = std::map<std::string, std::string, std::less<>>;
 
 /// Where data files are looked for.
 struct DataPlace {
   std::string directory;
-  bool anywhere = false;   ///< they may lie outside it
+  bool anywhere = false;   ///< they may be outside it
   const DataTexts& texts;  ///< looked through first
 };
 
@@ -38,7 +38,7 @@ struct DataFile {
 class CheckedFile {
  public:
   /// `format`: the tables by which the document was read. `needs`: those of its analysis; empty when the file is
-  /// too faulty to know it. Both outlive this.
+  /// too faulty for them. Both must outlive this object.
   CheckedFile(const Document& document, Reading& reading, const Section& format, const std::vector<Needs>& needs,
               DataPlace data_place);
 
@@ -48,11 +48,11 @@ class CheckedFile {
   std::vector<DataFile> files;
   /// The samples of the excitation, once they have been read or listed.
   std::shared_ptr<const sim::SampledSignal> drive;
-  /// A signal that the analysis compares its own with, once it has been read.
+  /// A measured signal with which the analysis compares its result, once it has been read.
   std::optional<identify::MeasuredSignal> compared;
-  /// Of the files read, beside that of `data`.
+  /// Digests of the files read, except that of `data`.
   std::vector<std::string> sha256;
-  /// What there is to tell of a valid file.
+  /// Warnings about a valid file.
   std::vector<std::string> warnings;
 
   [[nodiscard]] const DataPlace& data_place() const { return data_place_; }
@@ -61,21 +61,21 @@ class CheckedFile {
   [[nodiscard]] Json& values() { return reading_.values; }
   [[nodiscard]] const Json& values() const { return reading_.values; }
 
-  /// What the coordinate is, as far as the file says; a displacement if it does not.
+  /// The coordinate, as far as the file states it; otherwise a displacement.
   [[nodiscard]] core::Coordinate coordinate() const {
     return reading_.coordinate ? reading_.coordinate->coordinate : core::Coordinate::displacement;
   }
-  /// What says so; nothing where nobody does.
+  /// The source of this; nothing if the file does not state it.
   [[nodiscard]] const std::optional<CoordinateSource>& coordinate_source() const { return reading_.coordinate; }
   void tell_coordinate(CoordinateSource source) { reading_.coordinate = std::move(source); }
 
-  /// The units of a data file's columns are the user's, too: `data.x` among the written units.
+  /// Adds the units of a data file's columns to the written units, as `data.x`.
   void note_units(const identify::ColumnUnits& units);
 
-  /// Type of the analysis; empty when the file is too faulty to know.
+  /// Type of the analysis; empty when the file is too faulty for it.
   [[nodiscard]] const std::string& analysis() const { return analysis_; }
 
-  /// What the analysis needs; nullptr when the file is too faulty to know.
+  /// The needs of the analysis; nullptr when the file is too faulty for them.
   [[nodiscard]] const Needs* needs() const { return needs_; }
 
   /// "analysis 'identify' with a measurement 'xy_curve'"; `needs` must be known.
@@ -87,13 +87,13 @@ class CheckedFile {
   void complain(const std::string& path, std::string message, std::string allowed = {}, std::string found = {},
                 std::string suggestion = {});
 
-  /// Problems that were found and located elsewhere.
+  /// Adds problems that were found and located elsewhere.
   void take_over(const std::vector<core::Diagnostic>& problems);
 
-  /// Of the value at `path`, or of what contains it.
+  /// Place of the value at `path`, or of the section that contains it.
   [[nodiscard]] Place place_of(std::string path) const;
 
-  /// A value stands in the file at exactly this path, whether or not it could be read.
+  /// Whether the file has a value at exactly this path, readable or not.
   [[nodiscard]] bool is_given(const std::string& path) const { return reading_.places.contains(path); }
 
   /// A section without its key; nullptr when it is not there.
@@ -102,12 +102,13 @@ class CheckedFile {
   /// A section with its key; nullptr when it is not there.
   [[nodiscard]] const Entry* entry(std::string_view section) const { return document_.root().find(section); }
 
-  /// The file has the key, whether or not its value could be read.
+  /// Whether the file has the key, with a readable value or not.
   [[nodiscard]] bool stands_in_file(std::string_view section, std::string_view key) const;
 
   [[nodiscard]] bool has(const std::string& section, const std::string& key) const;
   [[nodiscard]] std::string text_at(const std::string& section, const std::string& key) const;
-  /// Nothing where the key is missing, or still holds a word such as `natural` that the constants do not resolve.
+  /// Nothing if the key is missing, or if it still holds a word such as `natural` that the constants do not
+  /// resolve.
   [[nodiscard]] std::optional<double> number_at(const std::string& section, const std::string& key) const;
 
   /// `analysis.measurement`; nullptr when there is none.
@@ -130,7 +131,7 @@ class CheckedFile {
   DataPlace data_place_;
 };
 
-/// Sorts keys that were filled in later to where the tables have them.
+/// Moves keys that were filled in later to their places in the tables.
 void put_in_order(Json& values, const Section& section);
 
 }  // namespace dualdamp::scenarios

@@ -49,15 +49,14 @@ Field range(std::string name, const std::vector<std::string>& units, std::string
 }
 
 std::vector<Field> signal_file(const std::string& column, const std::string& si) {
-  return {
-      text("file", "data file (CSV, MATLAB, universal file) in the scenario's directory or below").required(),
-      text("column", "what the file calls the signal, or its number; default: " + column),
-      text("unit", "unit of the column where the file states none, such as that of " + si),
-      text("time_column", "what the file calls the times, or their number; default: t"),
-      text("time_unit", "unit of the times where the file states none, such as ms; default: s"),
-      text("scale", "what the numbers are multiplied by, such as the sensitivity of a sensor: 2.5 " + si + "/V"),
-      words("decimal", {".", ","}, "decimal mark of a CSV file"),
-      boolean("no_header", "the CSV file begins with numbers; the columns are named by theirs")};
+  return {text("file", "data file (CSV, MATLAB, universal file) in the scenario's directory or below").required(),
+          text("column", "name or number of the signal's column in the file; default: " + column),
+          text("unit", "unit of the column if the file states none, of the same kind as " + si),
+          text("time_column", "name or number of the column of times in the file; default: t"),
+          text("time_unit", "unit of the times if the file states none, such as ms; default: s"),
+          text("scale", "factor of the numbers, such as the sensitivity of a sensor: 2.5 " + si + "/V"),
+          words("decimal", {".", ","}, "decimal mark of a CSV file"),
+          boolean("no_header", "the CSV file has no header: its columns are named by their numbers")};
 }
 
 Field optional(Field field) {

@@ -10,16 +10,15 @@ inline constexpr std::size_t max_sets = 100;
 
 [[nodiscard]] Field amplitudes();
 [[nodiscard]] Field frequencies();
-/// How many extremes of a free vibration are wanted.
+/// Number of extremes of a free vibration.
 [[nodiscard]] Field peaks();
-/// Of random values.
+/// Seed of random values.
 [[nodiscard]] Field seed();
-/// {from, to}: where a branch begins and where it is left.
+/// {from, to}: the range of a branch.
 [[nodiscard]] Field range(std::string name, const std::vector<std::string>& units, std::string meaning);
-/// One signal of a data file: file, column, unit and how to read them. `column`: its name where none is given;
-/// `si`: its unit.
+/// One signal of a data file: file, column, unit and how to read them. `column`: its default name; `si`: its unit.
 [[nodiscard]] std::vector<Field> signal_file(const std::string& column, const std::string& si);
-/// The field, no longer required.
+/// The field, made optional.
 [[nodiscard]] Field optional(Field field);
 
 }  // namespace dualdamp::scenarios

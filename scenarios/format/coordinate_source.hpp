@@ -1,6 +1,6 @@
 #pragma once
-/// What the coordinate of a scenario's oscillator is, and what says so: the key `coordinate`, or else the first
-/// quantity whose unit fits one kind of coordinate alone.
+/// The coordinate of a scenario's oscillator, and where it is stated: in the key `coordinate`, or otherwise by the
+/// first quantity whose unit is possible for one kind of coordinate only.
 
 #include <optional>
 #include <string>
@@ -18,19 +18,19 @@ struct CoordinateSource {
   [[nodiscard]] std::string reason() const;
 };
 
-/// What `system.coordinate` says; nothing where it is not there, or says something else.
+/// The value of `system.coordinate`; nothing if it is missing or is not a coordinate.
 [[nodiscard]] std::optional<CoordinateSource> stated_coordinate(const Document& document);
 
-/// What the units of quantities say, one after the other.
+/// Finds the coordinate from the units of quantities, one after the other.
 class ToldCoordinate {
  public:
   /// Whether the text of `node` is a quantity of `dimension` with the other coordinate and none with `assumed`.
   bool fits_other_only(const Document& document, const Node& node, const std::string& path,
                        const std::string& dimension, core::Coordinate assumed);
 
-  /// By the first that told.
+  /// The coordinate by the first quantity that determines it.
   [[nodiscard]] const std::optional<CoordinateSource>& first() const { return first_; }
-  /// A later one told the other.
+  /// Whether a later quantity contradicts it.
   [[nodiscard]] bool is_mixed() const { return is_mixed_; }
 
  private:

@@ -13,22 +13,23 @@ namespace {
 /// The harmonic excitations differ in the unit of their amplitudes.
 std::vector<Field> harmonic_fields(const std::string& unit) {
   const Section harmonic = {{integer("order", "multiple of the frequency").required().at_least(2).at_most(1000),
-                             quantity("amplitude", {unit}, "its amplitude").required().at_least(0),
-                             quantity("phase", {"rad"}, "its phase").with_fallback(0.0)}};
-  return {
-      quantity("amplitude", {unit}, "amplitude A of A cos(w t + phase)").at_least(0),
-      quantity("frequency", {"rad/s"}, "forcing frequency w; natural: sqrt(k/m); damped: natural sqrt(1 - zeta^2)")
-          .above(0)
-          .or_words({"natural", "damped"})
-          .with_uncertainty(),
-      uncertainty_of("frequency", {"rad/s"}), quantity("phase", {"rad"}, "phase at t = 0").with_fallback(0.0),
-      section_list("harmonics", harmonic, "further harmonics of a distorted drive")
-          .items(1, static_cast<std::size_t>(sim::max_harmonics))};
+                             quantity("amplitude", {unit}, "amplitude of the harmonic").required().at_least(0),
+                             quantity("phase", {"rad"}, "phase of the harmonic").with_fallback(0.0)}};
+  return {quantity("amplitude", {unit}, "amplitude A of A cos(w t + phase)").at_least(0),
+          quantity("frequency", {"rad/s"},
+                   "forcing frequency w; natural: sqrt(k/m); damped: sqrt(k/m) sqrt(1 - zeta^2)")
+              .above(0)
+              .or_words({"natural", "damped"})
+              .with_uncertainty(),
+          uncertainty_of("frequency", {"rad/s"}), quantity("phase", {"rad"}, "phase at t = 0").with_fallback(0.0),
+          section_list("harmonics", harmonic, "further harmonics of a distorted drive")
+              .items(1, static_cast<std::size_t>(sim::max_harmonics))};
 }
 
 std::vector<Field> noise_fields(const std::string& unit) {
   return {quantity("intensity", {unit}, "spectral density at low frequencies, two-sided").required().at_least(0),
-          quantity("bandwidth", {"rad/s"}, "the signal is linear between random values at twice this rate")
+          quantity("bandwidth", {"rad/s"},
+                   "bandwidth: the signal is linear between random values that follow at twice this rate")
               .required()
               .above(0),
           seed()};
@@ -38,22 +39,24 @@ std::vector<Field> chirp_fields(const std::string& unit) {
   return {quantity("amplitude", {unit}, "amplitude A").required().at_least(0),
           quantity("from", {"rad/s"}, "frequency at t = 0").required().above(0),
           quantity("to", {"rad/s"}, "frequency at the end").required().above(0),
-          quantity("duration", {"s"}, "time that the sweep takes; behind it the drive keeps its last value")
+          quantity("duration", {"s"}, "duration of the sweep; after it the drive keeps its last value")
               .required()
               .above(0),
-          words("spacing", {"linear", "log"}, "the frequency grows by equal steps, or by equal ratios")
+          words("spacing", {"linear", "log"},
+                "in equal times the frequency changes by equal steps (linear) or by equal ratios (log)")
               .with_fallback("linear"),
           quantity("phase", {"rad"}, "phase at t = 0").with_fallback(0.0)};
 }
 
 Field interpolation() {
   return words("interpolation", {"linear", "cubic", "step"},
-               "between the samples: straight lines; a cubic spline; the sample before")
+               "what joins the samples: straight lines, a cubic spline, or steps that hold the last sample")
       .with_fallback("linear");
 }
 
 Field repeat() {
-  return boolean("repeat", "the drive begins anew with its last sample; else it keeps that value")
+  return boolean("repeat",
+                 "true: the drive starts again at its last sample; false: it keeps the value of the last sample")
       .with_fallback(false);
 }
 
@@ -63,15 +66,15 @@ std::vector<Field> measured_fields(const std::string& column, const std::string&
   fields.push_back(repeat());
   fields.push_back(
       words("detrend", {"none", "mean", "line"},
-            "what is taken off the samples: nothing, their mean, the straight line that fits them best")
+            "what is subtracted from the samples: nothing, their mean, or the straight line that fits them best")
           .with_fallback("none"));
-  fields.push_back(quantity("offset", {unit}, "what is then added to them").with_fallback(0.0));
+  fields.push_back(quantity("offset", {unit}, "constant that is then added to the samples").with_fallback(0.0));
   return fields;
 }
 
 std::vector<Field> table_fields(const std::string& unit) {
   const auto most = static_cast<std::size_t>(max_table);
-  return {quantities("times", {"s"}, "times of the values; the first is 0, and they increase")
+  return {quantities("times", {"s"}, "times of the values; they begin at 0 and increase")
               .required()
               .at_least(0)
               .items(2, most),
@@ -94,10 +97,10 @@ Choice make_excitations() {
             {{quantity("rate", {"N/s"}, "rate R").required()}}},
            {"base_noise", "base in random motion y(t), band-limited white", {noise_fields("m^2.s")}},
            {"force_noise", "random force on the mass f(t), band-limited white", {noise_fields("N^2.s")}},
-           {"base_chirp", "base motion A cos(phi(t)) whose frequency sweeps", {chirp_fields("m")}, "m"},
-           {"force_chirp", "force on the mass A cos(phi(t)) whose frequency sweeps", {chirp_fields("N")}, "N"},
-           {"base_table", "base motion y(t) by a list of times and values", {table_fields("m")}},
-           {"force_table", "force on the mass f(t) by a list of times and values", {table_fields("N")}},
+           {"base_chirp", "base motion A cos(phi(t)) with a frequency sweep", {chirp_fields("m")}, "m"},
+           {"force_chirp", "force A cos(phi(t)) on the mass with a frequency sweep", {chirp_fields("N")}, "N"},
+           {"base_table", "base motion y(t) given by a list of times and values", {table_fields("m")}},
+           {"force_table", "force on the mass f(t) given by a list of times and values", {table_fields("N")}},
            {"measured_base", "base motion y(t) from a data file", {measured_fields("y", "m")}},
            {"measured_force", "force on the mass f(t) from a data file", {measured_fields("force", "N")}}}};
 }

@@ -1,5 +1,5 @@
 #pragma once
-/// JSON that comes from outside: a key, the result of a fit.
+/// JSON from outside the program: the value of a key, the result of a fit.
 
 #include <string_view>
 
@@ -7,8 +7,8 @@
 
 namespace dualdamp::scenarios {
 
-/// Discarded (`is_discarded`) where the text is no whole document, or nests deeper than any that the program
-/// writes: each of a million levels would cost a hundred bytes.
+/// Discarded (`is_discarded`) if the text is not a complete document, or nests deeper than any document that the
+/// program writes: each of a million levels would cost a hundred bytes.
 [[nodiscard]] Json parse_json(std::string_view text);
 
 }  // namespace dualdamp::scenarios

@@ -40,7 +40,7 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   return last.back();
 }
 
-/// Case, '-', '_' and blanks do not matter to a person.
+/// Ignores case, '-', '_' and blanks.
 std::string folded(std::string_view word) {
   std::string result;
   for (const char c : word)
@@ -72,7 +72,7 @@ Field plain_field_of(const friction::Parameter& parameter) {
   return quantity(std::move(name), {std::string(parameter.unit)}, std::move(meaning));
 }
 
-/// Few keys are named; long lists have their own table on the page.
+/// A short list of keys is written out; a long one has its own table on the page.
 std::string map_in_words(const Choice& choice) {
   if (!choice.key.empty()) return "a map with the key '" + choice.key + "'";
   constexpr std::size_t few = 5;
@@ -187,7 +187,7 @@ std::string uncertainty_key(const std::string& name) { return name + "_uncertain
 
 Field uncertainty_of(const std::string& name, std::vector<std::string> units) {
   return quantity(uncertainty_key(name), std::move(units),
-                  "standard uncertainty of '" + name + "', which may stand beside its value: 2 +- 1 %")
+                  "standard uncertainty of '" + name + "'; it may also be written after the value: 2 +- 1 %")
       .at_least(0);
 }
 

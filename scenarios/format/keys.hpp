@@ -1,9 +1,9 @@
 #pragma once
-/// The vocabulary of scenario files: what a key may hold, stated once.
+/// The keys of scenario files: the values of each key, declared once.
 ///
 /// A table of `Field`s describes a section of the file. The reader (reader.cpp), the JSON Schema (schema.cpp) and
-/// the reference page (reference.cpp) all follow these tables; what the tables say (`format.cpp` and the analyses)
-/// stands nowhere else.
+/// the reference page (reference.cpp) all use these tables. The content of the tables (`scenario_format.cpp` and
+/// the analyses) is stated nowhere else.
 ///
 ///     Section{{quantity("mass", "kg", "sliding mass").required().above(0),
 ///              words("damper_to", {"ground", "base"}, "other end of the damper").fallback("ground")}}
@@ -42,14 +42,15 @@ struct Field {
   std::string name;
   Kind kind = Kind::text;
   std::string meaning;
-  /// Units of the numbers, for a displacement (core/coordinate.hpp). More than one: which one holds follows from
-  /// the excitation (an amplitude is m or N).
+  /// Units of the numbers, for a displacement (core/coordinate.hpp). If there are several, the excitation
+  /// determines which one applies (an amplitude is in m or N).
   std::vector<std::string> units;
   friction::Range range;
   std::vector<std::string> words;
   bool is_required = false;
-  /// Part of the other form of a section, which does without this key: refused beside it, required without it (when
-  /// `is_required`). That key itself is then required where no part of the other form is.
+  /// The key that this one replaces, as a part of the other form of a section: this key is refused beside it, and
+  /// required without it (when `is_required`). The replaced key is required if the section has no part of the other
+  /// form.
   std::string instead_of = {};
   Json fallback;               ///< null: none. In the form the reader returns
   std::string fallback_words;  ///< the default in words, where it is not a value: "that of 'kinetic'"
@@ -57,8 +58,8 @@ struct Field {
   std::size_t max_items = 1;
   std::shared_ptr<const Choice> choice;
   bool listed = false;       ///< choice: a list of maps is accepted
-  bool only_listed = false;  ///< choice: nothing but a list is accepted
-  /// choice: a text stands for a map of this key alone; empty: it does not.
+  bool only_listed = false;  ///< choice: only a list is accepted
+  /// choice: a text means a map with this key alone; empty: a text is refused.
   std::string short_for = {};
   /// quantity: its text may state an uncertainty, which goes to the key `uncertainty_key(name)`.
   bool takes_uncertainty = false;
@@ -84,7 +85,7 @@ struct Section {
   std::vector<Alternatives> alternatives = {};
 
   [[nodiscard]] const Field* find(std::string_view name) const;
-  /// Keys of the form that does without `name`.
+  /// Keys of the form without `name`.
   [[nodiscard]] std::vector<std::string> instead_of(std::string_view name) const;
 };
 
@@ -92,15 +93,15 @@ struct Variant {
   std::string name;
   std::string summary;
   Section section;
-  /// Of an excitation: which of its units a field with several takes in the rest of the file.
+  /// Of an excitation: the unit that applies to fields with several units in the rest of the file.
   std::string amplitude_unit = {};
   std::string equation = {};              ///< of a closed form
   std::vector<ResultField> results = {};  ///< what this choice adds to the result
-  /// Of an analysis: a law of the system may lack numbers that it requires, and its defaults are not filled in.
+  /// Of an analysis: a law of the system may lack required numbers, and its defaults are not filled in.
   bool seeks_laws = false;
 };
 
-/// A map whose key `key` (type, law, ...) tells which section holds; a plain map when `key` is empty.
+/// A map whose key `key` (type, law, ...) selects the section; a plain map when `key` is empty.
 struct Choice {
   std::string key;
   std::vector<Variant> variants;
@@ -120,7 +121,7 @@ struct Choice {
 /// "mass_uncertainty"
 [[nodiscard]] std::string uncertainty_key(const std::string& name);
 
-/// The key beside a quantity that takes its uncertainty.
+/// The key for the uncertainty of a quantity.
 [[nodiscard]] Field uncertainty_of(const std::string& name, std::vector<std::string> units);
 
 [[nodiscard]] Field quantities(std::string name, std::vector<std::string> units, std::string meaning);
@@ -129,7 +130,8 @@ struct Choice {
 [[nodiscard]] Field section_list(std::string name, Section section, std::string meaning);
 [[nodiscard]] Field choice(std::string name, Choice choice, std::string meaning);
 
-/// The fields that read a law's parameters. Bounds between parameters and defaults stay with `friction::complete`.
+/// The fields that read a law's parameters. `friction::complete` checks bounds between parameters and fills in
+/// defaults.
 [[nodiscard]] std::vector<Field> fields_of(const std::vector<friction::Parameter>& table);
 
 /// The {from, to, count, spacing} form of a grid with these units and range.
@@ -139,7 +141,7 @@ struct Choice {
 [[nodiscard]] std::string describe_values(const Field& field,
                                           core::Coordinate coordinate = core::Coordinate::displacement);
 
-/// The name among `names` that `word` was perhaps meant to be; empty when none is near.
+/// The name among `names` that `word` probably means; empty when none is similar.
 [[nodiscard]] std::string nearest(std::string_view word, const std::vector<std::string>& names);
 
 }  // namespace dualdamp::scenarios

@@ -1,12 +1,12 @@
 #pragma once
-/// A law's parameters between the JSON of a resolved scenario and the values the law is made of.
+/// Conversion between the JSON of a law in a resolved scenario and the values of its parameters.
 
 #include "friction_models/parameters.hpp"
 #include "scenarios/format/json.hpp"
 
 namespace dualdamp::scenarios {
 
-/// Those of `table` that `section` has; other keys of it are left alone.
+/// The parameters of `table` that `section` has; other keys are ignored.
 [[nodiscard]] friction::ParameterValues law_values(const std::vector<friction::Parameter>& table,
                                                    const Json& section,
                                                    core::Coordinate coordinate = core::Coordinate::displacement);

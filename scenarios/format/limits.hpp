@@ -1,12 +1,12 @@
 #pragma once
-/// What a file may ask for at most.
+/// Limits of what a file may ask for.
 
 #include <cstddef>
 
 namespace dualdamp::scenarios {
 
 inline constexpr double max_points = 1e6;   ///< values of a list, points of a curve
-inline constexpr double max_swept = 1e4;    ///< points of a sweep; their lists have max_points rows together
+inline constexpr double max_swept = 1e4;    ///< points of a sweep, whose lists have max_points rows in all
 inline constexpr double max_samples = 1e6;  ///< rows of a history
 inline constexpr double max_periods = 1e6;  ///< forcing or natural periods of a history
 inline constexpr double max_nodes = 1e7;    ///< pieces of a drive: random values of a noise, samples

@@ -7,10 +7,10 @@
 namespace dualdamp::scenarios {
 
 struct Needs {
-  /// Of an analysis of data: where they come from, `data` or the type of its `measurement`. An analysis whose needs
-  /// depend on it has one row for each source. Empty otherwise.
+  /// For an analysis of data: the source of the data, `data` or the type of the `measurement`. An analysis whose
+  /// needs depend on the source has one row for each. Empty otherwise.
   std::string source;
-  std::vector<std::string> excitations;  ///< types it works with; empty: it has no use for a system at all
+  std::vector<std::string> excitations;  ///< types that are allowed; empty: the analysis uses no system
   std::vector<std::string> drive;        ///< keys of a harmonic excitation that must be there
   bool whole_system = true;              ///< mass, stiffness above zero, and damping or damping_ratio must be there
   std::string reason;                    ///< why these excitations only, for messages
@@ -19,12 +19,12 @@ struct Needs {
 /// The excitations that have a steady state.
 [[nodiscard]] inline std::vector<std::string> harmonic_excitations() { return {"base_harmonic", "force_harmonic"}; }
 
-/// Of an analysis of steady states; `drive`: keys of the excitation that it does not vary itself.
+/// Needs of an analysis of steady states; `drive`: keys of the excitation that the analysis does not vary.
 [[nodiscard]] inline std::vector<Needs> needs_of_steady_states(std::vector<std::string> drive) {
   return {{"", harmonic_excitations(), std::move(drive), true, "a steady state needs a harmonic excitation"}};
 }
 
-/// Of an analysis of free vibrations.
+/// Needs of an analysis of free vibrations.
 [[nodiscard]] inline Needs needs_of_free_vibrations(std::string source) {
   return {std::move(source), {"none"}, {}, true, "a free vibration has no excitation"};
 }

@@ -120,7 +120,7 @@ class Reader {
     };
     std::string allowed = describe_values(field, coordinate_);
     if (!field.instead_of.empty()) {
-      // With nothing of either form there the first one is missing, and that is said once.
+      // If no key of either form is there, the first form is reported as missing, once.
       if (node.find(field.instead_of) != nullptr || !any_given(section.instead_of(field.instead_of))) return;
       return complain(node.head(), "'" + path + "' is missing: it is needed without '" + field.instead_of + "'",
                       std::move(allowed));
@@ -131,9 +131,9 @@ class Reader {
     complain(node.head(), "'" + path + "' is missing", std::move(allowed));
   }
 
-  /// null when the value is faulty; the fault is then noted.
+  /// null when the value is faulty; the fault is then reported.
   Json value(const Node& node, const Field& field, const std::string& path) {
-    if (node.kind == Node::Kind::null) return nullptr;  // the tree has said so
+    if (node.kind == Node::Kind::null) return nullptr;  // the tree has reported it
     reading_.places.emplace(path, node.place);
     switch (field.kind) {
       case Kind::choice:
@@ -203,7 +203,7 @@ class Reader {
     return nullptr;
   }
 
-  /// A number, true, false or a text: the tree does not say which is wanted.
+  /// A number, true, false or a text; the tree does not distinguish them.
   Json free_scalar(const Node& node, const std::string& path) {
     if (node.quoted) return node.text;
     if (node.text == "true") return true;
@@ -249,7 +249,7 @@ class Reader {
     return in_json(*text.value, unit);
   }
 
-  /// The uncertainty that the text of a quantity states goes to the key of its own.
+  /// An uncertainty in the text of a quantity is stored under its own key.
   void uncertainty(const Node& section, const Entry& entry, const Field& field, const std::string& path,
                    Json& values) {
     if (entry.value.kind != Node::Kind::scalar) return;
@@ -312,7 +312,7 @@ class Reader {
     const std::size_t before = reading_.problems.size();
     const Section grid = grid_section(field);
     Json values = section(node, grid, path, nullptr);
-    // A null was refused with the tree.
+    // The tree has already refused a null.
     if (reading_.problems.size() != before || values.size() < grid.fields.size()) return nullptr;
     for (const char* end : {"from", "to"}) {
       const Json& value = values[end];
@@ -342,7 +342,7 @@ class Reader {
       }
       if (item.kind == Node::Kind::scalar || item.kind == Node::Kind::sequence)
         complain(item.place, "'" + item_path + "' is of the wrong kind", "a map", shown(item));
-      // A faulty item keeps its place: the others must not change their numbers.
+      // A faulty item keeps its place, so that the others keep their numbers.
       values.push_back(item.kind == Node::Kind::map ? one_map(item, field, item_path) : Json(nullptr));
     }
     return values;
@@ -384,12 +384,12 @@ class Reader {
     return variant;
   }
 
-  /// What the registry alone knows: defaults that follow another parameter, bounds between parameters.
+  /// Checks by the registry: defaults that follow another parameter, bounds between parameters.
   void check_law(const Node& node, const std::string& name, const std::string& path, Json& section) {
     const friction::LawEntry& law = *friction::find_law(name);
     friction::ParameterValues values = law_values(law.parameters, section, coordinate_);
     for (friction::ParameterFault& fault : friction::complete(law, values)) {
-      if (fault.is_missing) continue;  // noted already
+      if (fault.is_missing) continue;  // already reported
       const auto place = reading_.places.find(path + "." + fault.name);
       complain(place == reading_.places.end() ? node.head() : place->second,
                "'" + path + "." + fault.name + "' is not possible: " + fault.message, std::move(fault.allowed),
@@ -406,7 +406,7 @@ class Reader {
   Reading reading_;
 };
 
-/// Whether the analysis that the file asks for is one that does.
+/// Whether the analysis of the file seeks numbers of laws.
 bool seeks_laws(const Document& document, const Section& format) {
   const Entry* section = document.root().find("analysis");
   const Entry* type = section == nullptr ? nullptr : section->value.find("type");
@@ -441,7 +441,7 @@ Reading read(const Document& document, const Section& format) {
     if (!stated) reading.coordinate = told;
     return reading;
   }
-  // Now that the units have told, all quantities are read in it.
+  // The units have determined the coordinate; now all quantities are read in it.
   Reader second(document, told, laws_are_sought);
   values = second.section(document.root(), format, "", nullptr);
   return reading_of(second, std::move(values));

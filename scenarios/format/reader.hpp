@@ -1,12 +1,13 @@
 #pragma once
-/// Reads a document by the tables of `keys.hpp`: every key known, every value of the right kind, dimension and
-/// range.
+/// Reads a document by the tables of `keys.hpp` and checks that every key is known and every value has the right
+/// kind, dimension and range.
 ///
-/// What comes out is the resolved scenario: SI numbers, defaults filled in, keys in the order of the tables. It is
-/// itself a valid scenario; frequencies keep their unit (`"10 rad/s"`) because the format refuses them without.
+/// The result is the resolved scenario: SI numbers, defaults filled in, keys in the order of the tables. It is
+/// itself a valid scenario. Frequencies keep their unit (`"10 rad/s"`), because the format refuses a frequency
+/// without a unit.
 ///
-/// `system.coordinate` tells the dimensions of all quantities. Without that key the first quantity does whose unit
-/// fits one kind of coordinate alone; a quantity of the other kind is then refused.
+/// `system.coordinate` determines the dimensions of all quantities. Without this key the first quantity whose unit
+/// is possible for one kind of coordinate only determines them. A quantity of the other kind is then refused.
 
 #include <map>
 #include <optional>
@@ -20,7 +21,7 @@
 
 namespace dualdamp::scenarios {
 
-/// A list of 300,000 wrong items needs no 300,000 messages.
+/// So that a list of 300,000 wrong items does not give 300,000 messages.
 inline constexpr std::size_t max_reported = 200;
 
 struct Reading {
@@ -28,10 +29,10 @@ struct Reading {
   std::map<std::string, Place> places;               ///< of each value by path: "system.friction[0].static"
   std::map<std::string, std::string> written_units;  ///< of quantities, by path; columns of data: `data.x`
   std::vector<core::Diagnostic> problems;
-  /// By the key `coordinate`, or by the units; nothing where all numbers are bare.
+  /// From the key `coordinate`, or from the units; nothing if no number has a unit.
   std::optional<CoordinateSource> coordinate;
 
-  /// Notes a problem, up to `max_reported` of them.
+  /// Adds a problem, up to `max_reported` problems.
   void complain(const Document& document, Place place, std::string message, std::string allowed = {},
                 std::string found = {}, std::string suggestion = {});
 };

@@ -1,6 +1,6 @@
 #pragma once
-/// A number that a result may hold. The reference page lists them, an `expect` is checked against them before
-/// anything runs, and the printed summary takes names and units from them.
+/// A number that a result may hold. The reference page lists these fields, each `expect` is checked against them
+/// before the run, and the printed summary uses their names and units.
 
 #include <string>
 

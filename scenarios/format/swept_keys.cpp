@@ -60,7 +60,7 @@ class SweepReader {
       complain(node.place, "'sweep." + key.path + "' has one value only", std::string(forms), shortened(node.text));
   }
 
-  /// All values are numbers in one unit, so that a table can have them in it.
+  /// All values must be numbers in one unit, so that a table can show them in it.
   bool is_number(const Node& node, SweptKey& key, bool is_first) {
     const std::string where = "'sweep." + key.path + "'";
     if (node.kind == Node::Kind::null) return false;

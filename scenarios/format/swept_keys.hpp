@@ -4,7 +4,7 @@
 ///     sweep: {system.friction.kinetic: {from: 1 N, to: 5 N, count: 9}, excitation.frequency: [5 Hz, 6 Hz]}
 ///
 /// Values stay text, as the user wrote them; between the ends of a range they are written in the unit of the ends.
-/// So the strict reader sees each of them as it would see that of `--set PATH=VALUE`, with the place in the file.
+/// So the strict reader treats each value like that of `--set PATH=VALUE`, with its place in the file.
 
 #include <optional>
 #include <string>
@@ -21,7 +21,7 @@ struct SweptKey {
   std::string unit;          ///< of all its values; empty: bare numbers
   std::vector<Node> values;  ///< scalars
 
-  /// Value number `i` without its unit.
+  /// Value number `i`, without its unit.
   [[nodiscard]] double number(std::size_t i) const;
 };
 
@@ -30,8 +30,8 @@ struct SweptKeys {
   std::vector<SweptKey> keys;  ///< one or two
 };
 
-/// Takes the section out of a document; nothing when there is none. What is wrong with it is added to `problems`.
-/// What the paths name, and whether it can have these values, is for the reader of the other sections.
+/// Takes the section out of a document; nothing when there is none. Its faults are added to `problems`. The reader
+/// of the other sections checks whether the paths exist and can have these values.
 [[nodiscard]] std::optional<SweptKeys> take_swept_keys(Document& document, std::vector<core::Diagnostic>& problems);
 
 }  // namespace dualdamp::scenarios

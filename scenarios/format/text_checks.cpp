@@ -33,7 +33,7 @@ std::optional<Character> decode(std::string_view text, std::size_t at) {
   return Character{code, length};
 }
 
-/// Spaces that are not the space, characters without width, and those that turn the direction of writing.
+/// Unusual spaces, characters without width, and those that change the direction of writing.
 bool is_invisible(std::uint32_t code) {
   return code == 0xA0 || code == 0xAD || (code >= 0x2000 && code <= 0x200F) || (code >= 0x2028 && code <= 0x202F) ||
          (code >= 0x205F && code <= 0x206F) || code == 0x3000 || code == 0xFEFF;
@@ -76,7 +76,7 @@ std::vector<TextFault> text_faults(std::string_view text) {
   for (std::size_t at = 0; at < text.size() && faults.size() < max_faults;) {
     const std::optional<Character> character = decode(text, at);
     if (!character) {
-      // From here on nothing can be trusted, not even line ends.
+      // After this the text cannot be interpreted, not even line ends.
       faults.push_back({at, "this is not UTF-8 text"});
       return faults;
     }

@@ -1,6 +1,6 @@
 #pragma once
-/// Faults of a text as such, before it is read as anything: bytes that are not UTF-8, control and invisible
-/// characters, tabs.
+/// Faults of a text that do not depend on its format: bytes that are not UTF-8, control and invisible characters,
+/// tabs.
 
 #include <cstddef>
 #include <string>

@@ -97,7 +97,7 @@ const Node* find(const Node& root, const std::vector<Step>& steps) {
   return node;
 }
 
-/// The last of the texts that state this value or a part of it; 0: the file alone.
+/// The last of the texts that state this value or a part of it; 0: only the file does.
 int last_source(const Node& node) {
   int last = node.place.source;
   for (const Node& item : node.items) last = std::max(last, last_source(item));
@@ -138,7 +138,7 @@ core::SourcePlace Document::locate(Place place) const {
   if (place.line < 1) return result;
   const std::size_t start = source.line_starts[static_cast<std::size_t>(place.line) - 1];
   const std::size_t end = std::min(source.text.find('\n', start), source.text.size());
-  // A caret far out on a very long line helps nobody.
+  // A caret far to the right on a very long line does not help.
   constexpr std::size_t max_line = 240;
   if (end - start <= max_line) result.text = source.text.substr(start, end - start);
   return result;
@@ -214,7 +214,7 @@ void Document::put(std::string_view path, Node value, const std::function<Place(
     auto entry = std::ranges::find(node->entries, step.key, &Entry::key);
     const bool is_new = entry == node->entries.end();
     if (is_new) entry = node->entries.insert(entry, Entry{step.key, place, Node{}});
-    // A section that stands in the file keeps its place there.
+    // A section of the file keeps its place.
     if (is_new || &step == &steps->back()) entry->place = entry->value.key_place = place;
     node = &entry->value;
   }

@@ -1,12 +1,12 @@
 #pragma once
-/// A scenario file as a located tree: every value knows the line and column it came from.
+/// A scenario file as a tree with places: every value has its line and column.
 ///
-/// What YAML allows and a reader would misunderstand is refused here, before any key has a meaning: duplicate keys,
-/// keys without value, quotes that do not close on their line, values that run on over several lines, anchors,
-/// aliases, tags, merge keys, directives, several documents, tabs, invisible characters, text that is not UTF-8,
-/// nesting deeper than `max_depth`, files above `max_bytes`.
-/// Errors: `core::InputError` where nothing more can be read; every other problem is kept in `problems()`, so that
-/// those of the keys can be told with them. Cost: linear in the length of the text.
+/// Constructs that YAML allows and that readers misunderstand are refused here, before keys are interpreted:
+/// duplicate keys, keys without value, quotes that do not close on their line, values that run on over several
+/// lines, anchors, aliases, tags, merge keys, directives, several documents, tabs, invisible characters, text that
+/// is not UTF-8, nesting deeper than `max_depth`, files above `max_bytes`. Errors: `core::InputError` if nothing
+/// more can be read; every other problem is kept in `problems()`, so that it is reported together with the problems
+/// of the keys. Cost: linear in the length of the text.
 
 #include <cstddef>
 #include <functional>
@@ -35,7 +35,7 @@ struct Place {
 struct Entry;
 
 struct Node {
-  enum class Kind { null, scalar, sequence, map };  ///< null: a value already complained about
+  enum class Kind { null, scalar, sequence, map };  ///< null: a value that was already reported
 
   Kind kind = Kind::null;
   Place place;
@@ -45,9 +45,9 @@ struct Node {
   std::vector<Node> items;  ///< sequence
   std::vector<Entry> entries;  ///< map, in order of the file, keys distinct
 
-  /// Where to point when something is missing inside.
+  /// Place for messages about something that is missing inside.
   [[nodiscard]] Place head() const { return key_place.line > 0 ? key_place : place; }
-  /// nullptr when this is no map or has no such key.
+  /// nullptr when this is not a map or has no such key.
   [[nodiscard]] const Entry* find(std::string_view key) const;
 };
 
@@ -63,22 +63,22 @@ struct Entry {
 /// The file and the `--set` texts applied to it.
 class Document {
  public:
-  /// `name` stands for the file in messages.
+  /// `name` is the name of the file in messages.
   Document(std::string name, const std::string& text);
 
   /// Applies `PATH=VALUE`, PATH like `system.friction[0].kinetic`, VALUE in YAML. Keys on the way that do not exist
-  /// are created; list items must exist. `origin` stands for the file in messages. What an earlier assignment
-  /// states is not replaced, which would ignore it: that is refused, unless the earlier one is `replaceable`.
+  /// are created; list items must exist. `origin` is the name of the file in messages. A value of an earlier
+  /// assignment is replaced only if that assignment is `replaceable`; otherwise the new one is refused.
   void set(std::string_view assignment, std::string origin, bool replaceable = false);
-  /// The assignment that states a value at this path or in it, with its origin; nothing where the file does.
+  /// The assignment that states a value at this path or below it, with its origin; nothing if the file states it.
   [[nodiscard]] std::optional<std::string> assigned(std::string_view path) const;
 
-  /// The same with a value that is already there; `place` is that of PATH, for messages.
+  /// The same with a value that is already a node; `place` is that of PATH, for messages.
   void put(std::string_view path, Place place, Node value);
-  /// Takes a key of the root, or of one of its sections (`analysis.methods`), out with its value; nothing when it
-  /// is not there.
+  /// Removes a key of the root, or of one of its sections (`analysis.methods`), and returns its value; nothing when
+  /// there is no such key.
   std::optional<Entry> take(std::string_view path);
-  /// A part of this document, as one of its own that has no problems yet.
+  /// A part of this document as a separate document without problems.
   [[nodiscard]] Document part(Node root) const;
 
   [[nodiscard]] const Node& root() const { return root_; }
@@ -98,7 +98,7 @@ class Document {
   friend class TreeBuilder;
 
   [[nodiscard]] Place place_at(int source, std::size_t offset) const;
-  /// `place_of`: where the step stands that begins at this offset of the path.
+  /// `place_of`: place of the step that begins at this offset of the path.
   void put(std::string_view path, Node value, const std::function<Place(std::size_t)>& place_of);
   /// Parses `sources_[source]` from `begin` on.
   [[nodiscard]] Node parse(int source, std::size_t begin);

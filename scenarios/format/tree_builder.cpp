@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::size_t max_problems = 50;
 
-/// yaml-cpp's messages in the words of someone who writes a file.
+/// yaml-cpp's messages in terms that a user of scenario files knows.
 std::string in_plain_words(const std::string& message, std::string_view text, std::size_t at) {
   if (message == "end of map flow not found" && at > 0 && at < text.size() && text[at] == '[' &&
       text[at - 1] != ' ')
@@ -60,7 +60,7 @@ std::optional<std::size_t> find_directive(std::string_view text) {
 }  // namespace
 
 /// Builds the tree from yaml-cpp's events, and checks each event against the text it came from: the text still
-/// shows what the events hide.
+/// contains details that the events have lost.
 class TreeBuilder final : public YAML::EventHandler {
  public:
   TreeBuilder(const Document& document, int source, std::size_t begin)
@@ -79,7 +79,7 @@ class TreeBuilder final : public YAML::EventHandler {
                          {}});
   }
 
-  /// What yaml-cpp stumbled over, in plain words, and gives up.
+  /// Reports in plain words what yaml-cpp could not read, and throws.
   [[noreturn]] void fail(const YAML::Exception& error) {
     const std::string message = in_plain_words(error.msg, text_, offset(error.mark));
     const bool unclosed = message.find("not closed") != std::string::npos;
@@ -90,7 +90,7 @@ class TreeBuilder final : public YAML::EventHandler {
     throw InputError(problems_);
   }
 
-  /// Says what is wrong with the text at `mark` and gives up.
+  /// Reports what is wrong with the text at `mark`, and throws.
   [[noreturn]] void fail(const YAML::Mark& mark, std::string message) {
     complain(offset(mark), std::move(message));
     throw InputError(problems_);
@@ -176,7 +176,7 @@ class TreeBuilder final : public YAML::EventHandler {
   struct Frame {
     Node node;
     std::size_t offset = 0;  ///< where it opens
-    bool has_key = false;    ///< a map's key has come, its value not yet
+    bool has_key = false;    ///< the key of a map was read, its value not yet
     std::string key;
     Place key_place;
     std::size_t key_offset = 0;
@@ -216,13 +216,13 @@ class TreeBuilder final : public YAML::EventHandler {
     if (!plain && (tag != "!" || at(offset(mark)) == '!')) complain(offset(mark), "tags (!) are not allowed");
   }
 
-  /// A digit behind a comma behind a digit: [4,5 mm] is 4 and 5 mm to YAML, and 4.5 mm to many a reader.
+  /// A digit, a comma and a digit: [4,5 mm] is 4 and 5 mm for YAML, but many readers mean 4.5 mm.
   [[nodiscard]] bool follows_comma_in_number(std::size_t where) const {
     const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
     return where >= 2 && is_digit(at(where)) && at(where - 1) == ',' && is_digit(at(where - 2));
   }
 
-  /// yaml-cpp lets an open quote run to the end of the file.
+  /// yaml-cpp continues an open quote to the end of the file.
   void check_quote(std::size_t where, char quote) {
     for (std::size_t i = where + 1; i < text_.size() && text_[i] != '\n'; ++i) {
       if (quote == '"' && text_[i] == '\\') {
@@ -232,7 +232,7 @@ class TreeBuilder final : public YAML::EventHandler {
         ++i;
       }
     }
-    // The rest of the file is inside it: nothing more can be said.
+    // The rest of the file is inside the quote: nothing more can be checked.
     complain(where, "this quote is not closed on its line");
     throw InputError(problems_);
   }
@@ -320,7 +320,7 @@ Node Document::parse(int source, std::size_t begin) {
   TreeBuilder builder(*this, source, begin);
   for (TextFault& fault : text_faults(text)) builder.complain(fault.offset, std::move(fault.message));
   if (const auto directive = find_directive(text)) builder.complain(*directive, "directives (%) are not allowed");
-  // A text with such faults is not worth reading: yaml-cpp would report consequences.
+  // A text with such faults is not parsed: yaml-cpp would only report consequences.
   if (!builder.problems().empty()) throw InputError(builder.problems());
 
   std::istringstream stream(text.substr(begin));

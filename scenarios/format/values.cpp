@@ -10,7 +10,7 @@ namespace dualdamp::scenarios {
 
 namespace {
 
-/// The decimal number a person means: 0 to 0.6 in six steps passes 0.1, not 0.09999999999999999.
+/// The decimal number that the user means: 0 to 0.6 in six steps gives 0.1, not 0.09999999999999999.
 double plain(double value) {
   constexpr int digits = 14;
   return core::parse_number(core::format_number(value, digits)).value.value_or(value);

@@ -13,19 +13,20 @@ namespace dualdamp::scenarios {
 
 [[nodiscard]] double number(const Json& value);
 
-/// The number under `key`, or `fallback` where there is none.
+/// The number under `key`, or `fallback` if there is none.
 [[nodiscard]] double number_or(const Json& section, const std::string& key, double fallback);
 
-/// The unit of a quantity as the user wrote it: "um" of "3 um"; empty where there is none, or an uncertainty.
+/// The unit of a quantity as the user wrote it: "um" of "3 um"; empty if there is none, or if the text has an
+/// uncertainty.
 [[nodiscard]] std::string written_unit(std::string_view quantity);
 
-/// Notes the unit of the quantity at a path; of a list that of its first item with one, under the list's path.
+/// Stores the unit of the quantity at a path; for a list that of its first item with a unit, under the list's path.
 void note_unit(const std::string& path, std::string_view quantity, std::map<std::string, std::string>& units);
 
 /// The values of a list, or of a grid {from, to, count, spacing}.
 [[nodiscard]] std::vector<double> grid_values(const Json& grid);
 
-/// How many they are.
+/// Number of these values.
 [[nodiscard]] std::size_t grid_size(const Json& grid);
 
 /// Time that `section` asks for by `duration` or by `cycles`, which are periods of the forcing [s].

@@ -1,5 +1,5 @@
 #pragma once
-/// Where a data file lies that a scenario names.
+/// The path of a data file that a scenario names.
 
 #include <optional>
 #include <string>
@@ -8,8 +8,8 @@
 
 namespace dualdamp::scenarios {
 
-/// The path of the data file `name`, the value of `key`; nothing, and a complaint, where it leads out of the
-/// scenario's directory or is no file. A name that stands for data in memory is its own path.
+/// The path of the data file `name`, the value of `key`; nothing, and a problem in the file, if it is outside the
+/// scenario's directory or is not a file. A name of data in memory is its own path.
 [[nodiscard]] std::optional<std::string> path_of_data(CheckedFile& file, const std::string& key,
                                                       const std::string& name);
 

@@ -33,7 +33,7 @@ sim::Interpolation interpolation_of(const Json& section) {
   return word == "cubic" ? sim::Interpolation::cubic : sim::Interpolation::linear;
 }
 
-/// What the readers of data files advise is for the command line.
+/// Without the advice of the readers of data files, which is for the command line.
 std::string in_words_of_scenario(std::string text, std::string_view column) {
   const std::array<std::pair<std::string, std::string_view>, 4> words = {
       {{"as --unit " + std::string(column) + "=UNIT", "as 'unit' beside 'column'"},
@@ -45,7 +45,7 @@ std::string in_words_of_scenario(std::string text, std::string_view column) {
   return text;
 }
 
-/// A unit that is none is complained about where it stands.
+/// An unknown unit is reported at its place.
 bool is_unit(CheckedFile& file, const std::string& path, const Json& section, const std::string& key,
              std::string_view si) {
   if (!section.contains(key)) return true;
@@ -57,7 +57,7 @@ bool is_unit(CheckedFile& file, const std::string& path, const Json& section, co
   return false;
 }
 
-/// Takes the mean or the straight line of least squares off the values, and adds the offset.
+/// Subtracts the mean or the least-squares line from the values, and adds the offset.
 void treat(const Json& section, const std::vector<double>& times, std::vector<double>& values) {
   const auto count = static_cast<double>(values.size());
   const auto detrend = section.at("detrend").get<std::string>();
@@ -83,7 +83,7 @@ struct Samples {
   std::vector<double> values;
 };
 
-/// From a data file: the time counts from its first sample.
+/// From a data file: time counts from its first sample.
 std::optional<Samples> measured_samples(CheckedFile& file, const Json& section, bool is_base) {
   auto signal = read_signal(file, std::string(section_name), section, is_base ? "y" : "force");
   if (!signal) return std::nullopt;
@@ -119,7 +119,7 @@ std::optional<Samples> listed_samples(CheckedFile& file, const Json& section) {
   return Samples{times, values};
 }
 
-/// A base that jumps; a repetition that does.
+/// Refuses a base that jumps, also at a repetition.
 void check_jumps(CheckedFile& file, const sim::SampledSignal& drive, bool is_base) {
   const bool in_steps = drive.interpolation() == sim::Interpolation::step;
   const bool by_repeat = !in_steps && drive.repeats() && drive.gap() != 0.0;
@@ -198,7 +198,7 @@ void read_drive(CheckedFile& file) {
   if (!is_listed && !type.starts_with("measured_")) return;
   const Json& section = file.values().at(name);
   for (const char* key : {"times", "values"})
-    if (is_listed && !section.contains(key)) return;  // complained about
+    if (is_listed && !section.contains(key)) return;  // reported
   if (!section.contains("interpolation") || !section.contains("repeat")) return;
   const bool is_base = moves_base(type);
   auto samples = is_listed ? listed_samples(file, section) : measured_samples(file, section, is_base);
@@ -226,10 +226,10 @@ void check_drive(CheckedFile& file, double duration) {
     if (!file.drive->repeats()) end = file.drive->length();
   }
   if (pieces > max_nodes)
-    file.complain(type.ends_with("_noise") ? "excitation.bandwidth" : "excitation", "the drive is too long",
+    file.complain(type.ends_with("_noise") ? "excitation.bandwidth" : "excitation", "the drive has too many pieces",
                   "at most " + core::format_number(max_nodes, 8) + " pieces", core::format_number(pieces, 6));
-  // What a table says last it says of all later times. A motion that is as long as the drive by the same decimal
-  // digits may be longer in the last binary one.
+  // After its end a table keeps its last value. A motion and a drive of the same decimal duration may differ in the
+  // last binary digit.
   if (!type.ends_with("_table") && end < duration * (1.0 - 1e-9))
     file.warnings.push_back("the drive ends at t = " + core::format_number(end, 6) + " s, the motion at " +
                             core::format_number(duration, 6) + " s: in between the drive keeps its last value");

@@ -10,18 +10,18 @@
 
 namespace dualdamp::scenarios {
 
-/// Of the section of an excitation that sweeps.
+/// The chirp of the section of an excitation with a frequency sweep.
 [[nodiscard]] sim::Chirp chirp_of(const Json& section);
 
 /// The signal that the section at `path` names by the keys of `signal_file()`; `column`: y, force or x. Nothing,
-/// and complaints, where it cannot be read.
+/// and problems in the file, if it cannot be read.
 [[nodiscard]] std::optional<identify::MeasuredSignal> read_signal(CheckedFile& file, const std::string& path,
                                                                   const Json& section, std::string_view column);
 
 /// Puts the samples of a measured or listed excitation into `file.drive`.
 void read_drive(CheckedFile& file);
 
-/// Whether the drive lasts as long as the motion, and how many pieces that takes. `duration` [s].
+/// Checks whether the drive lasts as long as the motion, and the number of pieces this needs. `duration` [s].
 void check_drive(CheckedFile& file, double duration);
 
 }  // namespace dualdamp::scenarios

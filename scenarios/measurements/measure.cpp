@@ -21,12 +21,12 @@ namespace {
 using identify::History;
 using identify::Pair;
 
-/// Away from the draws that laws, excitations and sensors of the same seed make.
+/// A stream other than those of laws, excitations and sensors with the same seed.
 constexpr std::uint32_t drift_stream = 3;
 
 std::vector<double> friction_factors(const FrictionDrift& drift, int sweeps) {
   const core::RandomStream draws{.seed = drift.seed, .stream = drift_stream};
-  // What is left of a friction that would vanish.
+  // Smallest factor, for a friction that would vanish.
   constexpr double least = 1e-3;
   std::vector<double> factors;
   double walked = 0.0;
@@ -45,7 +45,7 @@ struct Test {
   std::string sweep;
 };
 
-/// All amplitudes at the first frequency, then at the next; all that sweep by sweep.
+/// All amplitudes at the first frequency, then at the next, and so on; all this for each sweep.
 std::vector<Test> tests_of(const sim::Model& model, const Measurement& measurement) {
   const auto or_own = [](const std::vector<double>& values, double own) {
     return values.empty() ? std::vector<double>{own} : values;
@@ -70,10 +70,11 @@ std::string label_of(const Test& test) {
   return (test.sweep.empty() ? "" : test.sweep + "/") + std::to_string(test.number);
 }
 
-/// Samples signals that come late, each by its own lag, from a stream of intervals.
+/// Samples delayed signals, each with its own lag, from a stream of intervals.
 class Recorder {
  public:
-  /// From `begin` [s] on, `count` > 0 samples at `rate` [Hz]; a motion starts at 0, and was there before.
+  /// From `begin` [s] on, `count` > 0 samples at `rate` [Hz]; a motion starts at 0; before that it has its initial
+  /// values.
   Recorder(const identify::Sensors& sensors, double omega, double begin, double rate, std::size_t count)
       : begin_(begin), rate_(rate), count_(count) {
     const std::array<const identify::Sensor*, signals> order = {&sensors.y, &sensors.x, &sensors.v, &sensors.a,
@@ -87,7 +88,7 @@ class Recorder {
     for (Series& series : series_) series.samples.reserve(count);
   }
 
-  /// Time from which on nothing is missing any more [s]: a sample at the end of an interval belongs to the next.
+  /// Time after which no sample is missing [s]; a sample at the end of an interval belongs to the next one.
   [[nodiscard]] double end() const {
     constexpr double beyond_rounding = 1e-3;
     return time(count_ - 1) - std::ranges::min_element(series_, {}, &Series::lag)->lag + beyond_rounding / rate_;
@@ -145,20 +146,20 @@ class Recorder {
   std::array<std::size_t, signals> series_of_{};
 };
 
-/// Walks on until the recorder has all it wants; empty, or why it has not.
+/// Runs until the recorder is complete. Empty, or why it is not complete.
 std::string record_motion(sim::Engine& engine, Recorder& recorder) {
   while (const sim::Interval* interval = engine.next(recorder.end())) recorder.observe(*interval);
   return recorder.complete() ? "" : "the motion ends early: " + engine.outcome().reason;
 }
 
-/// What one test gave.
+/// Result of one test.
 struct Result {
   Pair pair;
   History history;
   std::string failure;
 };
 
-/// Whole forcing periods of a periodic motion, and a sample or two more.
+/// Whole forcing periods of a periodic motion, and one or two further samples.
 void sample_steady_state(const Test& test, const sim::SteadyState& steady, const Measurement& measurement,
                          const identify::Sensors& sensors, Result& result) {
   const double samples = sensors.average_cycles * steady.period * sensors.sample_rate;
@@ -250,7 +251,7 @@ MotionRecord measure_decay(const sim::Model& model, int peaks) {
   return motion;
 }
 
-/// The pair that the history of a steady state shows.
+/// The pair that follows from the history of a steady state.
 void add_sampled_pair(const Pair& exact, const History& history, identify::Record& record,
                       std::vector<std::string>& warnings) {
   identify::DerivedPairs derived = identify::pairs_of({history}, exact.omega);

@@ -1,8 +1,9 @@
 #pragma once
 /// Synthetic measurements: the motion of a model turned into a record.
 ///
-/// Two steps, so that one motion serves many readings: `motion_of` computes what perfect sensors would see, which
-/// takes as long as the motion; `reading` adds what real ones make of it (identify/records/sensors.hpp).
+/// There are two steps, so that one motion can be read many times. `motion_of` computes the readings of perfect
+/// sensors, which takes as long as the motion; `reading` applies the errors of real sensors
+/// (identify/records/sensors.hpp).
 
 #include <cstdint>
 #include <string>
@@ -15,7 +16,7 @@
 
 namespace dualdamp::scenarios {
 
-/// How friction differs from sweep to sweep: all forces of friction are multiplied by
+/// Change of friction from sweep to sweep: all friction forces are multiplied by
 ///   1 + rate (j - 1) + walk (n_1 + ... + n_(j-1)),   j = 1, 2, ...,   n normal with variance 1.
 struct FrictionDrift {
   double rate = 0.0;  ///< for each sweep
@@ -38,19 +39,19 @@ struct Measurement {
   int peaks = 0;
   double duration = 0.0;  ///< of a history [s]
   double settle = 0.0;    ///< time before it that is not recorded [s]
-  bool with_v = true;     ///< which signals a history has beside x and that of the drive
+  bool with_v = true;     ///< signals of a history beside x and the drive
   bool with_a = true;
 };
 
 struct MotionRecord {
   identify::Record exact;
-  /// Steady states that are sampled: their histories give the pairs, of which these are exact.
+  /// For sampled steady states: their histories give the pairs; these are the exact ones.
   std::vector<identify::Pair> sampled_pairs;
-  double frequency = identify::unknown;  ///< of the drive [rad/s], where it has one
+  double frequency = identify::unknown;  ///< of the drive [rad/s], if it has one
   std::vector<std::string> warnings;     ///< what could not be measured, and why
 };
 
-/// Only the sample rate, the averaged periods and the lags of the sensors count here.
+/// Only the sample rate, the averaged periods and the lags of the sensors are used here.
 [[nodiscard]] MotionRecord motion_of(const sim::Model& model, const Measurement& measurement,
                                      const identify::Sensors& sensors, const sim::SteadyStateOptions& options = {});
 
@@ -58,8 +59,8 @@ struct MotionRecord {
 [[nodiscard]] identify::Record reading(const MotionRecord& motion, const identify::Sensors& sensors,
                                        std::uint64_t seed, std::vector<std::string>& warnings);
 
-/// Such a model with all forces of friction multiplied by `factor` > 0: the same motion as that of one whose other
-/// forces, inertia included, are divided by it.
+/// The model with all friction forces multiplied by `factor` > 0. Its motion is that of a model whose other forces,
+/// including inertia, are divided by the factor.
 [[nodiscard]] sim::Model with_friction_times(double factor, sim::Model model);
 
 }  // namespace dualdamp::scenarios

@@ -18,7 +18,7 @@ namespace dualdamp::scenarios {
 
 namespace {
 
-/// What the scenario says of columns that the file does not say.
+/// Statements of the scenario about columns, where the file makes none.
 identify::ReadOptions read_options(const Json& section, core::Coordinate coordinate, const std::string& name) {
   identify::ReadOptions options;
   options.name = name;
@@ -32,7 +32,7 @@ identify::ReadOptions read_options(const Json& section, core::Coordinate coordin
   return options;
 }
 
-/// What the scenario says of the coordinate, beside the units that are allowed for a column.
+/// The coordinate that the scenario states; it determines which units a column may have.
 core::InputError with_reason(const core::InputError& fault, const CoordinateSource& source) {
   std::vector<core::Diagnostic> problems = fault.diagnostics();
   for (core::Diagnostic& problem : problems)
@@ -40,14 +40,14 @@ core::InputError with_reason(const core::InputError& fault, const CoordinateSour
   return core::InputError(std::move(problems));
 }
 
-/// From memory where the caller has it there.
+/// From memory, if the caller has put it there.
 identify::MeasuredRecord read(const DataTexts& texts, const std::string& path,
                               const identify::ReadOptions& options) {
   const auto text = texts.find(options.name);
   return text == texts.end() ? identify::read_record(path, options) : identify::parse_record(text->second, options);
 }
 
-/// Where nothing in the scenario tells what the coordinate is, the units of the columns do.
+/// If the scenario does not determine the coordinate, the units of the columns do.
 identify::MeasuredRecord read_by_units(CheckedFile& file, const std::string& path, const std::string& name,
                                        const Json& section) {
   identify::ReadOptions options = read_options(section, file.coordinate(), name);
@@ -74,7 +74,7 @@ Field for_columns(std::string name, std::string meaning, bool numbers_only) {
   return section(std::move(name), std::move(columns), std::move(meaning));
 }
 
-/// What the constants beside the data say of its units and columns.
+/// Hints on units and columns that follow from the constants.
 void refuse_gross_faults(CheckedFile& file, identify::MeasuredRecord& data, double frequency,
                          const std::string& name) {
   if (file.has("system", "damper_to") && file.text_at("system", "damper_to") == "base") return;
@@ -117,7 +117,7 @@ void check_stated_frequency(CheckedFile& file, identify::MeasuredRecord& data, d
   }
 }
 
-/// The uncertainty that a scale states is that of a gain: "2.5 mm/V ± 1 %".
+/// An uncertainty of a scale is that of a gain: "2.5 mm/V ± 1 %".
 void take_gain_uncertainties(CheckedFile& file) {
   if (!file.has("analysis", "scale")) return;
   const Json& analysis = file.values().at("analysis");
@@ -143,17 +143,17 @@ void take_gain_uncertainties(CheckedFile& file) {
 
 namespace {
 
-/// What a data file does not say of itself.
+/// Keys for information that a data file does not contain.
 std::vector<Field> reading_fields() {
   return {
       for_columns("units", "units of columns for which the data file states none: {x: mm}", true),
       for_columns("columns", "names or numbers of the columns in the data file: {x: LVDT 2}", false),
       for_columns("scale",
-                  "what the numbers of columns are multiplied by: {x: 2.5 mm/V}, the sensitivity of a sensor: {a: "
-                  "100 mV/g}, or a plain factor: {force: \"35.15\"}",
+                  "factors of the numbers of columns: {x: 2.5 mm/V}; the sensitivity of a sensor, {a: 100 mV/g}, "
+                  "and a plain factor, {force: \"35.15\"}, are possible too",
                   true),
       words("decimal", {".", ","}, "decimal mark of a CSV file"),
-      boolean("no_header", "the CSV file begins with numbers; 'columns' holds the numbers of the columns")};
+      boolean("no_header", "the CSV file has no header; 'columns' holds the numbers of the columns")};
 }
 
 }  // namespace
@@ -172,8 +172,8 @@ Field data_list(const std::string& name, std::string meaning) {
   fields.insert(fields.begin(),
                 text("file", "CSV, MATLAB or universal file, in the scenario's directory or below").required());
   fields.push_back(boolean("loop",
-                           "force is what leads the mass along the measured motion: a friction loop; without it, "
-                           "force is one on the oscillator"));
+                           "true: a friction loop, in which force is what moves the mass along the measured "
+                           "motion; otherwise force acts on the oscillator"));
   for (const auto& [signal, unit] :
        {std::pair{"x", "m"}, {"v", "m/s"}, {"a", "m/s^2"}, {"force", "N"}, {"phase", "rad"}})
     fields.push_back(quantity(std::string("sigma_") + signal, {unit},
@@ -188,20 +188,20 @@ Field data_list(const std::string& name, std::string meaning) {
 
 namespace {
 
-/// A frequency that could not be resolved is still a word, and complained about elsewhere.
+/// A frequency that could not be resolved is still a word; it is reported elsewhere.
 double stated_frequency(const CheckedFile& file) {
   const bool known = file.text_at("excitation", "frequency").ends_with("rad/s");
   return known ? *file.number_at("excitation", "frequency") : identify::unknown;
 }
 
-/// The same readings again: they would count twice, or predict themselves.
+/// Refuses the same readings twice: they would count twice, or predict themselves.
 void refuse_repeated(CheckedFile& file, const std::string& key, const identify::MeasuredRecord& data,
                      const Json& item) {
   const bool is_loop = item.value("loop", false);
   for (const DataFile& other : file.files) {
     const Json& list = file.values().at("analysis").at(other.key);
     const Json& keys = list.is_array() ? list[other.item] : list;
-    // A loop compares the force, a history what the force does.
+    // In a loop the force is compared, in a history the motion under the force.
     const bool other_is_loop = keys.is_object() && keys.value("loop", false);
     if (is_loop != other_is_loop || !identify::share_readings(other.data.record, data.record, is_loop)) continue;
     file.complain(key, "'" + key + "' holds the same data as " + other.name + " of 'analysis." + other.key + "'",

@@ -7,11 +7,12 @@
 
 namespace dualdamp::scenarios {
 
-/// `data`, and what the file does not say of itself: `units`, `columns`, `scale`, `decimal`, `no_header`.
+/// `data`, and the keys for information that the file does not contain: `units`, `columns`, `scale`, `decimal`,
+/// `no_header`.
 [[nodiscard]] std::vector<Field> data_fields();
 
-/// A list of data files `analysis.NAME`, each with what the file does not say of itself, whether it is a friction
-/// loop, and the noise of its signals.
+/// A list of data files `analysis.NAME`, each with the same keys, whether it is a friction loop, and the noise of
+/// its signals.
 [[nodiscard]] Field data_list(const std::string& name, std::string meaning);
 
 /// Reads the records of such a list into `file.files`.
@@ -20,7 +21,7 @@ void read_data_list(CheckedFile& file, const std::string& name);
 /// Reads the record of `analysis.data`, if it is there, into `file.data`.
 void read_data(CheckedFile& file);
 
-/// Complains where pairs were measured at a frequency that neither the file nor the scenario states.
+/// Adds a problem if pairs were measured at a frequency that neither the file nor the scenario states.
 void check_frequency(CheckedFile& file, const identify::Record& record);
 
 }  // namespace dualdamp::scenarios

@@ -16,7 +16,7 @@ namespace dualdamp::scenarios {
 
 namespace {
 
-/// How often the tests of a measurement are repeated, and what friction does in between.
+/// Number of repetitions of the tests of a measurement, and the change of friction between them.
 std::vector<Field> repetition() {
   return {
       integer("sweeps", "number of sweeps; each repeats all tests").with_fallback(1).at_least(1).at_most(10'000),
@@ -37,7 +37,9 @@ Choice measurements() {
   std::vector<Field> histories = {
       optional(amplitudes()), quantity("duration", {"s"}, "length of a record").above(0),
       quantity("cycles", {"1"}, "length of a record in forcing periods").above(0).at_most(max_periods),
-      quantity("settle", {"s"}, "time from the initial state that is not recorded").with_fallback(0.0).at_least(0),
+      quantity("settle", {"s"}, "time from the initial state until the record begins")
+          .with_fallback(0.0)
+          .at_least(0),
       word_list("signals", {"x", "v", "a"}, "signals recorded in addition to the drive; default: all")};
   for (std::vector<Field>* fields : {&curve, &response, &histories})
     for (Field& field : repetition()) fields->push_back(std::move(field));
@@ -58,12 +60,12 @@ std::optional<double> sensor_number(const CheckedFile& file, const std::string& 
   return number(file.values().at("analysis").at("sensors").at(key));
 }
 
-/// 1 where the file is too faulty to know.
+/// 1 if the file is too faulty for it.
 int sweeps(const CheckedFile& file) {
   return file.measurement()->contains("sweeps") ? file.measurement()->at("sweeps").get<int>() : 1;
 }
 
-/// How many motions a synthetic measurement makes.
+/// Number of motions of a synthetic measurement.
 double tests(const CheckedFile& file) {
   double count = sweeps(file);
   for (const char* key : {"amplitudes", "frequencies"})
@@ -71,7 +73,7 @@ double tests(const CheckedFile& file) {
   return count;
 }
 
-/// Of the forcing in a measurement [s]; 0 where it is not known yet.
+/// Longest forcing period in a measurement [s]; 0 if it is not known yet.
 double longest_period(const CheckedFile& file) {
   double slowest = file.number_at("excitation", "frequency").value_or(0.0);
   if (file.measurement()->contains("frequencies")) {
@@ -91,7 +93,7 @@ void check_lags(CheckedFile& file) {
                     "a phase lag needs a harmonic excitation: it is an angle at the forcing frequency", "a delay");
 }
 
-/// Amplitudes that no drive would have are not taken in silence.
+/// Refuses amplitudes if the drive has no amplitude.
 void check_amplitudes(CheckedFile& file) {
   const Variant* drive = excitations().find(file.text_at("excitation", "type"));
   if (drive == nullptr || !file.measurement()->contains("amplitudes")) return;
@@ -101,7 +103,7 @@ void check_amplitudes(CheckedFile& file) {
                   "base_harmonic, force_harmonic, base_chirp, force_chirp", drive->name);
 }
 
-/// Two frequencies are outlined as different, no more.
+/// The outline has two different frequencies; their values have no meaning.
 identify::PairRecord outline_pairs(const CheckedFile& file) {
   const auto count = [&](const char* key) {
     return file.measurement()->contains(key) ? grid_size(file.measurement()->at(key)) : std::size_t{1};

@@ -1,5 +1,5 @@
 #pragma once
-/// A synthetic measurement of the scenario's system: its keys, its checks, and what it asks of `measure.hpp`.
+/// A synthetic measurement of the scenario's system: its keys, its checks, and its conversion for `measure.hpp`.
 
 #include <vector>
 
@@ -15,10 +15,10 @@ namespace dualdamp::scenarios {
 /// The measurement and its sensors.
 void check_measurement(CheckedFile& file);
 
-/// A record of the kind that the measurement will give: enough to tell which methods it allows.
+/// A record of the kind that the measurement will give. It suffices to decide which methods are possible.
 [[nodiscard]] identify::Record outline(const CheckedFile& file);
 
-/// What a checked section `measurement` asks for.
+/// The measurement of a checked section `measurement`.
 [[nodiscard]] Measurement measurement_of(const Json& section, const sim::Model& model);
 
 }  // namespace dualdamp::scenarios

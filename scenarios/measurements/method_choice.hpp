@@ -1,5 +1,5 @@
 #pragma once
-/// The key `methods`: which identification methods are to read a record.
+/// The key `methods`: the identification methods that read a record.
 
 #include <vector>
 
@@ -9,13 +9,13 @@
 
 namespace dualdamp::scenarios {
 
-/// `all`: what the default stands for, "all that fit the data".
+/// `all`: the default in words, such as "all that can read the data".
 [[nodiscard]] Field methods_key(const std::string& all);
 
-/// Whether methods that take seconds run where the file does not name methods.
+/// Whether methods that take seconds run if the file does not name methods.
 enum class SlowMethods { run, only_where_named };
 
-/// All methods that each of such records allows, or those of the file, which each must allow.
+/// All methods that can read each of these records, or those of the file, which must be able to read each.
 void resolve_methods(CheckedFile& file, const std::vector<identify::Record>& records, SlowMethods slow);
 
 /// The methods of a list of names.

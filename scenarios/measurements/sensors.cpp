@@ -11,19 +11,23 @@ Field sensor(const std::string& name, const std::string& unit, const std::string
   return section(
       name,
       {{quantity("noise", {unit}, "noise level: standard deviation of a reading").with_fallback(0.0).at_least(0),
-        quantity("resolution", {unit}, "step between readings; 0: none").with_fallback(0.0).at_least(0),
-        quantity("offset", {unit}, "reading where there is none").with_fallback(0.0),
-        quantity("gain_error", {"1"}, "relative").with_fallback(0.0).above(-1),
+        quantity("resolution", {unit}, "smallest step between two readings; 0: none")
+            .with_fallback(0.0)
+            .at_least(0),
+        quantity("offset", {unit}, "reading when the quantity is zero").with_fallback(0.0),
+        quantity("gain_error", {"1"}, "relative error of the gain").with_fallback(0.0).above(-1),
         quantity("gain_drift", {"1"}, "change of the gain from the first reading of a record to the last, relative")
             .with_fallback(0.0)
             .above(-1),
-        integer("outlier_every", "one reading of so many is off by 'outlier_size', the middle one; 0: none")
+        integer("outlier_every",
+                "length of a group of readings; the middle reading of each group is off by 'outlier_size'; 0: no "
+                "outliers")
             .with_fallback(0)
             .at_least(0)
             .at_most(1'000'000),
-        quantity("outlier_size", {"1"}, "relative").with_fallback(0.0),
-        quantity("phase_lag", {"rad"}, "lag of the reading at the forcing frequency").at_least(0),
-        quantity("delay", {"s"}, "lag of the reading").at_least(0),
+        quantity("outlier_size", {"1"}, "relative error of these readings").with_fallback(0.0),
+        quantity("phase_lag", {"rad"}, "lag of the reading as an angle at the forcing frequency").at_least(0),
+        quantity("delay", {"s"}, "time lag of the reading").at_least(0),
         quantity("clipping", {unit}, "readings are limited to plus and minus this value").above(0)},
        {{{"phase_lag", "delay"}, false}}},
       "sensor of " + what);
@@ -32,17 +36,19 @@ Field sensor(const std::string& name, const std::string& unit, const std::string
 }  // namespace
 
 std::vector<Field> sensor_fields() {
-  return {quantity("sample_rate", {"1/s"}, "signals are sampled, and amplitudes taken from the samples").above(0),
-          integer("average_cycles", "forcing periods that an amplitude is averaged over")
-              .with_fallback(1)
-              .at_least(1)
-              .at_most(10'000),
-          seed(),
-          sensor("y", "m", "the base's displacement"),
-          sensor("x", "m", "the mass's displacement"),
-          sensor("v", "m/s", "its velocity"),
-          sensor("a", "m/s^2", "its acceleration"),
-          sensor("force", "N", "the force on it")};
+  return {
+      quantity("sample_rate", {"1/s"}, "sample rate of the signals; amplitudes are then computed from the samples")
+          .above(0),
+      integer("average_cycles", "forcing periods over which an amplitude is averaged")
+          .with_fallback(1)
+          .at_least(1)
+          .at_most(10'000),
+      seed(),
+      sensor("y", "m", "the base's displacement"),
+      sensor("x", "m", "the mass's displacement"),
+      sensor("v", "m/s", "the mass's velocity"),
+      sensor("a", "m/s^2", "the mass's acceleration"),
+      sensor("force", "N", "the force on the mass")};
 }
 
 identify::Sensors sensors_of(const Json& section) {

@@ -1,5 +1,5 @@
 #pragma once
-/// Sensors of a synthetic measurement: their keys, and what the values of these say.
+/// Sensors of a synthetic measurement: their keys, and the sensors that the values describe.
 
 #include <vector>
 
@@ -11,7 +11,7 @@ namespace dualdamp::scenarios {
 /// The keys of a set of sensors.
 [[nodiscard]] std::vector<Field> sensor_fields();
 
-/// What a section with these keys says.
+/// The sensors that a section with these keys describes.
 [[nodiscard]] identify::Sensors sensors_of(const Json& section);
 
 }  // namespace dualdamp::scenarios

@@ -27,7 +27,7 @@ void check_work(CheckedFile& file, const Json& section, const std::string& path,
   const auto m = file.number_at("system", "mass");
   const auto k = file.number_at("system", "stiffness");
   const bool by_cycles = section.contains("cycles");
-  // Still a word when it could not be resolved, and then complained about.
+  // A frequency that could not be resolved is still a word, which is reported elsewhere.
   const bool driven =
       file.has("excitation", "frequency") && file.text_at("excitation", "frequency").ends_with("rad/s");
   if (by_cycles && !driven) {

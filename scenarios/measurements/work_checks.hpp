@@ -10,15 +10,15 @@ namespace dualdamp::scenarios {
 
 /// The samples of such a motion.
 struct Sampling {
-  std::string path;            ///< of the key that says their rate, for messages
+  std::string path;            ///< of the key for their rate, for messages
   std::optional<double> rate;  ///< 1/s; nothing: none are taken
   double tests = 1.0;          ///< motions that are sampled
 };
 
-/// A motion integrated in time, which `section` of the file at `path` asks for.
+/// Checks a motion integrated in time, which the `section` at `path` describes.
 void check_work(CheckedFile& file, const Json& section, const std::string& path, const Sampling& sampling);
 
-/// Rows of all histories together; `path`: of the key to blame.
+/// Checks the rows of all histories together; `path`: of the key for messages.
 void check_rows(CheckedFile& file, const std::string& path, double rows);
 
 }  // namespace dualdamp::scenarios

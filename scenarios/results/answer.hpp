@@ -1,5 +1,5 @@
 #pragma once
-/// What an analysis answers: JSON, tables, warnings.
+/// The answer of an analysis: JSON, tables, warnings.
 
 #include <string>
 #include <vector>
@@ -11,9 +11,9 @@
 namespace dualdamp::scenarios {
 
 struct Answer {
-  Json result;  ///< null: there is none; null inside: the list is a table of that key
-  /// Of a run whose result is there: done, some_cases_failed, or numerical_failure where it holds all but the
-  /// answer.
+  Json result;  ///< null: there is no result; a null inside: the list is the table with that key
+  /// Status of a run with a result: done, some_cases_failed, or numerical_failure if the result has all parts
+  /// except the answer.
   core::ExitStatus status = core::ExitStatus::done;
   std::string failure;  ///< why there is no result, or no answer in it
   std::vector<std::string> warnings;

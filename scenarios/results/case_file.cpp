@@ -27,7 +27,7 @@ namespace {
 constexpr std::string_view number_key = "{\"case\":";
 constexpr const char* way_out = "--resume goes on with them, --overwrite begins anew, --out DIR keeps them apart";
 
-/// The number of the case a line holds; nothing for a line that holds none.
+/// The number of the case in a line; nothing for a line without a case.
 std::optional<std::size_t> number_of(std::string_view line) {
   if (!line.starts_with(number_key) || !line.ends_with('}')) return std::nullopt;
   std::size_t number = 0;
@@ -47,14 +47,14 @@ std::optional<std::size_t> number_of(std::string_view line) {
   throw OutputError("cannot write " + path + ": " + reason);
 }
 
-/// The lines of a part that are whole, its head first. A file that cannot be opened is no empty one.
+/// The complete lines of a part, its head first. A file that cannot be opened does not count as empty.
 class Lines {
  public:
   explicit Lines(std::string path) : path_(std::move(path)), file_(path_, std::ios::binary) {
     if (!file_) refuse(path_, std::string("cannot be opened: ") + std::strerror(errno));
   }
 
-  /// False at the end, or before a last line that is torn.
+  /// False at the end, or before an incomplete last line.
   bool next(std::string& line) {
     if (std::getline(file_, line) && !file_.eof()) {
       end_ += line.size() + 1;
@@ -63,7 +63,7 @@ class Lines {
     if (file_.bad()) refuse(path_, std::string("cannot be read: ") + std::strerror(errno));
     return false;
   }
-  /// Bytes up to the end of the last line.
+  /// Bytes up to the end of the last line that was read.
   [[nodiscard]] std::uintmax_t end() const { return end_; }
 
  private:
@@ -82,7 +82,7 @@ void write_at(int descriptor, std::string_view text, std::uintmax_t place, const
   }
 }
 
-/// The file under this name is the one that is open: nobody has put another in its place since.
+/// Whether the file with this name is still the one that is open, and was not replaced.
 bool is_at(const std::string& path, int descriptor) {
   struct stat here{};
   struct stat there{};
@@ -131,7 +131,7 @@ std::uintmax_t CaseFile::scan(int part, Lengths& lengths, Origin origin) const {
   const std::string path = part_path(part);
   Lines lines(path);
   std::string line;
-  // A head that is torn is that of a campaign killed before its first case.
+  // A head is incomplete if the campaign was killed before its first case.
   if (!lines.next(line)) return 0;
   if (line != head_)
     refuse(path, "the cases are those of another campaign, or of another version of the program",
@@ -151,7 +151,7 @@ void CaseFile::prepare(FoundCases found) {
   std::error_code error;
   fs::create_directories(directory_, error);
   if (error) throw OutputError("cannot create the directory " + directory_ + ": " + error.message());
-  open_part();  // nobody else is writing
+  open_part();  // no other process is writing
   if (found == FoundCases::resume) return;
   std::size_t cases = 0;
   bool is_this = true;
@@ -180,7 +180,7 @@ void CaseFile::open_part() {
   while (descriptor_ < 0) {
     descriptor_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
     if (descriptor_ < 0) fail_to_write(path, std::strerror(errno));
-    // A file system without locks cannot help.
+    // A file system may have no locks.
     if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
       close();
       fail_to_write(path,
@@ -221,7 +221,7 @@ void CaseFile::add(const std::string& line) {
   write_line(line);
 }
 
-/// Each line goes to its place, which follows from the lengths of those before it.
+/// Each line is written at its place, which follows from the lengths of the lines before it.
 void CaseFile::gather(const std::vector<int>& all, const Lengths& lengths, int descriptor) const {
   std::vector<std::uintmax_t> places;
   places.reserve(lengths.size());
@@ -235,7 +235,7 @@ void CaseFile::gather(const std::vector<int>& all, const Lengths& lengths, int d
   for (const int part : all) {
     Lines lines(part_path(part));
     std::string line;
-    std::string run;  // lines that follow each other in both files
+    std::string run;  // lines that are consecutive in both files
     std::uintmax_t begin = 0;
     if (!lines.next(line)) continue;
     while (lines.next(line)) {

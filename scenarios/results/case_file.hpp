@@ -1,11 +1,12 @@
 #pragma once
-/// The file of finished cases of a campaign or points of a sweep: one line of JSON each, written at once, so that
-/// whatever ends the program loses no more than the cases under way.
+/// The file of finished cases of a campaign or points of a sweep: one line of JSON each, written at once, so that a
+/// program that is killed loses only the cases in progress.
 ///
-/// The first line names the campaign by the fingerprint of its resolved scenario and program. Several processes
-/// write a part each (`NAME.1.jsonl`, ...), which `finish` gathers, in the order of the case numbers, into
-/// `NAME.jsonl`. A line begins with `{"case":NUMBER,`. Whoever writes a part holds a lock on it (flock), so that
-/// two runs never write to one file. Cases of an earlier run are lost only where the caller says so.
+/// The first line names the campaign by the fingerprint of its resolved scenario and program. If there are several
+/// processes, each writes a part (`NAME.1.jsonl`, ...), and `finish` collects the parts, in the order of the case
+/// numbers, in `NAME.jsonl`. A line begins with `{"case":NUMBER,`. A process holds a lock (flock) on the part that
+/// it writes, so that two runs never write to one file. Cases of an earlier run are deleted only if the caller asks
+/// for it.
 ///
 /// Memory is 13 bytes a case. Errors: `core::InputError` for a file of another campaign or one that cannot be read,
 /// `OutputError` for one that cannot be written, that another process writes to, or whose cases would be
@@ -30,19 +31,19 @@ class CaseFile {
   CaseFile(const CaseFile&) = delete;
   CaseFile& operator=(const CaseFile&) = delete;
 
-  /// Removes or refuses what earlier runs have left. Part 0 calls this before any part is opened.
+  /// Removes or refuses the files of earlier runs. Part 0 calls this before any part is opened.
   void prepare(FoundCases found);
-  /// Goes on with the cases that are there, without a last line that is torn.
+  /// Continues with the cases that are there, without an incomplete last line.
   void open();
 
-  /// Of those that were there when the part was opened.
+  /// Whether the case was there when the part was opened.
   [[nodiscard]] bool is_finished(std::size_t number) const { return finished_[number]; }
   [[nodiscard]] std::size_t finished() const;
 
   /// Adds a line with one write; from any thread.
   void add(const std::string& line);
 
-  /// Gathers all parts, in order, into `NAME.jsonl`, which must then be complete; with two files open at a time.
+  /// Collects all parts, in order, in `NAME.jsonl`, which must then be complete; with two files open at a time.
   /// Called by one process when the others have closed theirs.
   void finish();
   void close();
@@ -51,7 +52,8 @@ class CaseFile {
   [[nodiscard]] std::string path() const { return part_path(0); }
 
  private:
-  /// An earlier run may have been killed as it wrote: its lines are read whole. This run's are known to be whole.
+  /// An earlier run may have been killed while writing, so its lines are read completely. The lines of this run are
+  /// complete.
   enum class Origin { earlier_run, this_run };
   using Lengths = std::vector<std::uint32_t>;  ///< of the lines, by case number; 0: not there
 
@@ -59,7 +61,7 @@ class CaseFile {
   [[nodiscard]] std::vector<int> parts() const;
   void open_part();
   void write_line(const std::string& text);
-  /// Notes the whole lines of a part; returns how many bytes they take.
+  /// Stores the lengths of the complete lines of a part; returns their number of bytes.
   std::uintmax_t scan(int part, Lengths& lengths, Origin origin) const;
   void gather(const std::vector<int>& all, const Lengths& lengths, int descriptor) const;
 

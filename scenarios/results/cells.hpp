@@ -1,5 +1,5 @@
 #pragma once
-/// Numbers and columns of answers: how the results of `sim` and `identify` become JSON and tables.
+/// Numbers and columns of answers: conversion of results of `sim` and `identify` to JSON and tables.
 
 #include <cmath>
 #include <functional>
@@ -13,7 +13,7 @@
 
 namespace dualdamp::scenarios {
 
-/// JSON knows no infinity; a number that does not exist is null.
+/// JSON has no infinity; a number that does not exist is null.
 inline Json finite_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
 inline Json finite_or_null(const std::vector<double>& values) {

@@ -93,7 +93,7 @@ Json candidates_json(const std::vector<identify::LawCandidate>& candidates,
   return list;
 }
 
-/// Curves that came with the estimates, each a file of its own.
+/// Curves of the estimates, each in a separate file.
 void add_curves(const std::vector<identify::Estimate>& estimates, Answer& answer) {
   for (const identify::Estimate& estimate : estimates) {
     for (const identify::EstimateCurve& curve : estimate.curves) {
@@ -263,7 +263,8 @@ std::vector<double> fitted_extremes(const identify::DecayFit& decay, double x_f,
   return extremes;
 }
 
-/// The data beside what an estimate with a curve makes of them: the answer, else a usable one, else the first.
+/// The data and their fitted values by an estimate that has a curve: the answer, otherwise a usable one, otherwise
+/// the first.
 Json fit_json(const identify::Identification& found, const identify::Record& record) {
   const std::vector<identify::Estimate>& estimates = found.estimates;
   const auto has_curve = [](const identify::Estimate& estimate) {
@@ -298,23 +299,23 @@ ResultFields diagnostics() {
                  {at + "used[]", "1", "numbers of the data used"},
                  {at + "excluded[].number", "1", "number of a datum left out"},
                  {at + "excluded[].reason", "", "why it was left out"},
-                 {at + "covariance[][]", "", "of (zeta, F0)"},
-                 {at + "correlation", "1", "of (zeta, F0)"},
+                 {at + "covariance[][]", "", "covariance of (zeta, F0)"},
+                 {at + "correlation", "1", "correlation of (zeta, F0)"},
                  {at + "lack_of_fit.statistic", "1", "F statistic"},
                  {at + "lack_of_fit.freedom", "1", "degrees of freedom left"},
                  {at + "lack_of_fit.p_value", "1", "probability of a larger statistic if the model holds"},
                  {at + "lack_of_fit.effect", "1", "rms of the added term over the range of the data"},
                  {at + "lack_of_fit.level", "1", "the test rejects below this p_value"},
-                 {at + "lack_of_fit.least_effect", "1", "and above this effect"},
-                 {at + "lack_of_fit.fired", "", "the model does not hold"},
-                 {at + "subsets[].label", "", "which part"},
-                 {at + "subsets[].used", "1", "data of the part"},
-                 {at + "line.slope", "1", "of x over Y"},
+                 {at + "lack_of_fit.least_effect", "1", "the test rejects only above this effect"},
+                 {at + "lack_of_fit.fired", "", "the test rejects the model"},
+                 {at + "subsets[].label", "", "name of a part of the data, or of another setting of the method"},
+                 {at + "subsets[].used", "1", "number of data in the part"},
+                 {at + "line.slope", "1", "slope of x over Y"},
                  {at + "line.intercept", "m", "x at Y = 0"},
                  {at + "line.residual_deviation", "m", "standard deviation of the residuals"},
                  {at + "line.G", "1", "parameter function G at the estimate"},
                  {at + "line.residuals[]", "m", "residuals of the data used"},
-                 {at + "decay.R", "1", "decrement: decay of a half swing without friction"},
+                 {at + "decay.R", "1", "decrement: factor by which viscous damping alone shrinks a half swing"},
                  {at + "decay.first_amplitude", "m", "first extreme without offset"},
                  {at + "decay.offset", "m", "middle of the extremes"},
                  {at + "decay.residual_deviation", "m", "standard deviation of the residuals"},
@@ -327,7 +328,7 @@ ResultFields diagnostics() {
                  {at + "subsets[].others[].name", "", "a further parameter from that part"},
                  {at + "subsets[].others[].value", "", "its value"},
                  {at + "candidates[].law", "", "a law that was compared, best first"},
-                 {at + "candidates[].parameters[].name", "", "a parameter of it"},
+                 {at + "candidates[].parameters[].name", "", "a parameter of the law"},
                  {at + "candidates[].parameters[].value", "", "its value"},
                  {at + "candidates[].parameters[].std", "", "its standard error"},
                  {at + "candidates[].parameters[].interval95[]", "", "its 95 % interval"},
@@ -344,14 +345,14 @@ ResultFields diagnostics() {
 ResultFields estimate_fields() {
   ResultFields fields =
       joined(ledger_fields(), {{"estimates[].method", "", "name of the method"},
-                               {"estimates[].usable", "", "nothing that is known speaks against the number"}});
+                               {"estimates[].usable", "", "nothing that is known speaks against the estimate"}});
   fields = joined(fields, parameter_fields("estimates[].", "", ""));
   fields = joined(fields, parameter_fields("estimates[].std.", "", "standard error of the "));
   fields = joined(fields, parameter_fields("estimates[].interval95.", "[]", "95 % interval of the "));
   fields = joined(fields, law_fields());
   fields = joined(fields, diagnostics());
   return joined(fields, {{"verdict", "", "the answer, or why there is none, in plain words"},
-                         {"fit.method", "", "the method of the fit: that of the answer, else a usable one"},
+                         {"fit.method", "", "method of the fit: that of the answer, otherwise a usable one"},
                          {"fit.points[].number", "1", "number of the datum"},
                          {"fit.points[].Y", "m", "measured input amplitude"},
                          {"fit.points[].x", "m", "measured output amplitude or extreme"},

@@ -1,5 +1,5 @@
 #pragma once
-/// Estimates of identification methods as an answer: JSON, tables, and what they say together.
+/// Estimates of identification methods as an answer: JSON, tables, and the combined answer.
 
 #include <string>
 
@@ -14,7 +14,7 @@ namespace dualdamp::scenarios {
 [[nodiscard]] Answer answer_of(const identify::Identification& found, const identify::Record& record,
                                const identify::KnownConstants& constants);
 
-/// {zeta, c, x_f, F0}; null where there is none.
+/// {zeta, c, x_f, F0}; null if there is none.
 [[nodiscard]] Json parameters_json(const identify::ParameterSet& set);
 [[nodiscard]] Json interval_json(const identify::ParameterIntervals& intervals);
 /// The four parameters under `prefix`.

@@ -54,11 +54,11 @@ bool write_all(int descriptor, std::string_view content) {
   return true;
 }
 
-/// A stream onto a descriptor; stops at the first error.
+/// A stream to a descriptor; stops at the first error.
 class DescriptorBuffer : public std::streambuf {
  public:
   explicit DescriptorBuffer(int descriptor) : descriptor_(descriptor) { empty(); }
-  /// Of all that was written.
+  /// Digest of all that was written.
   [[nodiscard]] std::string sha256() { return sum_.text(); }
   /// errno of the first failure.
   [[nodiscard]] int error() const { return error_; }

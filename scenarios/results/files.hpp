@@ -1,5 +1,5 @@
 #pragma once
-/// Files in and out: bounded reading, and writing that leaves either the old file or the whole new one.
+/// Reading of files with a limit of size, and writing that leaves either the old file or the complete new one.
 
 #include <cstddef>
 #include <functional>
@@ -14,17 +14,17 @@ namespace dualdamp::scenarios {
 /// The bytes of a file. A missing file, a directory, no permission, more than `limit` bytes: `core::InputError`.
 [[nodiscard]] std::string read_file(const std::string& path, std::size_t limit);
 
-/// Writes a whole document. A result of gigabytes is never a text in memory.
+/// Writes a whole document. So a result of gigabytes is never a text in memory.
 using Writer = std::function<void(std::ostream&)>;
 
 struct OutputFile {
   std::string name;
   Writer write;
-  std::shared_ptr<std::string> sha256 = {};  ///< where there is one: gets that of the bytes, when they are written
+  std::shared_ptr<std::string> sha256 = {};  ///< if not null: receives the digest of the written bytes
 };
 
-/// Creates `directory` if need be and puts the files there, each written beside its place and moved in when
-/// complete. Errors: `OutputError`; files written before it stay.
+/// Creates `directory` if necessary and writes the files there. Each file is written under another name and renamed
+/// when complete. Errors: `OutputError`; files written before the error stay.
 void write_files(const std::string& directory, const std::vector<OutputFile>& files);
 
 /// The output directory or a file in it cannot be written.

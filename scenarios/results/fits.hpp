@@ -14,7 +14,7 @@ namespace dualdamp::scenarios {
 /// Keys `parameters`, `not_identifiable`, `residual`, `signals`, `covariance`, and the table of parameters.
 void add_fit(const identify::Fit& fit, const identify::Experiments& experiments, Answer& answer);
 
-/// What was measured and what the fit gives, a table for each signal of each record, named PREFIX_RECORD_SIGNAL.
+/// Measured and fitted values, one table for each signal of each record, named PREFIX_RECORD_SIGNAL.
 void add_curves(const identify::Fit& fit, const identify::Experiments& experiments, const std::string& prefix,
                 Answer& answer);
 
@@ -22,7 +22,7 @@ void add_curves(const identify::Fit& fit, const identify::Experiments& experimen
 [[nodiscard]] Json validation_json(const identify::Prediction& prediction);
 
 [[nodiscard]] ResultFields fit_fields();
-/// `prefix`: where the validation is.
+/// `prefix`: path of the validation in the result.
 [[nodiscard]] ResultFields validation_fields(const std::string& prefix);
 
 }  // namespace dualdamp::scenarios

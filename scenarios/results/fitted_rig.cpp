@@ -70,7 +70,7 @@ void ask_for_states(const identify::Experiment& experiment, Json& scenario) {
     scenario["analysis"] = {{"type", "frequency_response"}, {"frequencies", std::move(list)}};
     return;
   }
-  // Levels at several frequencies: those of the first one.
+  // For levels at several frequencies: those at the first frequency.
   Json list = Json::array();
   for (std::size_t i = 0; i < amplitudes.size(); ++i)
     if (frequencies[i] == frequencies.front()) list.push_back(amplitudes[i]);

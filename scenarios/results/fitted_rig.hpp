@@ -1,5 +1,5 @@
 #pragma once
-/// A fitted rig as the text of a scenario, which runs and gives the curves of the fit.
+/// A fitted rig as the text of a scenario that computes the curves of the fit.
 
 #include <string>
 
@@ -8,13 +8,13 @@
 
 namespace dualdamp::scenarios {
 
-/// What the text says beside the fitted numbers.
+/// Parts of the text beside the fitted numbers.
 struct RigText {
   std::string title;
   Json excitation;  ///< as the reader returned it; null: none
 };
 
-/// `system` with the values of the rig; a rig without a mass or a spring, of a loop, gets 1 kg and 1 N/m.
+/// `system` with the values of the rig; a rig from a loop, without mass or spring, gets 1 kg and 1 N/m.
 [[nodiscard]] Json system_json(const identify::Rig& rig);
 
 /// A scenario that computes experiment `index` of the fit: YAML.

@@ -1,13 +1,13 @@
 #pragma once
-/// What a campaign does about cases of an earlier run.
+/// Treatment of the cases of an earlier run by a campaign.
 
 namespace dualdamp::scenarios {
 
 /// Cases that are in its directory before it begins.
 enum class FoundCases {
-  refuse,     ///< but for those of this campaign when none is missing: they are kept
-  resume,     ///< those of this campaign are kept, others refused
-  overwrite,  ///< they are lost
+  refuse,     ///< except complete cases of this same campaign, which are kept
+  resume,     ///< cases of this campaign are kept, others refused
+  overwrite,  ///< they are deleted
 };
 
 }  // namespace dualdamp::scenarios

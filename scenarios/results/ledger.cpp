@@ -115,21 +115,22 @@ ResultFields ledger_fields() {
   fields = joined(fields, parameter_fields("answer.", "", ""));
   fields = joined(fields, parameter_fields("answer.std.", "", "standard error of the "));
   fields = joined(fields, parameter_fields("answer.interval95.", "[]", "95 % interval of the "));
-  return joined(
-      fields,
-      {{"family_level", "1", "probability that any assumption is rejected in a record where all hold"},
-       {"tested", "", "what the assumptions were tested in"},
-       {"left_out[]", "", "parts of the record outside the conditions of the tests"},
-       {"assumptions[].name", "",
-        "constants, sensors, spring, one_mode, drive, stationarity, friction_velocity, "
-        "friction_displacement or symmetry"},
-       {"assumptions[].status", "", "holds, violated or untested"},
-       {"assumptions[].test", "", "what was set free to test it"},
-       {"assumptions[].p_value", "1", "of the family of all tests of the record"},
-       {"assumptions[].zeta_change", "1", "relative change of zeta when it is relaxed"},
-       {"assumptions[].F0_change", "1", "relative change of F0 when it is relaxed"},
-       {"assumptions[].reason", "", "why untested, what else explains a departure, how small a one would be seen"},
-       {"assumptions[].methods[]", "", "methods asked for whose estimates rest on it"}});
+  return joined(fields,
+                {{"family_level", "1", "probability that any assumption is rejected in a record where all hold"},
+                 {"tested", "", "the data in which the assumptions were tested"},
+                 {"left_out[]", "", "parts of the record outside the conditions of the tests"},
+                 {"assumptions[].name", "",
+                  "constants, sensors, spring, one_mode, drive, stationarity, friction_velocity, "
+                  "friction_displacement or symmetry"},
+                 {"assumptions[].status", "", "holds, violated or untested"},
+                 {"assumptions[].test", "", "what was relaxed to test it"},
+                 {"assumptions[].p_value", "1", "p value, adjusted for all tests of the record"},
+                 {"assumptions[].zeta_change", "1", "relative change of zeta when it is relaxed"},
+                 {"assumptions[].F0_change", "1", "relative change of F0 when it is relaxed"},
+                 {"assumptions[].reason", "",
+                  "why it is untested, what else explains the departure, or how small a departure would be "
+                  "detected"},
+                 {"assumptions[].methods[]", "", "methods of this scenario whose estimates rest on it"}});
 }
 
 }  // namespace dualdamp::scenarios

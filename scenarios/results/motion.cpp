@@ -6,7 +6,7 @@
 namespace dualdamp::scenarios {
 
 void add_certificate(Json& result, const sim::Model& model, const core::SearchCount& count) {
-  // The smooth engine looks for events at points of its steps: it proves nothing.
+  // The smooth engine looks for events at points of its steps, so it has no certificate.
   if (!sim::is_exact(model)) return;
   result["certificate"] = {{"searches", count.searches},
                            {"panels", count.panels},
@@ -51,9 +51,9 @@ ResultFields energy_fields() {
 }
 
 ResultFields certificate_fields() {
-  return {{"certificate.searches", "1", "searches for the next event; no certificate where the smooth engine ran"},
-          {"certificate.panels", "1", "stretches of time examined"},
-          {"certificate.splits", "1", "how many of them were divided"},
+  return {{"certificate.searches", "1", "searches for the next event; the smooth engine gives no certificate"},
+          {"certificate.panels", "1", "panels: stretches of time that were examined"},
+          {"certificate.splits", "1", "panels that were divided"},
           {"certificate.grazings", "1", "guards that touch zero and do not cross it"}};
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-/// Parts of an answer about motions that several analyses have, each beside the fields that describe it.
+/// Parts of an answer about motions that several analyses use, each with the fields that describe it.
 
 #include <string>
 #include <vector>
@@ -14,18 +14,18 @@ namespace dualdamp::scenarios {
 
 using ResultFields = std::vector<ResultField>;
 
-/// One list behind the other.
+/// The lists, one after the other.
 [[nodiscard]] ResultFields joined(ResultFields first, const ResultFields& second);
 
-/// The energy account.
+/// The energy balance.
 [[nodiscard]] Json energy_json(const sim::Energy& energy);
 [[nodiscard]] ResultFields energy_fields();
 
-/// How the search for events was certified: nothing where the smooth engine ran.
+/// The certificate of the search for events; nothing for the smooth engine.
 void add_certificate(Json& result, const sim::Model& model, const core::SearchCount& count);
 [[nodiscard]] ResultFields certificate_fields();
 
-/// Samples of a motion, with the column of the drive that it has.
+/// Samples of a motion, with a column for its drive.
 [[nodiscard]] Table history_table(std::string name, const std::vector<sim::Sample>& samples,
                                   const sim::Excitation& excitation);
 

@@ -56,9 +56,9 @@ void add_sensitivities(const std::vector<identify::Sensitivity>& sensitivities, 
 
 ResultFields outlier_fields() {
   return {
-      {"outliers[].reading", "", "a reading that does not belong to the others"},
+      {"outliers[].reading", "", "a reading that does not agree with the others"},
       {"outliers[].deviations", "1", "how far off it lies, in standard deviations of the others"},
-      {"outliers[].weight", "1", "what it counts where 'robust' bounds its influence"},
+      {"outliers[].weight", "1", "its weight if 'robust' limits its influence"},
       {"sensitivities[].constant", "", "a constant whose uncertainty is not stated"},
       {"sensitivities[].zeta_change", "1", "relative change of the answer's zeta if the constant is 1 % larger"},
       {"sensitivities[].F0_change", "1", "relative change of the answer's F0 if the constant is 1 % larger"}};

@@ -1,5 +1,5 @@
 #pragma once
-/// Readings that do not belong to the others, and what 1 % of each constant does, in a result.
+/// Readings that do not agree with the others, and the effect of 1 % of each constant, as parts of a result.
 
 #include <vector>
 
@@ -10,7 +10,7 @@
 
 namespace dualdamp::scenarios {
 
-/// `bounded`: their influence is.
+/// `bounded`: whether their influence is limited.
 void add_outliers(const std::vector<identify::Outlier>& outliers, bool bounded, Answer& answer);
 
 void add_sensitivities(const std::vector<identify::Sensitivity>& sensitivities, Answer& answer);

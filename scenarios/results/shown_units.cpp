@@ -10,7 +10,7 @@ namespace dualdamp::scenarios {
 
 namespace {
 
-/// Before the number of a unit that was asked for: no path of a scenario begins so.
+/// Prefix of the number of a requested unit; no path of a scenario begins with it.
 constexpr std::string_view asked = "--units[";
 
 void add(const std::string& unit, std::span<const char* const> kinds, bool is_asked, ShownUnits& units) {

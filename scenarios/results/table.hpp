@@ -1,6 +1,6 @@
 #pragma once
-/// The lists of a result by columns: a list of a million records is never a million JSON objects. What a table
-/// holds becomes JSON, CSV and text for people row by row.
+/// The lists of a result, stored by columns, so that a list of a million records is never a million JSON objects. A
+/// table is converted row by row to JSON, CSV and printed text.
 
 #include <cstddef>
 #include <cstdint>
@@ -26,7 +26,7 @@ struct Column {
   std::vector<double> numbers;
   std::vector<std::string> texts;
   CellKind kind = CellKind::number;
-  /// Of a text that few rows differ in: row i has `texts[choices[i]]`. Empty: row i has `texts[i]`.
+  /// For texts with few different values: row i has `texts[choices[i]]`. Empty: row i has `texts[i]`.
   std::vector<std::uint32_t> choices = {};
 
   [[nodiscard]] std::size_t size() const;
@@ -38,7 +38,7 @@ struct Column {
 /// A number that does not exist.
 inline constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
-/// A column of what `get` says of each item.
+/// A column of the values of `get` for each item.
 template <typename Item, typename Get>
 Column column(std::string name, std::string unit, const std::vector<Item>& items, Get get) {
   Column result{.name = std::move(name), .unit = std::move(unit)};
@@ -59,15 +59,15 @@ struct Table {
   std::vector<Column> columns;
   bool is_long = false;  ///< not for a terminal
   bool is_file = true;   ///< false: only for a terminal
-  std::string key = {};  ///< of the list in the result that the rows are; empty: they are only a file
-  /// Every row has all its numbers, or a `reason`: a result that lacks one is refused.
+  std::string key = {};  ///< key of the list in the result that has these rows; empty: the table is only a file
+  /// Every row has all its numbers or a `reason`; otherwise the result is refused.
   bool is_complete = false;
 
   [[nodiscard]] std::size_t size() const { return columns.empty() ? 0 : columns.front().size(); }
 };
 
-/// The value of a cell as JSON: null for a number that does not exist; nothing for an empty text, whose key is left
-/// out.
+/// The value of a cell as JSON: null for a number that does not exist; nothing for an empty text, the key of which
+/// is left out.
 [[nodiscard]] std::string json_cell(const Column& column, std::size_t row);
 
 }  // namespace dualdamp::scenarios

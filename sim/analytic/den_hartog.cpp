@@ -19,8 +19,8 @@ using std::numbers::pi;
 
 using core::infinity;
 
-/// scale times 1 - sin(sqrt z)/sqrt z, an entire function of z; `sine_ratio` is scale sin(sqrt z)/sqrt z, used
-/// where nothing cancels.
+/// scale (1 - sin(sqrt z)/sqrt z), an entire function of z; `sine_ratio` is scale sin(sqrt z)/sqrt z, used if
+/// nothing cancels.
 double one_minus_sine_ratio(double z, double sine_ratio, double scale) {
   if (std::abs(z) > 1.0) return scale - sine_ratio;
   double term = z / 6.0;
@@ -32,7 +32,7 @@ double one_minus_sine_ratio(double z, double sine_ratio, double scale) {
   return scale * sum;
 }
 
-/// scale times d/dz of sin(sqrt z)/sqrt z; `cosine` and `sine_ratio` carry the scale.
+/// scale times d/dz of sin(sqrt z)/sqrt z; `cosine` and `sine_ratio` contain the factor scale.
 double sine_ratio_slope(double z, double cosine, double sine_ratio, double scale) {
   if (std::abs(z) > 1.0) return (cosine - sine_ratio) / (2.0 * z);
   double power = 1.0 / 6.0;  // z^(k-1)/(2k+1)! up to sign
@@ -62,8 +62,8 @@ struct Circular {
   double one_plus_cosine = 0.0;
 };
 
-/// For zeta < 1. Near resonance with an odd harmonic b is close to an odd multiple of pi, and the distance is what
-/// counts: it is formed from 1 - n r and 1 - s, never from b.
+/// For zeta < 1. Near resonance with an odd harmonic b is close to an odd multiple of pi, and the result depends on
+/// the distance: it is formed from 1 - n r and 1 - s, never from b.
 Circular circular(double zeta, double r) {
   const double s = std::sqrt((1.0 - zeta) * (1.0 + zeta));
   const double half_turns = s / r;
@@ -99,7 +99,7 @@ void set_by_squares(DenHartog& d) {
   const double beta_pi = pi / d.r;
   const double a = d.zeta * beta_pi;
   const double z = beta_pi * beta_pi * (1.0 - d.zeta) * (1.0 + d.zeta);
-  const bool scaled = a > 20.0 || z < 0.0;  // then all below carries a factor exp(-a)
+  const bool scaled = a > 20.0 || z < 0.0;  // then all terms below contain a factor exp(-a)
   const double e = scaled ? std::exp(-a) : 1.0;
   Circular c;
   if (z >= 0.0) {
@@ -208,8 +208,8 @@ class HalfCycleQuotient {
   double drive_;
 };
 
-/// Sampling dense against every rate in b: at least 32 points in a period of the free vibration, and for zeta >= 1,
-/// where b is a sum of three slow curves and two exponentials, 16 points in a decade of their time constants.
+/// Samples that resolve every rate in b: at least 32 points in a period of the free vibration. For zeta >= 1, where
+/// b is a sum of three slow curves and two exponentials, 16 points in a decade of the time constants.
 std::vector<double> half_cycle_grid(const DenHartog& d) {
   std::vector<double> grid;
   const int uniform = 64 + (d.zeta < 1.0 ? static_cast<int>(std::ceil(16.0 / d.r)) : 0);
@@ -235,7 +235,7 @@ DenHartog den_hartog(double zeta, double r) {
   d.r = r;
   d.q = std::hypot((1.0 - r) * (1.0 + r), 2.0 * zeta * r);
   // The two forms agree; each is accurate on its side. Near zeta = 1 the decay rates meet and their divided
-  // difference cancels, far above it the hyperbolic terms of the other form do.
+  // difference cancels. Far above it the hyperbolic terms of the other form cancel.
   if (zeta > 1.02) {
     set_by_decay_rates(d);
   } else {
@@ -291,7 +291,7 @@ double non_sticking_limit(const DenHartog& d) {
   std::transform(grid.begin(), grid.end(), values.begin(), quotient);
   const auto negative = [&quotient](double theta) { return -quotient(theta); };
   constexpr int half_precision = std::numeric_limits<double>::digits / 2;
-  // The last sample stands next to that end point; the first interval is always searched, since a maximum may hide
+  // The last sample is next to the end point. The first interval is always searched, because a maximum may lie
   // between the turning point and the first sample.
   for (std::size_t i = 0; i + 1 < grid.size(); ++i) {
     if (i > 0 && (values[i] < values[i - 1] || values[i] < values[i + 1])) continue;
@@ -314,10 +314,10 @@ std::optional<double> amplitude(const DenHartog& d, double Y, double x_f) {
   const double viscous = Y / d.q;
   if (x_f == 0.0) return viscous;
   const double reactive = d.H * x_f;
-  const double largest = std::hypot(d.G, d.H) * x_f;  // of the friction terms; x_o = 0 there
+  const double largest = std::hypot(d.G, d.H) * x_f;  // size of the friction terms; x_o = 0 there
   if (!(viscous > largest) || !(viscous >= std::abs(reactive))) return std::nullopt;
   const double root = std::sqrt((viscous - reactive) * (viscous + reactive));
-  // The difference root - G x_f, written so that it does not cancel for small x_o.
+  // root - G x_f in a form that does not cancel for small x_o.
   return (viscous - largest) * (viscous + largest) / (d.G * x_f + root);
 }
 

@@ -21,7 +21,7 @@ double half_swing_decay(double zeta) { return std::exp(-decrement(zeta)); }
 double decrement_amplitude(double zeta, double x_f, double X_0, int n) {
   assert(n >= 0);
   const double L = decrement(zeta);
-  // 1 + R + ... + R^(n-1); as a quotient of two differences from 1 it keeps its digits for small zeta.
+  // 1 + R + ... + R^(n-1); the quotient of two differences from 1 keeps its digits for small zeta.
   const double swings = L == 0.0 ? n : std::expm1(-n * L) / std::expm1(-L);
   return X_0 * std::exp(-n * L) - x_f * (1.0 + std::exp(-L)) * swings;
 }

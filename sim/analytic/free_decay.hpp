@@ -6,22 +6,23 @@
 ///   X_n = (X_0 + kappa) R^n - kappa,   kappa = x_f (1 + R)/(1 - R)
 /// and X_n = X_0 - 2 n x_f for zeta = 0.
 ///
-/// Holds for 0 <= zeta < 1 while X_n > x_f: at a smaller extreme the spring does not overcome the friction (static
-/// friction equal to kinetic) and the mass stays. The last extreme may lie on the side the mass came from: X_n < 0.
-/// Source: feeny1996decrement, liang1998decrement. Cost: an exponential an extreme.
+/// Holds for 0 <= zeta < 1 while X_n > x_f. At a smaller extreme the spring does not overcome the friction (static
+/// friction equal to kinetic) and the mass stays. The last extreme may lie on the side from which the mass came:
+/// X_n < 0.
+/// Source: feeny1996decrement, liang1998decrement. Cost: one exponential for each extreme.
 
 #include <vector>
 
 namespace dualdamp::sim::analytic {
 
-/// R [-] of a damping ratio 0 <= zeta < 1.
+/// R [-] for a damping ratio 0 <= zeta < 1.
 [[nodiscard]] double half_swing_decay(double zeta);
 
-/// X_n [m] by the closed form, whether or not the mass gets that far.
+/// X_n [m] by the closed form, even if the mass stops at an earlier extreme.
 [[nodiscard]] double decrement_amplitude(double zeta, double x_f, double X_0, int n);
 
-/// Signed extremes [m] of the release from rest at `x_0`: at most `count` of them, x_0 first, ending with the one
-/// at which the mass stays.
+/// Signed extremes [m] after a release from rest at `x_0`: at most `count`, x_0 first; the last one is where the
+/// mass stays.
 [[nodiscard]] std::vector<double> free_decay_extremes(double zeta, double x_f, double x_0, int count);
 
 }  // namespace dualdamp::sim::analytic

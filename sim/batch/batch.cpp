@@ -21,12 +21,12 @@ namespace {
 using batch::Kernels;
 using core::Complex;
 
-/// Oscillators of one task. A multiple of every width, so that only the last task is filled up.
+/// Number of oscillators of one task. A multiple of every width, so only the last task is padded.
 constexpr std::size_t chunk = 512;
 static_assert(chunk % batch::widest == 0);
 static_assert(sliding_closure == batch::closure);
 
-/// Those the processor has, ascending.
+/// The kernels that the processor can run, in ascending order of width.
 const std::vector<const Kernels*>& kernels_here() {
   static const std::vector<const Kernels*> kernels = [] {
     std::vector<const Kernels*> list{&batch::scalar_kernels};
@@ -54,7 +54,7 @@ batch::DriveOn drive_on(ExcitationType type, DamperTo damper_to) {
   return damper_to == DamperTo::base ? batch::DriveOn::base_and_damper : batch::DriveOn::base;
 }
 
-/// One column of a task's oscillators: the caller's own, or a copy whose last entry is repeated up to a whole pack.
+/// One column of a task's oscillators: the caller's data, or a copy that repeats the last entry up to a whole pack.
 class Column {
  public:
   Column(const std::vector<double>& all, std::size_t first, std::size_t count, std::size_t padded) {
@@ -76,7 +76,7 @@ class Column {
   std::array<double, chunk> copy_;
 };
 
-/// The oscillators [first, first + count) filled up to whole packs.
+/// The oscillators [first, first + count), padded to whole packs.
 class Task {
  public:
   Task(const OscillatorBatch& batch, std::size_t first, std::size_t count)
@@ -132,7 +132,7 @@ void steady_state_by_engine(const OscillatorBatch& batch, std::size_t i, BatchSt
     result.radius[i] = std::max(result.radius[i], std::abs(value));
 }
 
-/// What the kernel writes, a column for each member of batch::Orbits.
+/// The output of the kernel: a column for each member of batch::Orbits.
 template <std::size_t length>
 class OrbitColumns {
  public:
@@ -162,7 +162,7 @@ class OrbitColumns {
   std::array<double, length> peak_, lag_, turned_re_, turned_im_, radius_, searches_, panels_, splits_, certified_;
 };
 
-/// Of the oscillators from `first` on, at most a chunk of them.
+/// The orbits of the oscillators from `first` on, at most one chunk.
 void find_orbits(const OscillatorBatch& batch, const Kernels& kernels, std::size_t first,
                  std::span<std::optional<SlidingOrbit>> orbits) {
   const Task task(batch, first, orbits.size());
@@ -259,13 +259,13 @@ void check(const OscillatorBatch& batch) {
   require_in(positive, "excitation.frequency", batch.frequency, "rad/s");
 }
 
-/// The same whatever the motion does.
+/// Whether the form does not depend on the motion.
 bool is_constant(const friction::Affine& form) {
   return form.rate == 0.0 && form.position == 0.0 && form.velocity == 0.0 && form.transient == 0.0;
 }
 
-/// Of a law that is Coulomb friction, by what it does: nothing remembered, a force that depends on the direction of
-/// slip alone, a constant limit not below it.
+/// The limits of a law if it acts as Coulomb friction: no memory, a force that depends only on the direction of
+/// slip, and a constant limit not below the force.
 std::optional<CoulombLimits> coulomb_limits(const friction::Law& law) {
   if (!law.is_affine() || law.is_modal() || !law.aperiodic().empty()) return std::nullopt;
   const friction::Affine forward = law.affine_force({}, {}, friction::Direction::forward);
@@ -278,7 +278,7 @@ std::optional<CoulombLimits> coulomb_limits(const friction::Law& law) {
   return CoulombLimits{forward.constant, limit.constant};
 }
 
-/// Of a model that packs can compute.
+/// The limits of all laws together, if packs can compute the model.
 std::optional<CoulombLimits> coulomb_limits(const Model& model) {
   const Excitation& drive = model.excitation;
   if (!is_exact(model) || model.oscillator.loss_factor != 0.0) return std::nullopt;
@@ -316,13 +316,13 @@ std::optional<State> start_of(const SlidingOrbit& orbit, const Model& model) {
   const double omega = drive.frequency;
   const double turn = 2.0 * std::numbers::pi;
   const double angle = drive.phase - std::arg(orbit.drive_at_peak);
-  // The half period from the trough on is the mirror image of that from the peak on.
+  // The half period after the trough is the mirror image of the half period after the peak.
   const double after_peak = angle - turn * std::floor(angle / turn);
   const double mirror = after_peak < std::numbers::pi ? 1.0 : -1.0;
   const double s = (after_peak - (mirror > 0.0 ? 0.0 : std::numbers::pi)) / omega;
 
-  // From rest at the peak back: friction's offset, what the drive forces, and the own motion that makes up for
-  // both.
+  // The motion back from rest at the peak: the offset by friction, the response to the drive, and the own motion
+  // that makes x = peak, v = 0 at the start.
   double offset = 0.0;
   for (const friction::Law& law : model.friction)
     offset -= law.affine_force({}, {}, friction::Direction::backward).constant / o.stiffness;

@@ -5,17 +5,17 @@
 ///
 ///     m x'' + c x' + k x + kinetic sgn x' = drive amplitude cos(w t)
 ///
-/// Packs of 8, 4, 2 or 1 oscillators, as wide as the processor allows, pass along the closed form from reversal to
-/// reversal with the certificate of `core/crossing/first_crossing.hpp`. What this simple path cannot certify
-/// (sticking, grazing, a static limit met within 1e-9, critical damping, undamped resonance) the exact engine does,
-/// one oscillator at a time, in the same call.
+/// A pack has 8, 4, 2 or 1 oscillators, as many as the processor allows. Packs compute the motion in closed form
+/// from reversal to reversal, with the certificate of `core/crossing/first_crossing.hpp`. The exact engine computes
+/// what packs cannot certify (sticking, grazing, a static limit met within 1e-9, critical damping, undamped
+/// resonance), one oscillator at a time, in the same call.
 ///
-/// Results are the same to the last bit for every width and number of threads: each lane only depends on its own
+/// Results are the same to the last bit for every width and number of threads: each lane depends only on its own
 /// numbers, and exp, sin, cos and atan2 are SLEEF's reproducible variants (shibata2020). They agree with the exact
 /// engine to rounding, not to the bit.
 ///
-/// Cost on one core with AVX-512: about 0.08 us for a forcing period, 0.1 us for a steady state; tens of us where
-/// the exact engine takes over.
+/// Cost on one core with AVX-512: about 0.08 us for a forcing period, 0.1 us for a steady state; tens of us for an
+/// oscillator that the exact engine computes.
 
 #include <complex>
 #include <cstddef>
@@ -46,8 +46,9 @@ struct OscillatorBatch {
   [[nodiscard]] std::size_t size() const { return mass.size(); }
 };
 
-/// `size` copies of `model`, where it is of the class above: one harmonic, no constant force, and laws without
-/// memory that together are one Coulomb law. The phase of the drive and the initial state are left out.
+/// `size` copies of `model`, or nothing if the model is not of the class above: one harmonic, no constant force,
+/// and laws without memory that together are one Coulomb law. The phase of the drive and the initial state are left
+/// out.
 [[nodiscard]] std::optional<OscillatorBatch> batch_of(const Model& model, std::size_t size);
 
 struct BatchOptions {
@@ -74,13 +75,13 @@ inline constexpr double sliding_closure = 1e-14;
 /// half-period map and certified by that map (`sim/batch/find_orbits.hpp`). `width` as in BatchOptions.
 [[nodiscard]] std::vector<std::optional<SlidingOrbit>> sliding_orbits(const OscillatorBatch& batch, int width = 0);
 
-/// The same of one model; nothing where batch_of() gives nothing.
+/// The orbit of one model; nothing if batch_of() gives nothing or no orbit is found.
 [[nodiscard]] std::optional<SlidingOrbit> sliding_orbit(const Model& model);
 
-/// Where the orbit of this model is at t = 0; nothing where its velocity is zero just then.
+/// The state of the orbit of this model at t = 0; nothing if its velocity is zero there.
 [[nodiscard]] std::optional<State> start_of(const SlidingOrbit& orbit, const Model& model);
 
-/// Steady states, one entry for each oscillator; where the outcome is not `done` its numbers mean nothing.
+/// Steady states, one entry for each oscillator; if its outcome is not `done`, its numbers mean nothing.
 struct BatchSteadyStates {
   std::vector<core::OutcomeKind> outcome;
   std::vector<double> peak;           ///< max x [m]
@@ -91,10 +92,10 @@ struct BatchSteadyStates {
   std::vector<unsigned char> engine;  ///< 1: found by the exact engine, 0: in a pack
 };
 
-/// The steady state approached from rest at x = 0 (`sim/orbits/steady_state.hpp`). In packs: sliding orbits.
+/// The steady states approached from rest at x = 0 (`sim/orbits/steady_state.hpp`). Packs find those that slide.
 [[nodiscard]] BatchSteadyStates steady_states(const OscillatorBatch& batch, const BatchOptions& options = {});
 
-/// Where motions are after some periods; in and out.
+/// States of motions: the caller fills in the start, pass_periods() replaces it by the end.
 struct BatchMotions {
   std::vector<double> position;     ///< m; given: at t = 0
   std::vector<double> velocity;     ///< m/s; given: at t = 0

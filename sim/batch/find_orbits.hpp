@@ -2,26 +2,28 @@
 /// Symmetric periodic orbits without sticking, as fixed points of the half-period map.
 ///
 /// The map. From the turning point x = X, v = 0 at the drive's angle `alpha` the mass moves back until its
-/// certified first reversal, after the time s: (X, alpha) -> (-x(s), alpha + r s - pi). On the orbit both stay; the
-/// second half period is the mirror image of the first. Its derivative D is exact: the propagator of the interval,
-/// and the shift of the reversal ds = -dv/a. The full period's Floquet multipliers are the squares of D's
-/// eigenvalues. Newton starts from the response to the fundamental of the friction force (harmonic balance); what
-/// it ends with is taken only when the map itself closes to 1e-14, each half period is certified and the mass does
-/// not stick at the turning point (|pull| > static); the caller asks that it attracts. With zeta >= 0 and a
-/// friction force that never falls with speed (static = kinetic) two motions never move apart, so that an orbit
-/// that attracts is the only one.
+/// certified first reversal, after the time s: (X, alpha) -> (-x(s), alpha + r s - pi). The orbit is a fixed point;
+/// its second half period is the mirror image of the first. The derivative D of the map is exact: the propagator of
+/// the interval, and the shift of the reversal ds = -dv/a. The full period's Floquet multipliers are the squares of
+/// D's eigenvalues.
+///
+/// Newton's method starts from the response to the fundamental of the friction force (harmonic balance). Its result
+/// is accepted only if the map closes to 1e-14, each half period is certified and the mass does not stick at the
+/// turning point (|pull| > static); the caller checks that the orbit attracts. With zeta >= 0 and a friction force
+/// that never falls with speed (static = kinetic) two motions never move apart, so an orbit that attracts is the
+/// only one.
 
 #include "sim/batch/reversal_search.hpp"
 
 namespace dualdamp::sim::batch {
 
 inline constexpr double pi = 3.14159265358979323846;
-/// Limits nearer than this (relative) are for the exact engine to decide.
+/// A limit nearer than this (relative) is left to the exact engine.
 inline constexpr double clearly = 1e-9;
 inline constexpr int shots = 3;
 inline constexpr int most_newton_steps = 10;
 
-/// A candidate orbit in each lane, and what the half-period map says of it.
+/// A candidate orbit in each lane, and the half-period map from it.
 template <Pack P>
 struct OrbitCandidate {
   using Vector = typename P::Vector;
@@ -56,7 +58,7 @@ struct OrbitCandidate {
   [[nodiscard]] Vector radius() const;
 };
 
-/// Harmonic balance: the friction's fundamental 4 x_f/pi opposes the velocity, so that at the peak
+/// The start by harmonic balance: the friction's fundamental 4 x_f/pi opposes the velocity, so at the peak
 /// Y e^{i alpha} = (1 - r^2) X + i (2 zeta r X + 4 x_f/pi).
 template <Pack P>
 OrbitCandidate<P>::OrbitCandidate(const Oscillation<P>& o)
@@ -75,7 +77,7 @@ OrbitCandidate<P>::OrbitCandidate(const Oscillation<P>& o)
   for (int i = 0; i < shots; ++i) shoot(o);
 }
 
-/// How the end of an interval depends on its start X, alpha at fixed duration.
+/// Derivative of the end of an interval by its start X, alpha at fixed duration.
 template <Pack P>
 struct IntervalDerivative {
   using Vector = typename P::Vector;
@@ -140,7 +142,7 @@ void OrbitCandidate<P>::newton_step() {
   move((d01 * angle_gap - d * peak_gap) * scale, (d10 * peak_gap - a * angle_gap) * scale);
 }
 
-/// The phasor turns by atan(angle_step): the difference is of third order.
+/// The phasor turns by atan(angle_step), which differs from angle_step at third order only.
 template <Pack P>
 void OrbitCandidate<P>::move(Vector peak_step, Vector angle_step) {
   peak = peak + peak_step;
@@ -158,8 +160,8 @@ typename P::Vector OrbitCandidate<P>::radius() const {
   return P::choose(gap >= 0.0, real * real, determinant);
 }
 
-/// How far x's fundamental lags behind the drive, in [0, 2 pi). With the angle counted from the peak the friction
-/// force is a square wave with the fundamental i 4 x_f/pi.
+/// Lag of x's fundamental behind the drive, in [0, 2 pi). With the angle counted from the peak the friction force
+/// is a square wave with the fundamental i 4 x_f/pi.
 template <Pack P>
 typename P::Vector fundamental_lag(const Oscillation<P>& o, const OrbitCandidate<P>& orbit) {
   using Complex = ComplexPack<P>;

@@ -1,9 +1,9 @@
 #pragma once
 /// The loops over packs, compiled once for each width of vector register.
 ///
-/// Arrays have one entry for each oscillator; `count` is a multiple of the kernel's width. What a kernel cannot
-/// certify by its simple path it leaves to the exact engine and says so: certified = 0, the numbers then mean
-/// nothing.
+/// Arrays have one entry for each oscillator; `count` is a multiple of the kernel's width. If a kernel cannot
+/// certify an oscillator, it sets certified = 0 and leaves the oscillator to the exact engine; the numbers then
+/// mean nothing.
 
 #include <cstddef>
 
@@ -13,7 +13,7 @@ namespace dualdamp::sim::batch {
 enum class DriveOn {
   base,             ///< through the spring; damper to ground
   base_and_damper,  ///< through spring and damper
-  mass,             ///< a force
+  mass,             ///< as a force
 };
 
 /// See sim/batch/batch.hpp for meaning and units.

@@ -7,7 +7,7 @@
 namespace dualdamp::sim::batch {
 namespace {
 
-/// AVX2 without FMA, whose rounding differs.
+/// AVX2 without FMA: a fused product rounds differently.
 struct Avx2 : VectorRegister<4> {
   static bool any(Mask mask) {
     return _mm256_movemask_pd(_mm256_castsi256_pd(reinterpret_cast<__m256i>(mask))) != 0;

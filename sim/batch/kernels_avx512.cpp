@@ -7,10 +7,10 @@
 namespace dualdamp::sim::batch {
 namespace {
 
-/// AVX-512 (F, DQ) without fused multiply-add, whose rounding differs.
+/// AVX-512 (F, DQ) without fused multiply-add, which rounds differently.
 struct Avx512 : VectorRegister<8> {
   static bool any(Mask mask) { return _mm512_movepi64_mask(reinterpret_cast<__m512i>(mask)) != 0; }
-  // The masked form: GCC 12 warns about its own header in the plain one.
+  // The masked form, because GCC 12 warns about its own header in the plain form.
   static Vector sqrt(Vector v) { return _mm512_maskz_sqrt_pd(0xff, v); }
   static Vector exp(Vector v) { return Sleef_cinz_expd8_u10avx512fnofma(v); }
   static Vector atan2(Vector y, Vector x) { return Sleef_cinz_atan2d8_u10avx512fnofma(y, x); }

@@ -1,4 +1,4 @@
-// One lane's mask is a bool, and masks are combined bit by bit.
+// The mask of one lane is a bool, and the templates combine masks bit by bit.
 #ifdef __clang__
 #pragma clang diagnostic ignored "-Wbitwise-instead-of-logical"
 #endif

@@ -42,8 +42,8 @@ struct Oscillation {
   Vector panel;        ///< width of a search panel in natural time: half a period of the fastest exponential
   Complex own_panel;   ///< exp(z panel)
   Complex turn_panel;  ///< exp(i r panel)
-  /// Closed forms above lose no digits: underdamped, off resonance, nothing out of range. The others are not for
-  /// packs.
+  /// The closed form loses no digits: underdamped, off resonance, nothing out of range. Other oscillators are left
+  /// to the exact engine.
   Mask simple;
 
   Oscillation(const Oscillators& all, std::size_t first);
@@ -83,7 +83,7 @@ Oscillation<P>::Oscillation(const Oscillators& all, std::size_t first) {
   own_panel = own(panel);
   turn_panel = turn(panel);
 
-  // Comparisons are false for what is not a number.
+  // A comparison with NaN is false.
   const Vector closeness = 0.02 * fastest;
   const Vector apart = zeta * zeta + (r - eta) * (r - eta);
   simple = (zeta >= 0.0) & (eta > 0.05) & (apart > closeness * closeness) & (r > 1.0 / 64.0) & (r < 64.0) &
@@ -91,7 +91,7 @@ Oscillation<P>::Oscillation(const Oscillators& all, std::size_t first) {
            (gain.norm() > 1e-200);
 }
 
-/// One interval: the coefficients of the motion from a state on.
+/// One interval: the coefficients of the motion from a given state.
 template <Pack P>
 struct Interval {
   using Vector = typename P::Vector;
@@ -104,12 +104,12 @@ struct Interval {
   Complex forced;  ///< G e^{i angle} at the start
   Complex own;     ///< c
 
-  /// From position x and velocity v; the drive stands at phasor e^{i start_angle}, `turned` is the same number.
+  /// Starts at position x and velocity v, with the drive at start_angle; `turned` = e^{i start_angle}.
   Interval(const Oscillation<P>& o, Vector x, Vector v, Vector direction, Vector start_angle, const Complex& turned)
       : side(direction), middle(-direction * o.slip), driven(o.gain), angle(start_angle), forced(o.gain * turned) {
     start(o, x, v);
   }
-  /// The same where the drive's angle is only known as its phasor.
+  /// The same if the drive's angle is known only by its phasor.
   Interval(const Oscillation<P>& o, Vector x, Vector v, Vector direction, const Complex& turned)
       : side(direction),
         middle(-direction * o.slip),
@@ -121,12 +121,12 @@ struct Interval {
 
   /// e^{i(angle + r s)}
   [[nodiscard]] Complex turn(const Oscillation<P>& o, Vector s) const { return rotation<P>(angle + o.r * s); }
-  /// For exp(z s) and e^{i(angle + r s)}.
+  /// The motion at s, from decay = exp(z s) and turn = e^{i(angle + r s)}.
   [[nodiscard]] Motion<P> after(const Oscillation<P>& o, const Complex& decay, const Complex& turn) const {
     return at(o, own * decay, driven * turn);
   }
 
-  /// For free = c e^{z s} and pushed = G e^{i angle} then.
+  /// The motion at s, from free = c e^{z s} and pushed = G e^{i angle} at s.
   [[nodiscard]] Motion<P> at(const Oscillation<P>& o, const Complex& free, const Complex& pushed) const {
     const Vector r2 = o.r * o.r;
     const Complex z{-o.zeta, o.eta};

@@ -1,10 +1,10 @@
 #pragma once
 /// Packs: one number of each of `width` oscillators, side by side in a vector register.
 ///
-/// Every function of this folder's templates is made of +, -, *, /, sqrt, comparisons and the pack's own exp,
-/// sincos and atan2, which give the same bits for every width. So a lane's result depends on that lane alone: not
-/// on the width, nor on its neighbours. Nothing here may call a library function that is inline: the linker could
-/// then hand its copy for one processor to another.
+/// The templates of this folder use only +, -, *, /, sqrt, comparisons and the pack's own exp, sincos and atan2,
+/// which give the same bits for every width. So a lane's result depends on that lane alone, not on the width or on
+/// its neighbours. These templates must not call an inline library function: the linker keeps one copy of it, which
+/// may be compiled for another processor.
 
 #include <concepts>
 
@@ -63,7 +63,7 @@ struct ComplexPack {
   }
 };
 
-/// Replaces `target` where `mask` says so.
+/// Replaces the lanes of `target` for which `mask` is true.
 template <Pack P>
 void update(typename P::Vector& target, typename P::Mask mask, typename P::Vector value) {
   target = P::choose(mask, value, target);

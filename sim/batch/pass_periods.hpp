@@ -1,5 +1,5 @@
 #pragma once
-/// Motions from a state on, reversal by reversal, over whole forcing periods.
+/// Motions from a given state, reversal by reversal, over whole forcing periods.
 
 #include "sim/batch/find_orbits.hpp"
 
@@ -16,7 +16,7 @@ struct Traveller {
   Vector side;
   Vector angle;           ///< of the drive, in [0, 2 pi)
   ComplexPack<P> turned;  ///< e^{i angle}
-  Vector left;            ///< whole periods still to come, the present one included
+  Vector left;            ///< whole periods to come, including the present one
   Vector turning;
   Vector amplitude;
   Vector reversals;
@@ -40,7 +40,7 @@ struct Traveller {
   void pass_interval(const Oscillation<P>& o);
 };
 
-/// To the next reversal, or to the end where that comes first.
+/// Carries the motions to the next reversal, or to the end if that is first.
 template <Pack P>
 void Traveller<P>::pass_interval(const Oscillation<P>& o) {
   const Interval<P> interval(o, x, v, side, angle, turned);
@@ -49,7 +49,7 @@ void Traveller<P>::pass_interval(const Oscillation<P>& o) {
 
   const Mask reverses = search.found() & (search.time() < remaining);
   const Motion<P> reversal = interval.after(o, search.own(), search.turn());
-  // The new direction is that of the pull, which has to overcome the static limit.
+  // The new direction is that of the pull, which must exceed the static limit.
   const Mask moves = reverses & (abs<P>(reversal.a) > o.slip + o.hold + clearly * (abs<P>(reversal.x) + o.hold));
   const Mask ends = search.beyond() | (search.found() & !reverses);
   if (P::any(ends)) {

@@ -2,11 +2,14 @@
 /// The first reversal of each oscillator of a pack, with the certificate of core/crossing/first_crossing.hpp.
 ///
 /// The guard is g = side v, positive while the interval lasts. A panel's quintic Hermite interpolant less the
-/// remainder of the sixth derivative, in Bernstein form of degree six, is a lower bound L of g: all coefficients
-/// positive, no zero; one sign change, one root, accepted when g is monotone from where L still is positive up to
-/// it. Everything else halves the panel. A lane that after `most_halvings` is still undecided (a grazing, a flat
-/// reversal) is given up, not guessed. Every lower bound is lowered further by the rounding of g: (16 eps + eps
-/// max|z| s) times the sum of its amplitudes.
+/// remainder of the sixth derivative, in Bernstein form of degree six, is a lower bound L of g.
+///   * All coefficients of L are positive: no zero.
+///   * The coefficients change sign once: one root. It is accepted if g is monotone from a point with L > 0 up to
+///     the root.
+///   * Otherwise the panel is halved. A lane that is undecided after `most_halvings` is given up (a grazing, a flat
+///     reversal).
+/// Every lower bound is lowered further by the rounding of g: (16 eps + eps max|z| s) times the sum of its
+/// amplitudes.
 
 #include "sim/batch/oscillation.hpp"
 
@@ -54,8 +57,8 @@ struct Quintic {
     return c1 + t * (2.0 * c2 + t * (3.0 * c3 + t * (4.0 * c4 + t * (5.0 * c5))));
   }
 
-  /// A root between a positive and a negative end: Newton with bisection as a safeguard, good to a few per cent at
-  /// worst.
+  /// A root between a positive and a negative end, by Newton's method with bisection as a safeguard; its error is a
+  /// few per cent at most.
   [[nodiscard]] Vector root(Vector t) const {
     Vector low = splat<P>(0.0);
     Vector high = splat<P>(1.0);
@@ -78,8 +81,8 @@ class ReversalSearch {
   using Mask = typename P::Mask;
   using Complex = ComplexPack<P>;
 
-  /// For the lanes of `wanted`; `from_reversal`: g has a simple zero at the start. Behind `horizon` (natural time)
-  /// a lane need not look.
+  /// Searches in the lanes of `wanted`, up to `horizon` (natural time). `from_reversal`: g has a simple zero at the
+  /// start.
   ReversalSearch(const Oscillation<P>& oscillation, const Interval<P>& interval, Vector horizon, Mask wanted,
                  Mask from_reversal);
 
@@ -87,7 +90,7 @@ class ReversalSearch {
   [[nodiscard]] Mask found() const { return found_; }
   /// These lanes have none before the horizon, certified.
   [[nodiscard]] Mask beyond() const { return beyond_; }
-  /// Panels that were certified, and how often one was halved.
+  /// Number of certified panels, and of halvings.
   [[nodiscard]] Vector panels() const { return panels_; }
   [[nodiscard]] Vector halvings() const { return halvings_; }
   /// Natural time of the reversal, and exp(z s), e^{i angle} there.
@@ -125,14 +128,14 @@ class ReversalSearch {
   // The present panel [begin_, begin_ + width_].
   Vector begin_;
   Vector width_;
-  Complex free_;    ///< c e^{z s} at its begin
+  Complex free_;    ///< c e^{z s} at its start
   Complex driven_;  ///< G e^{i angle} there
   Jet<P> left_;
-  Complex free_gain_;  ///< from its begin to its end
+  Complex free_gain_;  ///< factor of free_ from its start to its end
   Complex driven_gain_;
   Vector halvings_;
   Vector panels_;
-  Mask at_zero_;  ///< g has a known zero at the begin
+  Mask at_zero_;  ///< g has a known zero at the start
 
   Mask searching_;
   Mask pending_;  ///< one root in the panel, still to be located
@@ -172,7 +175,7 @@ ReversalSearch<P>::ReversalSearch(const Oscillation<P>& oscillation, const Inter
   }
 }
 
-/// Every |z| of the own motion is 1 in natural time, and it never grows.
+/// In natural time |z| of the own motion is 1, and the own motion never grows.
 template <Pack P>
 void ReversalSearch<P>::bound() {
   const Vector free = P::sqrt(interval_.own.norm());
@@ -192,7 +195,7 @@ void ReversalSearch<P>::halve(Mask which) {
   update<P>(driven_gain_, which, o_.turn(width_));
 }
 
-/// Clears the present panel, finds that it holds one root, or halves it.
+/// Certifies that the present panel has no zero, finds that it has one root, or halves it.
 template <Pack P>
 void ReversalSearch<P>::step() {
   const Complex free = free_ * free_gain_;
@@ -201,7 +204,7 @@ void ReversalSearch<P>::step() {
   const Vector end = begin_ + width_;
   const Vector rounding = slack(end);
 
-  // Degree five, raised to six.
+  // Degree five, elevated to six.
   const Vector bend = 0.05 * width_ * width_;
   const Vector left_rise = 0.2 * width_ * left_.slope;
   const Vector right_rise = 0.2 * width_ * right.slope;
@@ -236,12 +239,12 @@ void ReversalSearch<P>::step() {
   halve(undecided & !given_up);
 }
 
-/// Newton's root of the interpolant, polished on the closed form and certified; otherwise the panel is halved.
+/// Polishes the root of the interpolant on the closed form and certifies it; else halves the panel.
 template <Pack P>
 void ReversalSearch<P>::locate() {
   const Jet<P> right = jet(free_ * free_gain_, driven_ * driven_gain_);
   const Quintic<P> quintic(left_, right, width_);
-  // Seen from the end where the guard is smaller, but not from a known zero.
+  // Start from the end at which the guard is smaller, but not from a known zero.
   const Vector share = P::choose(at_zero_, splat<P>(0.9), left_.value / (left_.value - right.value));
   const Mask late = share > 0.5;
   const Vector seen = P::choose(late, 1.0 - right.halley() / width_, -left_.halley() / width_);
@@ -264,7 +267,7 @@ void ReversalSearch<P>::locate() {
   halve(again);
 }
 
-/// Beyond this exponent the series below are not exact to rounding.
+/// Up to this exponent the series below are exact to rounding.
 inline constexpr double small_exponent = 0.03;
 
 /// value e^{i angle} for a small angle.
@@ -288,7 +291,8 @@ ComplexPack<P> scaled_by(const ComplexPack<P>& value, typename P::Vector x) {
   return {value.re + value.re * gain, value.im + value.im * gain};
 }
 
-/// Halley's iteration. The exponentials are evaluated once and then shifted, but for large steps.
+/// Halley's iteration. The exponentials are evaluated once and then shifted; after a large step they are evaluated
+/// again.
 template <Pack P>
 typename P::Mask ReversalSearch<P>::polish(Vector& s, Complex& own, Complex& turn, Jet<P>& at) const {
   Mask moving = pending_;
@@ -307,7 +311,7 @@ typename P::Mask ReversalSearch<P>::polish(Vector& s, Complex& own, Complex& tur
     update<P>(s, moving, next);
     update<P>(own, moving, next_own);
     update<P>(turn, moving, next_turn);
-    // Convergence is cubic on the guard's own scales: behind so small a step nothing is left to correct.
+    // Convergence is cubic on the guard's own scales: after such a small step the error is below rounding.
     const Mask last = moving & (size * o_.fastest < 5e-6) & (size * abs<P>(at.curvature) < 5e-6 * abs<P>(at.slope));
     update<P>(at.slope, last, at.slope - at.curvature * step);
     settled = settled | last;
@@ -319,7 +323,7 @@ typename P::Mask ReversalSearch<P>::polish(Vector& s, Complex& own, Complex& tur
   return settled;
 }
 
-/// g >= L > 0 up to a point shortly before `root`, and g is monotone from there across it.
+/// Whether g >= L > 0 up to a point shortly before `root`, and g is monotone from there to beyond the root.
 template <Pack P>
 typename P::Mask ReversalSearch<P>::certify(const Quintic<P>& quintic, Vector root, Vector slope) const {
   const Vector rounding = slack(begin_ + width_);

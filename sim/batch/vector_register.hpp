@@ -1,14 +1,14 @@
 #pragma once
-/// What all packs in a vector register have in common; a kernel's file adds square root, SLEEF's functions and
-/// `any`.
+/// The part that all packs in vector registers share. The file of a kernel adds the square root, SLEEF's functions
+/// and `any`.
 
 namespace dualdamp::sim::batch {
 
 template <int Width>
 struct VectorRegister {
-  // GCC 12 drops the attribute from an alias declaration that depends on a parameter.
+  // A typedef: GCC 12 drops the attribute from an alias declaration that depends on a template parameter.
   typedef double Vector __attribute__((vector_size(Width * sizeof(double))));
-  typedef long Mask __attribute__((vector_size(Width * sizeof(double))));  // as comparisons have it
+  typedef long Mask __attribute__((vector_size(Width * sizeof(double))));  // the type of a comparison
   static constexpr int width = Width;
 
   static Vector choose(Mask mask, Vector yes, Vector no) { return mask ? yes : no; }

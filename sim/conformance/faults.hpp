@@ -5,7 +5,7 @@
 
 namespace dualdamp::sim {
 
-/// Keeps each kind of fault once.
+/// A list of faults with each kind of fault once.
 class Faults {
  public:
   void add(const std::string& kind) {

@@ -26,10 +26,10 @@ using friction::Trigger;
 constexpr int strokes = 60;
 constexpr int steps_per_stroke = 40;
 
-/// An affine form and its law evaluate the same few sums in different orders.
+/// Relative tolerance: an affine form and its law evaluate the same few sums in different order.
 constexpr double same = 1e-10;
 
-/// The same draws with every standard library.
+/// Random numbers that are the same with every standard library.
 class Random {
  public:
   explicit Random(std::uint64_t seed) : stream_{seed} {}
@@ -74,8 +74,8 @@ std::vector<double> coefficients(const std::vector<Affine>& forms) {
   return list;
 }
 
-/// For each form, the size of its parts that come from the states: their rounding is part of the rounding of the
-/// form.
+/// For each form, the size of the parts that come from the states: the rounding of these parts is part of the
+/// rounding of the form.
 std::vector<double> shares_of_states(const LawHost& host, const std::vector<Affine>& at_present) {
   std::vector<double> shares(at_present.size());
   for (std::size_t i = 0; i < host.memory().state.size(); ++i) {
@@ -134,7 +134,7 @@ std::array<double, 5> numbers_of(const friction::ModifierCourse& course) {
           static_cast<double>(course.side), static_cast<double>(course.vanished)};
 }
 
-/// The driver differentiates forms and jumps by evaluating them at displaced states and positions.
+/// Tests that forms and jumps are affine: the engine differentiates them by displacing states and positions.
 void examine_displaced(const LawHost& host, bool with_jumps, Random& random, Faults& faults) {
   const std::vector<double>& state = host.memory().state;
   const auto forms_at = [&](const std::vector<double>& z) {
@@ -202,7 +202,7 @@ std::vector<double> response(const LawHost& host, double v) {
   return values;
 }
 
-/// A second difference at v = 0 grows as the square of its width, unless there is a kink.
+/// Tests for a kink at v = 0: without one a second difference grows as the square of its width.
 void examine_kink(const LawHost& host, double speed, Faults& faults) {
   const double e = 1e-4 * speed;
   const std::vector<double> centre = response(host, 0.0);
@@ -237,15 +237,15 @@ void examine_response(const LawHost& host, const LawCase& c, Faults& faults) {
   const double heat = law.dissipation(memory, host.now(), host.direction());
   const double power = values.back() * host.now().v;
   if (!std::isfinite(heat)) faults.add("the dissipation is not finite");
-  // Without a dissipation of its own the law has the power F v here, which may be negative.
+  // If the law states no dissipation, heat is the power F v, which may be negative.
   if (c.passive && heat != power && heat < -same * std::abs(power)) faults.add("the dissipation is negative");
   if (host.direction() != Direction::none) examine_kink(host, c.stroke / c.stroke_time, faults);
 }
 
-/// The checks of one step, before it is made. No event between now and `end`.
+/// The checks of one step, before the step. There must be no event between now and `end`.
 void examine(const LawHost& host, const Path& path, double end, const LawCase& c, Random& random, Faults& faults) {
   const Law& law = host.law();
-  Memory before;  // a copy: a library may write where it must only read
+  Memory before;  // a copy: a law from a library may write to the memory although it must only read
   before = host.memory();
   const double force = host.force();
   if (!std::isfinite(force)) faults.add("the force is not finite");
@@ -284,8 +284,7 @@ struct Stroke {
   }
 };
 
-/// Random strokes, between which the mass sticks now and then; the second host has the mirrored path. Returns the
-/// forces.
+/// Random strokes, with sticks between some of them; the second host has the mirrored path. Returns the forces.
 std::vector<double> walk(const LawCase& c, std::uint64_t seed, Faults& faults) {
   Random random(seed);
   LawHost host(c.law, {});
@@ -333,7 +332,7 @@ std::vector<double> walk(const LawCase& c, std::uint64_t seed, Faults& faults) {
   return forces;
 }
 
-/// A factor on the force limits must give the law with its force limits multiplied.
+/// Tests that a factor on the force limits gives the same as the law with its force limits multiplied.
 void examine_factor(const LawCase& c, Faults& faults) {
   const double factor = 0.6;
   Random random(7);
@@ -368,7 +367,7 @@ friction::Law with_scaled_limits(const friction::LawEntry& entry, friction::Para
   return entry.make(values).front();
 }
 
-/// Modifiers that tell one side of x = 0 from the other.
+/// Whether the values have modifiers whose effect differs between the two sides of x = 0.
 bool differs_by_side(const friction::ParameterValues& values) {
   if (values.has("load_gradient")) return true;
   return values.has("fluctuation") && values.record("fluctuation").has("correlation_length");

@@ -21,13 +21,13 @@ constexpr int max_jumps = 32;
 constexpr double tolerance = 1e-12;
 constexpr int max_events = 1000;  ///< within one call of move_along
 
-/// The states of a law over their scales, with work and heat behind them.
+/// The states of a law over their scales, followed by work and heat.
 class StatesOnPath final : public VectorField {
  public:
   StatesOnPath(const friction::Law& law, Memory memory, Direction direction, const Path& path)
       : law_(law), memory_(std::move(memory)), direction_(direction), path_(path), scales_(memory_.state.size()) {
     law_.scales(memory_, scales_);
-    // Sizes that only a motion could tell.
+    // States whose size depends on the motion.
     std::ranges::replace(scales_, 0.0, 1.0);
     std::ranges::replace(scales_, friction::size_of_velocity, 1.0);
   }
@@ -69,7 +69,7 @@ LawHost::LawHost(const friction::Law& law, const Instant& start)
   settle();
 }
 
-/// The path, with the past velocity for a law that depends on it.
+/// The path; for a law with a delay with the past velocity.
 Path LawHost::with_past(const Path& way) {
   if (!(law_.delay() > 0.0)) return way;
   strokes_.push_back({now_.t, way});
@@ -127,13 +127,13 @@ void LawHost::move_to(double x) {
   now_.x = x;
 }
 
-/// The first instant at which a guard is below zero, or `end`. A guard that is above zero at `end` counts as above
-/// zero all the time.
+/// The first time at which a guard is below zero, or `end`. A guard that is above zero at `end` counts as above
+/// zero until then.
 double LawHost::time_of_violation(double end, const Path& path) const {
   const auto violated = [&](double t) {
     LawHost trial = *this;
     trial.go(t, path);
-    // Far beyond the guard a formula may overflow.
+    // Far beyond the zero of its guard a formula may overflow.
     return trial.worst_guard() >= 0 || trial.broken();
   };
   if (!violated(end)) return end;
@@ -159,7 +159,7 @@ void LawHost::go(double end, const Path& path) {
   }
 }
 
-/// Explicit steps on the states relative to their scales.
+/// Integrates the states, relative to their scales, by explicit steps.
 void LawHost::integrate(double end, const Path& path) {
   const StatesOnPath field(law_, memory_, direction_, path);
   const auto stepper = make_explicit_stepper();
@@ -192,7 +192,7 @@ void LawHost::integrate(double end, const Path& path) {
   heat_ += y.back();
 }
 
-/// The guard farthest below zero beyond rounding; -1: none.
+/// The guard that is farthest below zero, by more than rounding; -1: none.
 int LawHost::worst_guard() {
   const std::vector<double> values = guards();
   int worst = -1;

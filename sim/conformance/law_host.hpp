@@ -1,7 +1,7 @@
 #pragma once
-/// Does for one law what an engine does for all, with a mass that moves along a given path. A law with a delay gets
-/// the velocity of the path that long ago; before the start, the initial velocity. A copy is independent, so that a
-/// step can be tried.
+/// The host does for one law what an engine does for all laws; the mass moves along a given path. A law with a
+/// delay gets the past velocity of the path; before the start, the initial velocity. A copy of the host is
+/// independent, so that a step can be tried.
 
 #include <functional>
 #include <string>
@@ -11,7 +11,7 @@
 
 namespace dualdamp::sim {
 
-/// Where the mass is at a time. Kept, for a law with a delay: it owns what it needs.
+/// The motion of the mass at a time. For a law with a delay the host keeps it, so the function must own its data.
 using Path = std::function<friction::Instant(double t)>;
 
 class LawHost {
@@ -24,27 +24,26 @@ class LawHost {
   [[nodiscard]] friction::Direction direction() const { return direction_; }
   [[nodiscard]] double force() const { return law_.force(memory_, now_, direction_); }
   [[nodiscard]] std::vector<double> guards() const;
-  /// Mode changes at the law's own guards and times.
+  /// Number of mode changes at the law's own guards and times.
   [[nodiscard]] int events() const { return events_; }
-  /// Where the last of them was.
+  /// The instant of the last of them.
   [[nodiscard]] const friction::Instant& last_event() const { return last_event_; }
-  /// Done against the law since the start [J]: by the trapezoidal rule for an affine law, exact where its force is
-  /// affine in the position between events; integrated with the states for another.
+  /// Work against the law since the start [J]. Affine law: by the trapezoidal rule, which is exact if the force is
+  /// affine in the position between events. Other law: integrated with the states.
   [[nodiscard]] double work() const { return work_; }
-  /// The part of it that a law that is not affine says it turned to heat [J].
+  /// The part of the work that became heat, as a law that is not affine states it [J].
   [[nodiscard]] double heat() const { return heat_; }
-  /// What the law did wrong, in the order of the motion. When `broken` the motion cannot go on.
+  /// Faults of the law, in the order of the motion. If broken(), the motion cannot go on.
   [[nodiscard]] const std::vector<std::string>& faults() const { return faults_; }
   [[nodiscard]] bool broken() const { return broken_; }
 
-  /// The mass stops, and then moves in this direction; none: it sticks.
+  /// The mass stops and then moves in this direction, or sticks (none).
   void change_direction(friction::Direction direction);
-  /// Moves the mass to time `end`, through the events of the law in between. The path must keep the present
-  /// direction.
+  /// Moves the mass to time `end`, through the events of the law. The path must keep the present direction.
   void move_along(double end, const Path& way);
-  /// Moves the mass there at constant speed, in unit time.
+  /// Moves the mass to x at constant speed, in unit time.
   void move_to(double x);
-  /// The states from now to `end`, no event in between.
+  /// Advances the states from now to `end`; there must be no event between.
   void go(double end, const Path& path);
 
  private:

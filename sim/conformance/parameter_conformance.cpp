@@ -15,7 +15,7 @@ bool names(const std::vector<friction::ParameterFault>& faults, std::string_view
   return std::any_of(faults.begin(), faults.end(), [&](const auto& fault) { return fault.name == name; });
 }
 
-/// What the table says about one parameter that has a value, tried out on `values`.
+/// Tests the table's entry of one parameter that has a value in `values`.
 class ParameterExaminer {
  public:
   ParameterExaminer(const std::vector<friction::Parameter>& table, const friction::ParameterValues& values,
@@ -54,7 +54,7 @@ class ParameterExaminer {
 
   void refuse(const friction::Parameter& parameter, const friction::ParameterValues::Value& value,
               const std::string& allowed) {
-    // Of the other form, in a case that uses the one: refused whatever its value.
+    // The parameter belongs to the alternative form that this case does not use: it is refused whatever its value.
     if (!parameter.instead_of.empty() && completed_.has(parameter.instead_of)) return;
     friction::ParameterValues wrong = values_;
     const std::string name(parameter.name);
@@ -91,7 +91,7 @@ class ParameterExaminer {
 
   void examine_presence(const friction::Parameter& parameter) {
     const std::string name(parameter.name);
-    // Without one form the other is asked for; a part of it alone does not do.
+    // If one form is missing, the other form is required, and all of its parameters.
     if (!parameter.required() || !completed_.has(name)) return;
     friction::ParameterValues missing = values_;
     missing.erase(name);

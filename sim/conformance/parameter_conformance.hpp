@@ -1,6 +1,6 @@
 #pragma once
-/// What the table of a law says about its parameters, tried out: each value beyond its range, not finite, missing
-/// or unknown must be refused, with the value and the range.
+/// Test of a law's parameter table: a value that is out of its range, not finite, missing or unknown must be
+/// refused, with the value and the range.
 
 #include <vector>
 
@@ -9,7 +9,7 @@
 
 namespace dualdamp::sim {
 
-/// Adds what is wrong with `table`, starting from `values`, which it should accept.
+/// Adds the faults of `table` to the list. `values` must be accepted; the test changes one value at a time.
 void examine_parameters(const std::vector<friction::Parameter>& table, const friction::ParameterValues& values,
                         Faults& faults);
 

@@ -27,13 +27,13 @@ Complex integral(Complex z, Complex end, double duration) {
   const Complex w = z * duration;
   if (std::norm(w) > 0.25) return (end - 1.0) / z;
   if (w == 0.0) return duration;
-  // T sum w^n/(n + 1)!: behind |w| = 1/2 the fourteenth term has sunk below rounding.
+  // T sum w^n/(n + 1)!: for |w| <= 1/2 the fourteenth term is below rounding.
   Complex sum = 1.0;
   for (std::size_t n = series_terms; n > 0; --n) sum = 1.0 + sum * (w * reciprocals[n]);
   return duration * sum;
 }
 
-/// Exponents of an element: one, or those of a chain of two.
+/// Exponents of an element: one, or the two of a chain.
 struct Nodes {
   Complex first;
   Complex second;
@@ -52,8 +52,9 @@ Nodes nodes_of(const core::ExponentialBasis& basis, int k, bool conjugate) {
   return nodes;
 }
 
-/// int_0^T E F ds of elements one of which is a divided difference. With g(z) = int_0^T exp(z s) ds, a divided
-/// difference of exp over zero and z, it is that of g(x + y) over the nodes of both.
+/// int_0^T E F ds of elements one of which is a divided difference. Let g(z) = int_0^T exp(z s) ds, which is a
+/// divided difference of exp over zero and z. The integral is the divided difference of g(x + y) over the nodes of
+/// both.
 Complex integral_with_chain(const Nodes& e, const Nodes& f, double duration) {
   const auto over = [&](Complex a, Complex b, Complex c) {
     const std::array<Complex, 4> nodes = {0.0, a, b, c};
@@ -101,7 +102,7 @@ ClosedIntegrals::ClosedIntegrals(const ClosedForm& form)
   }
 }
 
-/// int E_j E_k and int E_j conj(E_k), of which one follows from the other where an element is real.
+/// Sets int E_j E_k and int E_j conj(E_k); if an element is real, one follows from the other.
 void ClosedIntegrals::set_with_chain(std::size_t j, std::size_t k) {
   const Nodes first = nodes_of(*form_.basis, static_cast<int>(j), false);
   const Nodes second = nodes_of(*form_.basis, static_cast<int>(k), false);
@@ -135,7 +136,7 @@ double ClosedIntegrals::product(const ModeFunction& f, const ModeFunction& g) co
   return 0.5 * sum;
 }
 
-/// Elements that have left the range of double precision count only where a function has them.
+/// Elements that have left the range of double precision count only if a function contains them.
 double ClosedIntegrals::product_with_growth(const ModeFunction& f, const ModeFunction& g) const {
   double sum = 0.0;
   for (std::size_t j = 0; j < size_; ++j) {

@@ -3,13 +3,12 @@
 ///
 /// With f = Re sum c_j exp(z_j s) and g = Re sum d_k exp(z_k s)
 ///
-///     int_0^T f g ds = 1/2 Re sum_jk [ c_j d_k I(z_j + z_k) + c_j conj(d_k) I(z_j + conj(z_k)) ],   I(z) = (e^{zT}
-///     - 1)/z,
+///     int_0^T f g ds = 1/2 Re sum_jk [ c_j d_k I(z_j + z_k) + c_j conj(d_k) I(z_j + conj(z_k)) ],
+///     I(z) = (e^{zT} - 1)/z,
 ///
-/// where e^{zT} are products of the elements at the end, which are known. A chain of two exponents is covered too:
-/// its integrals are divided differences of exp with a node at zero. Relative to the product of the
-/// amplitudes' sums the result is exact to a few roundings. Cost: some ten flops for a pair of elements, no
-/// exponential function.
+/// where e^{zT} is a product of known values: those of the elements at the end. Chains of two exponents are covered
+/// too: their integrals are divided differences of exp with a node at zero. The error is a few roundings of the
+/// product of both sums of amplitudes. Cost: some ten flops for a pair of elements, no exponential function.
 
 #include <array>
 
@@ -18,10 +17,10 @@
 namespace dualdamp::sim {
 
 struct ClosedForm {
-  /// Elements a basis may have here; larger ones cost more than a quadrature.
+  /// Most elements of a basis; with more elements a quadrature is cheaper.
   static constexpr std::size_t largest = 12;
 
-  const core::ExponentialBasis* basis = nullptr;  ///< chains of two at most
+  const core::ExponentialBasis* basis = nullptr;  ///< with chains of at most two elements
   double duration = 0.0;                          ///< s
   core::ExponentialBasis::Values end;             ///< elements at the end of the interval
   core::ModeFunction x;                           ///< m
@@ -29,7 +28,7 @@ struct ClosedForm {
   core::ModeFunction a;                           ///< m/s^2
   core::ModeFunction y;                           ///< base [m]
   core::ModeFunction y_rate;                      ///< m/s
-  core::ModeFunction force;                       ///< of friction [N]; at rest it does no work and is left at 0
+  core::ModeFunction force;                       ///< of friction [N]; 0 in a stick, where it does no work
   core::ModeFunction external;                    ///< N
 
   [[nodiscard]] static bool covers(const core::ExponentialBasis& basis);

@@ -3,10 +3,9 @@
 ///
 ///   k_i = f(x + h sum_j weights_ij k_j, t + nodes_i h)
 ///
-/// Twelve stages make a step; row 12 gives its end, where k_12 is the rate. Three more make the dense output of
-/// order
-/// 7. `fifth` and `third`: what the embedded methods differ by from the step, sum_j k_j over h; `inside`: the four
-/// highest coefficients of the dense output (`explicit_stepper.cpp`).
+/// A step has twelve stages; row 12 gives its end, and k_12 is the rate there. Three more stages give the dense
+/// output of order 7. `fifth` and `third`: weights of the difference between the embedded methods and the step, h
+/// sum_j weight_j k_j; `inside`: the four highest coefficients of the dense output (`explicit_stepper.cpp`).
 ///
 /// Source: hairer1993, II.5 and II.6; tests/sim/engine/test_dop853.cpp checks the order conditions.
 

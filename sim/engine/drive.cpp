@@ -17,7 +17,7 @@ double damping_ratio(const Oscillator& oscillator) {
 
 namespace {
 
-/// Derivatives of a polynomial s later.
+/// Derivatives of the polynomial at s, from those at 0.
 std::array<double, 4> shifted(const std::array<double, 4>& d, double s) {
   return {d[0] + s * (d[1] + s * (d[2] / 2.0 + s * d[3] / 6.0)), d[1] + s * (d[2] + s * d[3] / 2.0),
           d[2] + s * d[3], d[3]};

@@ -1,5 +1,5 @@
 #pragma once
-/// The excitation as the engines see it: phasors that turn with time and a polynomial, which changes from piece to
+/// The excitation as the engines use it: phasors that turn with time, and a polynomial that changes from piece to
 /// piece (`sim/engine/drive_pieces.hpp`).
 
 #include <array>
@@ -19,7 +19,7 @@ class Drive {
 
   /// Angular frequencies of fundamental and harmonics [rad/s].
   [[nodiscard]] const std::vector<double>& frequencies() const { return frequencies_; }
-  /// What time is counted modulo [s]: the forcing period, or the present piece; infinite where that lasts.
+  /// The forcing period or the duration of the present piece [s], modulo which time is counted; may be infinite.
   [[nodiscard]] double period() const { return period_; }
   /// Time at which period or piece n begins [s].
   [[nodiscard]] double begin_of(long n) const;
@@ -28,9 +28,9 @@ class Drive {
 
   [[nodiscard]] bool has_pieces() const { return pieces_ != nullptr; }
 
-  /// Sets the drive to time t [s] after the start of a period; of a drive with pieces to its start.
+  /// Sets the drive to time t [s] after the start of a period; a drive with pieces is set to its start.
   void reset(double t);
-  /// The same at the end of a period; a drive with pieces stays at the end of the present one.
+  /// The same at the end of a period; a drive with pieces stays at the end of the present piece.
   void end_period(double t);
   /// The present piece, counted from 0.
   [[nodiscard]] long piece() const { return piece_; }
@@ -41,16 +41,16 @@ class Drive {
   /// Moves the polynomial on by s.
   void pass(double s);
 
-  /// Force on the mass from base and external force, spring k y and, with the damper to base, c y' [N].
+  /// Phasor j of the drive's force on the mass [N]: k y, with the damper to base also c y', and f.
   [[nodiscard]] core::Complex force_phasor(std::size_t j) const { return force_[j] * turns_[j]; }
-  /// Its polynomial part now: derivatives by time [N, N/s, N/s^2, N/s^3].
+  /// Polynomial part of that force now: its derivatives by time [N, N/s, N/s^2, N/s^3].
   [[nodiscard]] const std::array<double, 4>& force_polynomial() const { return force_polynomial_; }
-  /// Sum of moduli of all force parts now [N].
+  /// Sum of the moduli of all parts of the force now [N].
   [[nodiscard]] double force_scale() const { return phasor_scale_ + polynomial_scale_; }
-  /// How large the force becomes within a time [N]: a drive may begin at zero.
+  /// Size of the force within `time` [s] from now [N]: a drive may begin at zero.
   [[nodiscard]] double force_size(double time) const;
 
-  /// Phasor j of base [m] or external force [N] now; their constant part is offset(), of the present piece.
+  /// Phasor j of the base motion [m] or the external force [N] now. offset() is their constant part in this piece.
   [[nodiscard]] core::Complex phasor(std::size_t j) const { return amplitudes_[j] * turns_[j]; }
   [[nodiscard]] double offset() const { return polynomial_[0]; }
   [[nodiscard]] bool moves_base() const { return base_; }
@@ -74,12 +74,12 @@ class Drive {
   long piece_ = 0;
   double period_;
   std::array<double, 4> polynomial_{};        ///< derivatives at the start of the piece [m or N, by s^n]
-  double piece_time_ = 0.0;                   ///< since then [s]
+  double piece_time_ = 0.0;                   ///< time since the start of the piece [s]
   std::array<double, 4> force_polynomial_{};  ///< now [N/s^n]
   double polynomial_scale_ = 0.0;             ///< N, sum of the polynomial's parts now
   double phasor_scale_ = 0.0;                 ///< N, sum of the phasors' moduli
   double through_spring_ = 1.0;               ///< force on the mass for each unit of the drive
-  double through_damper_ = 0.0;               ///< and of its rate
+  double through_damper_ = 0.0;               ///< force on the mass for each unit of the drive's rate
   bool base_ = false;
 };
 

@@ -10,7 +10,7 @@ namespace dualdamp::sim {
 
 namespace {
 
-/// One piece that lasts.
+/// A ramp: one piece without end.
 class RampPieces final : public DrivePieces {
  public:
   explicit RampPieces(double slope) : slope_(slope) {}
@@ -49,9 +49,10 @@ class NoisePieces final : public DrivePieces {
   core::RandomStream draws_;
 };
 
-/// Nodes at equal steps of phi + k t. A cubic over a step h leaves out h^4/384 max|y''''|; with q = |phi''|/phi'^2
-/// that derivative is at most A phi'^4 (1 + 6 q + 3 q^2) of a linear sweep, for which k^2 = sqrt(3) |phi''| makes
-/// up, and A phi'^4 (1 + 6 q + 7 q^2 + q^3) of an exponential one, for which the step is shorter.
+/// A chirp, with nodes at equal steps of phi + k t. The error of a cubic over a step h is h^4/384 max|y''''|. Let
+/// q = |phi''|/phi'^2. For a linear sweep |y''''| is at most A phi'^4 (1 + 6 q + 3 q^2), which is below
+/// A (phi' + k)^4 for k^2 = sqrt(3) |phi''|. For an exponential sweep it is at most A phi'^4 (1 + 6 q + 7 q^2 +
+/// q^3); k is 0 and the step is shorter instead.
 class ChirpPieces final : public DrivePieces {
  public:
   explicit ChirpPieces(const Excitation& excitation)

@@ -1,6 +1,6 @@
 #pragma once
-/// A drive that is a polynomial piece by piece: a ramp, a noise from draw to draw, a chirp between points of its
-/// own, a sampled signal from node to node. Pieces are made when they are asked for; none is kept.
+/// A drive that is a polynomial in each piece: a ramp, a noise from draw to draw, a chirp between its nodes, a
+/// sampled signal from node to node. A piece is computed at each call; none is stored.
 
 #include <memory>
 
@@ -13,20 +13,20 @@ class DrivePieces {
  public:
   virtual ~DrivePieces() = default;
 
-  /// Piece n, counted from 0, which begins where the piece before ends; m or N.
+  /// Piece n, counted from 0; it begins where piece n - 1 ends. In m or N.
   [[nodiscard]] virtual PolynomialPiece piece(long n) const = 0;
-  /// Time at which it begins [s].
+  /// Time at which piece n begins [s].
   [[nodiscard]] virtual double begin(long n) const = 0;
-  /// Of all pieces: the highest power of time.
+  /// Highest power of time in all pieces.
   [[nodiscard]] virtual int degree() const = 0;
-  /// How large the drive becomes: a level or a standard deviation [m or N].
+  /// Size of the drive: a level or a standard deviation [m or N].
   [[nodiscard]] virtual double size() const = 0;
 };
 
-/// A null pointer for an excitation that is none of these.
+/// A null pointer for an excitation that has no pieces.
 [[nodiscard]] std::shared_ptr<const DrivePieces> make_pieces(const Excitation& excitation);
 
-/// Pieces of a chirp.
+/// Number of pieces of a chirp.
 [[nodiscard]] double chirp_pieces(const Chirp& chirp);
 
 }  // namespace dualdamp::sim

@@ -5,8 +5,8 @@
 
 namespace dualdamp::sim {
 
-/// Infinite where the solver does not converge, as of a matrix that is not finite: a map whose multipliers are not
-/// known must not count as attracting.
+/// Infinite if the solver does not converge, for example for a matrix that is not finite: a map whose Floquet
+/// multipliers are not known must not count as attracting.
 [[nodiscard]] Eigen::VectorXcd eigenvalues_of(const Eigen::MatrixXd& matrix);
 
 }  // namespace dualdamp::sim

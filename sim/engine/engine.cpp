@@ -16,14 +16,14 @@ using friction::Direction;
 
 namespace {
 
-/// Largest ratio of a state to its size in a law: beyond, rounding of the position makes more than 1e-4 of the
+/// Largest ratio of a state to its size in a law. Above it the rounding of the position is more than 1e-4 of the
 /// force.
 constexpr double most_digits = 1e12;
-/// The motion may grow from where it is refused: so much the advice allows for.
+/// Margin of the recommended stiffness: the motion may grow by this factor after it was refused.
 constexpr double margin = 10.0;
 
-/// A position that is far larger than what matters of it to its law is not known well enough: a stiff spring is
-/// then stretched by the rounding of x. That ends the motion.
+/// Ends the motion if a state is far larger than its size in the law: the rounding of x then stretches a stiff
+/// spring noticeably.
 core::Outcome check_digits(const friction::Law& law, const friction::Memory& memory, std::size_t index, double time,
                            core::Coordinate coordinate) {
   if (memory.state.empty() || !law.has_rates()) return {};
@@ -98,11 +98,11 @@ void Engine::place() {
 
 const Interval* Engine::next(double horizon) {
   core::stop_if_cancelled();
-  // Only now: the interval handed out last lies in the piece before.
+  // Not earlier, because the last interval, still valid until this call, lies in the piece before.
   if (drive_.has_pieces() && drive_.piece() != periods_passed_) {
     local_time_ = 0.0;
     drive_.enter(periods_passed_);
-    // A drive that jumps sets a mass in motion that nothing holds.
+    // If no law holds the mass, a jump of the drive sets it in motion.
     if (direction_ == Direction::none && model_.friction.empty()) settle();
   }
   const double left = (horizon - period_begin_) - local_time_;
@@ -116,7 +116,8 @@ const Interval* Engine::next_in_period() {
   return step(drive_.period() - local_time_, true);
 }
 
-/// A law whose force or memory changes with the direction of slip makes it a part of the mode.
+/// Whether no law changes its force or its memory with the direction of slip: else the direction is part of the
+/// mode.
 bool Engine::turns_freely() const {
   if (direction_ == Direction::none) return false;
   friction::Instant turning = now();
@@ -171,8 +172,8 @@ EventKind Engine::act(const Ending& ending) {
   return std::visit([this](const auto& what) { return act(what); }, ending);
 }
 
-/// Where a slip ends the mass sticks or reverses. One that nothing holds and that goes on as before has only
-/// touched rest.
+/// At the end of a slip the mass sticks or reverses. If it goes on in the same direction, its velocity has only
+/// touched zero: a grazing.
 EventKind Engine::act(SlipEnd) {
   const Direction before = direction_;
   settle();
@@ -190,7 +191,7 @@ EventKind Engine::act(LawGuard guard) {
   return EventKind::switching;
 }
 
-/// The time at which some law changes its mode whatever the motion does [s].
+/// The next time at which some law changes its mode whatever the motion does [s].
 double Engine::next_schedule() const {
   double next = std::numeric_limits<double>::infinity();
   if (!scheduled_) return next;
@@ -199,7 +200,7 @@ double Engine::next_schedule() const {
   return next;
 }
 
-/// Every law whose time has come; whether a sticking mass goes on sticking is then decided anew.
+/// The mode changes of all laws that are due; then decides again whether a sticking mass still sticks.
 void Engine::act_on_schedule(double due) {
   for (std::size_t i = 0; i < model_.friction.size(); ++i) {
     if (model_.friction[i].next_change(memories_[i]) <= due) jump(i, {friction::Trigger::scheduled});

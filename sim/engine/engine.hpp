@@ -1,14 +1,15 @@
 #pragma once
-/// An engine walks the motion from event to event and hands it out as a stream of intervals. There are two: the
+/// An engine computes the motion from event to event and gives it as a stream of intervals. There are two: the
 /// exact one (`exact_engine.hpp`) for laws that are affine in every mode, and the smooth one (`smooth_engine.hpp`)
-/// for all others. What they do alike is here: time, the laws' memories, mode changes, what an event means.
+/// for all others. This class has what both share: time, the laws' memories, mode changes, the meaning of events.
 ///
 /// Where a slip ends (v reaches 0) the sum of forces decides (`sim/engine/sticking_gate.hpp`): the mass sticks, or
 /// it reverses. Where a stick ends (the pull exceeds the static limits) the mass slips in the direction of the
-/// pull. A jump that lands in a mode with a violated guard is repeated, at most `max_repeats` times for each law.
+/// pull. If a jump ends in a mode with a violated guard, the law jumps again, at most `max_repeats` times for each
+/// law.
 ///
-/// Time is kept modulo the forcing period, or from the start of the present piece of a drive, so that long runs
-/// lose no phase.
+/// Time is kept modulo the forcing period, or from the start of the present piece of a drive, so the phase stays
+/// exact in long runs.
 
 #include <Eigen/Core>
 #include <memory>
@@ -35,72 +36,73 @@ class Engine {
 
   /// Places the mass at t = 0 with all laws at their start.
   void start(double x, double v);
-  /// The same in a state met earlier: closes a period.
+  /// Places the mass in a state that the motion had before, at t = 0.
   void restart(const State& state);
 
-  /// The next interval, ending at an event or at `horizon` [s], whichever is first, and not longer than one forcing
-  /// period or than the present piece of the drive. Valid until the next call. A null pointer: the horizon is
+  /// The next interval. It ends at an event or at `horizon` [s], whichever is first, and is at most as long as one
+  /// forcing period or the present piece of the drive. Valid until the next call. A null pointer: the horizon is
   /// reached, or outcome() is not ok().
   [[nodiscard]] const Interval* next(double horizon);
-  /// The same up to the end of the present forcing period, where time and phase are set exactly: the period map.
-  /// A null pointer only when outcome() is not ok(): watch periods_passed().
+  /// The next interval, up to the end of the present forcing period at most. There time and phase are set exactly,
+  /// as the period map needs it. A null pointer only if outcome() is not ok(): compare periods_passed().
   [[nodiscard]] const Interval* next_in_period();
 
   [[nodiscard]] const core::Outcome& outcome() const { return outcome_; }
   [[nodiscard]] double time() const { return period_begin_ + local_time_; }  ///< s
-  /// Whole forcing periods passed, or pieces of the drive.
+  /// Number of whole forcing periods, or of pieces of the drive, that have passed.
   [[nodiscard]] long periods_passed() const { return periods_passed_; }
   [[nodiscard]] double position() const { return x_; }  ///< m
   [[nodiscard]] double velocity() const { return v_; }  ///< m/s
   [[nodiscard]] friction::Direction direction() const { return direction_; }
   [[nodiscard]] virtual State state() const;
   [[nodiscard]] const core::SearchCount& count() const { return count_; }
-  /// What all motions have cost so far, in units of 0.3 to 2 us: the same on every machine. Searches for events,
-  /// their panels and splits; of the smooth engine also what its steps take, accepted or not.
+  /// Work of all motions so far, in units of 0.3 to 2 us; the number is the same on every machine. It counts
+  /// searches for events, their panels and splits; under the smooth engine also steps, accepted or not.
   [[nodiscard]] virtual long work() const { return count_.searches + count_.panels + count_.splits; }
-  /// Tangencies within the last interval.
+  /// Grazings within the last interval.
   [[nodiscard]] const std::vector<core::Grazing>& grazings() const { return grazings_; }
-  /// Forcing period [s], or the present piece of the drive; else infinite.
+  /// Forcing period, or duration of the present piece of the drive [s]; else infinite.
   [[nodiscard]] double period() const { return drive_.period(); }
 
-  /// How well a motion over one period is known, relative to its size; 0: to rounding.
+  /// Error of a motion over one period, relative to its size; 0: rounding.
   [[nodiscard]] virtual double accuracy() const = 0;
   /// The motion depends on its past beyond state(): Newton's method on the period map does not apply.
   [[nodiscard]] virtual bool has_past() const = 0;
 
-  /// Tracks the derivative of the present state by the state at start, restart or the last reset.
+  /// Whether to compute the derivative of the present state by the state at start(), restart() or the last
+  /// reset_sensitivity().
   void track_sensitivity(bool track);
   virtual void reset_sensitivity() = 0;
-  /// Rows and columns: x, v, then the states of every law.
+  /// That derivative. Rows and columns: x, v, then the states of every law.
   [[nodiscard]] virtual Eigen::MatrixXd sensitivity() const = 0;
 
  protected:
-  /// Where a slip ends: the velocity reaches zero.
+  /// A slip ends: the velocity reaches zero.
   struct SlipEnd {};
-  /// Where a stick ends: the pull exceeds the static limits in this direction.
+  /// A stick ends: the pull exceeds the static limits in this direction.
   struct StickEnd {
     friction::Direction release = friction::Direction::forward;
   };
-  /// Where a law changes its mode: one of its own guards reaches zero.
+  /// A law changes its mode: one of its own guards reaches zero.
   struct LawGuard {
     std::size_t law = 0;
     int guard = 0;  ///< index among the law's own guards
   };
-  /// What ends the interval when a guard reaches zero.
+  /// The event at which a guard ends the interval.
   using Ending = std::variant<SlipEnd, StickEnd, LawGuard>;
   template <class E>
   [[nodiscard]] static bool is(const Ending& ending) {
     return std::holds_alternative<E>(ending);
   }
 
-  /// One interval, at most `left` long; `to_period_end`: `left` ends exactly at a period boundary.
+  /// One interval, at most `left` [s] long; `to_period_end`: `left` ends exactly at a period boundary.
   [[nodiscard]] virtual const Interval* step(double left, bool to_period_end) = 0;
-  /// Decides what happens where a slip ends: sets the direction to none (stick) or to that of the slip to come.
+  /// At the end of a slip: sets the direction to none (stick) or to that of the next slip.
   virtual void settle() = 0;
-  /// The motion goes on from x_, v_, direction_ and memories_ at local time 0, with nothing known of before.
+  /// A motion starts from x_, v_, direction_ and memories_ at local time 0; what the engine kept before is dropped.
   virtual void begin_motion() = 0;
   virtual void restore_past(const State&) {}
-  /// A law has changed its mode.
+  /// Called after a law has changed its mode, while the derivative is tracked.
   virtual void jumped(std::size_t, const friction::Memory& /*before*/, friction::Trigger) {}
 
   [[nodiscard]] friction::Instant now() const {
@@ -116,7 +118,7 @@ class Engine {
   EventKind act(LawGuard guard);
   void act_on_schedule(double due);
   [[nodiscard]] double next_schedule() const;
-  /// Counts events in a row that take no time; false, with an outcome, when they do not come to an end.
+  /// Counts events in a row that take no time. False, and an outcome is set, if they do not come to an end.
   [[nodiscard]] bool comes_to_an_end(bool takes_no_time);
 
   Model model_;
@@ -145,9 +147,10 @@ class Engine {
   int repeats_ = 0;
 };
 
-/// The engine for this model: exact where every law is affine in every mode and the spring linear, else smooth.
+/// The engine for this model: exact if every law is affine in every mode and the spring is linear, unless the model
+/// asks for a solver; else smooth.
 [[nodiscard]] std::unique_ptr<Engine> make_engine(const Model& model);
-/// Whether that is the exact one.
+/// Whether make_engine() gives the exact engine.
 [[nodiscard]] bool is_exact(const Model& model);
 
 }  // namespace dualdamp::sim

@@ -18,7 +18,7 @@ using friction::Direction;
 
 namespace {
 
-/// exp(-gone) of an amplitude has died out.
+/// An amplitude that has decayed by exp(-gone) has died out.
 constexpr double gone = 45.0;
 
 }  // namespace
@@ -39,8 +39,8 @@ std::string_view name(EventKind kind) {
   return "";
 }
 
-/// One interval as an interval. The engine's functions stay in place until its next call; only the drive has moved
-/// on, so it is read backwards from the end of the interval.
+/// The interval of the exact engine. It uses the functions of the engine, which are valid until the engine's next
+/// call. Only the drive is already at the end of the interval, so it is evaluated backwards from there.
 class ExactEngine::ExactInterval final : public Interval {
  public:
   explicit ExactInterval(const ExactEngine& engine) : engine_(engine) {}
@@ -48,7 +48,7 @@ class ExactEngine::ExactInterval final : public Interval {
   [[nodiscard]] Sample at(double s) const override {
     const core::ExponentialBasis& basis = engine_.mode_->basis();
     core::ExponentialBasis::Values room;
-    const bool is_end = s == duration;  // whose values are known
+    const bool is_end = s == duration;  // the values at the end are known
     if (!is_end) basis.evaluate(s, room);
     const core::ExponentialBasis::Values& values = is_end ? engine_.crossing_.values : room;
     const Drive::Value drive = engine_.drive_.at(s - duration);
@@ -56,7 +56,7 @@ class ExactEngine::ExactInterval final : public Interval {
     sample.x = core::evaluate(basis, engine_.motion_, values);
     const Oscillator& o = engine_.model_.oscillator;
     if (direction == Direction::none) {
-      // Friction balances all else.
+      // Friction balances all other forces.
       const double damper = o.damper_to == DamperTo::base ? o.damping * drive.y_rate : 0.0;
       sample.force = o.stiffness * (drive.y - sample.x) + damper + drive.external;
       return sample;
@@ -75,23 +75,23 @@ class ExactEngine::ExactInterval final : public Interval {
       if (-basis.exponent(k).real() * s < gone) square = std::max(square, basis.square(k));
     }
     const double width = square > 0.0 ? 1.6 / std::sqrt(square) : duration;
-    // A cubic drive has no rate of its own. Products of what it moves are of degree nine: too much for the three
-    // points that do where a panel is a tiny part of its resolution, not for five.
+    // A cubic drive has no rate of its own. Products of the quantities that it moves are of degree nine. Five
+    // points integrate them; three, which are enough if a panel is a tiny part of its resolution, do not.
     return engine_.mode_->degree() > 1 ? std::min(width, 64.0 * (duration - s)) : width;
   }
 
   [[nodiscard]] const ClosedForm* closed_form() const override {
-    // A polynomial of the drive is not in the form.
+    // The closed form does not contain polynomials of the drive.
     if (engine_.mode_->degree() > 0 || !ClosedForm::covers(engine_.mode_->basis())) return nullptr;
     if (!formed_) form();
     formed_ = true;
     return &form_;
   }
 
-  /// The engine has moved on to another interval.
+  /// To call when the engine begins another interval.
   void forget() { formed_ = false; }
 
-  Affine force;  ///< of all laws, without the transients
+  Affine force;  ///< sum of all laws, without the transients
   std::vector<double> transients;
   std::vector<double> decays;
 
@@ -149,7 +149,7 @@ void ExactEngine::begin_motion() {
   if (tracking_) reset_sensitivity();
 }
 
-/// Where a slip ends.
+/// The end of a slip: stick or slip.
 void ExactEngine::settle() {
   change_direction(Direction::none);
   collect(false);
@@ -161,7 +161,7 @@ void ExactEngine::settle() {
   if (direction != Direction::none) change_direction(direction);
 }
 
-/// The pull is at the limit within rounding: what it does next decides, by the Taylor germs of both guards.
+/// If the pull is within rounding of the limit, the Taylor germs of both guards decide whether it leaves the limit.
 Direction ExactEngine::leaves_limit(double tolerance) {
   const LinearMode* present = mode_;
   ModeFunction pull;
@@ -177,8 +177,8 @@ Direction ExactEngine::leaves_limit(double tolerance) {
   return direction;
 }
 
-/// Without a law that holds it a mass stands still only where nothing ever moves it. Beside a fast decay the Taylor
-/// coefficients of a slow drive are within rounding; what the pull does after longer and longer times is not.
+/// If no law holds the mass, it stays at rest only if nothing ever moves it. Beside a fast decay the Taylor
+/// coefficients of a slow drive are within rounding, so the pull is evaluated after longer and longer times.
 Direction ExactEngine::moved_later(const ModeFunction& pull, double tolerance) const {
   constexpr int doublings = 60;
   const core::ExponentialBasis& basis = mode_->basis();
@@ -198,8 +198,8 @@ void ExactEngine::jumped(std::size_t law, const friction::Memory& before, fricti
   sensitivity_.jump(model_.friction[law], law, before, memories_[law], trigger, now(), direction_);
 }
 
-/// How far x and v may be off at the end of an interval: as the search has it (core/crossing/first_crossing.hpp),
-/// of amplitudes that may be far larger than those of the interval to come; and when its guard reached zero.
+/// Keeps the rounding of x and v at the end of an interval, as in the search (core/crossing/first_crossing.hpp),
+/// and of the time of the event. The amplitudes may be far larger than those of the next interval.
 void ExactEngine::keep_rounding(double s) {
   x_rounding_ = v_rounding_ = time_rounding_ = 0.0;
   const core::ExponentialBasis& basis = mode_->basis();
@@ -215,14 +215,15 @@ void ExactEngine::keep_rounding(double s) {
   v_rounding_ = part * core::bound(basis, speed(), crossing_.values, s, 0.0);
 }
 
-/// A guard known to `error` falls through zero: the time that its tangent parabola needs to fall by as much.
+/// The rounding of the time at which a guard known to `error` falls through zero: the time in which its tangent
+/// parabola falls by `error`.
 void ExactEngine::keep_time_rounding(double error, double slope, double curvature) {
   const double fall = std::max(0.0, -slope);
   const double speed = fall + std::sqrt(fall * fall + 2.0 * std::max(0.0, -curvature) * error);
   if (speed > 0.0) time_rounding_ = std::max(time_rounding_, 2.0 * error / speed);
 }
 
-/// Ends the interval after s: position, velocity, drive and the laws' own states.
+/// Ends the interval after s: advances position, velocity, drive and the laws' states.
 void ExactEngine::advance(double s, bool to_period_end) {
   const core::ExponentialBasis& basis = mode_->basis();
   if (some_modal_ && s > 0.0) keep_rounding(s);
@@ -254,15 +255,15 @@ double ExactEngine::start_acceleration() const {
   return friction::sign(direction_) * core::at_start(mode_->basis(), speed_rate());
 }
 
-/// Once the interval is laid: perturbations left at a crossing come back to the common time, unless the next event
-/// follows at once.
+/// At the start of an interval: carries perturbations from a crossing back to the common time, unless the next
+/// event follows at once.
 void ExactEngine::track_begin(const friction::Instant& begin, bool at_once) {
   if (!at_once) sensitivity_.leave(start_acceleration(), model_.friction, memories_, begin, direction_);
   sensitivity_.lay(model_.friction, memories_, begin, direction_, total_->decays);
   if (sensitivity_.has_states()) memories_before_ = memories_;
 }
 
-/// Over the interval, `s` long: motion and guard, while the memories are still those of its begin.
+/// Carries perturbations of motion and guard over the interval of length `s`; the memories are those of its start.
 void ExactEngine::track_motion(const friction::Instant& begin, double s) {
   if (direction_ == Direction::none) {
     sensitivity_.stick();
@@ -282,7 +283,8 @@ void ExactEngine::track_motion(const friction::Instant& begin, double s) {
   }
 }
 
-/// Behind the interval: states of the laws, and at an event the way to the crossing.
+/// At the end of the interval: carries the states of the laws, and at an event all perturbations to their
+/// crossings.
 void ExactEngine::track_states(const friction::Instant& begin, double s, bool event) {
   for (std::size_t i = 0; i < model_.friction.size() && sensitivity_.has_states(); ++i) {
     const friction::Law& law = model_.friction[i];
@@ -301,7 +303,7 @@ void ExactEngine::track_states(const friction::Instant& begin, double s, bool ev
     const core::Guard& guard = guards_[static_cast<std::size_t>(crossing_.guard)];
     crossing.by_position = watch.by_position;
     crossing.by_velocity = watch.by_velocity;
-    // A guard that was violated from the start was not crossed: no perturbation delays it.
+    // A guard that was violated at the start was not crossed: no perturbation delays this event.
     crossing.slope = is_forced() ? 0.0 : core::evaluate(mode_->basis(), guard.slope, crossing_.values);
   }
   sensitivity_.enter(crossing, model_.friction, memories_, now(), direction_);
@@ -313,8 +315,8 @@ bool ExactEngine::is_forced() const {
                                    -clearly * core::start_amplitude(mode_->basis(), guard.value);
 }
 
-/// Whether the event at once is none that the last one caused: two laws reach their guards at one instant. Each has
-/// a crossing of its own, which a perturbation delays by another time.
+/// Whether an event at the start of an interval is not caused by the last event: two laws reach their guards at one
+/// instant. A perturbation delays the two crossings by different times.
 bool ExactEngine::coincides() const {
   const auto* guard = std::get_if<LawGuard>(&watches_[static_cast<std::size_t>(crossing_.guard)].ending);
   return guard != nullptr && changed_law_ && guard->law != *changed_law_ && !is_forced();
@@ -374,7 +376,7 @@ const Interval* ExactEngine::step(double left, bool to_period_end) {
   return interval_.get();
 }
 
-/// What the interval tells of the interval laid last.
+/// Fills in the interval that the engine gives out.
 void ExactEngine::describe_interval(double begin) {
   interval_->forget();
   interval_->begin = begin;

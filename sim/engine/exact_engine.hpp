@@ -1,8 +1,8 @@
 #pragma once
-/// The exact engine: walks from event to event for laws that are affine in every mode.
+/// The exact engine: the motion from event to event for laws that are affine in every mode.
 ///
-/// Between events the motion is closed-form (`sim/engine/linear_mode.hpp`); the next event is found by the
-/// certified search (`core/crossing/first_crossing.hpp`). The driver knows no law by name.
+/// Between events the motion has a closed form (`sim/engine/linear_mode.hpp`); the certified search finds the next
+/// event (`core/crossing/first_crossing.hpp`). No law is known by name here.
 ///
 /// Cost: for Coulomb friction about one exp, two sincos and a few dozen multiplications an event; no allocation
 /// after the first period.
@@ -38,7 +38,7 @@ class ExactEngine final : public Engine {
   [[nodiscard]] Eigen::MatrixXd sensitivity() const override { return sensitivity_.matrix(); }
 
  private:
-  /// By what one mode differs from another.
+  /// What identifies a mode.
   struct ModeKey {
     double damping = 0.0;
     double stiffness = 0.0;
@@ -48,32 +48,31 @@ class ExactEngine final : public Engine {
   };
   /// Relative rounding of a sum of parts.
   static constexpr double rounding = 16.0 * std::numeric_limits<double>::epsilon();
-  /// Values farther than this (relative) from a limit are decided by their sign; closer ones by their Taylor germ.
+  /// A value farther than this (relative) from a limit is decided by its sign, a closer one by its Taylor germ.
   static constexpr double clearly = 1e-9;
-  /// Up to this angle of its fastest element a guard is its tangent parabola, well enough for its rounding.
+  /// The longest time, as an angle of the fastest element, over which a guard is taken as its tangent parabola.
   static constexpr double parabolic = 0.1;
 
-  /// A guard of the present interval: what it belongs to, and how it depends on the motion.
+  /// A guard of the present interval: the event that it ends with, and how it depends on the motion.
   struct Watch {
     Ending ending;
     double by_position = 0.0;  ///< dg/dx
     double by_velocity = 0.0;  ///< dg/dv
-    double tolerance = 0.0;    ///< rounding of g at the start beyond that of its amplitudes
+    double tolerance = 0.0;    ///< rounding of g at the start, in addition to that of its amplitudes
     bool is_speed = false;     ///< g is a positive multiple of the speed in a slip
   };
   /// All laws together, affine in the interval.
   struct Total {
     friction::Affine force;  ///< without its transient
-    friction::Affine
-        limit;             ///< of static friction, while the mass sticks; its constant is that where it sticks now
-    bool lasting = false;  ///< need not be asked for again
-    int degree = 0;        ///< highest power of time in anything: modes without such elements are cheaper
+    friction::Affine limit;  ///< of static friction in a stick; the constant is that of the present position
+    bool lasting = false;    ///< stays the same in later intervals of this direction
+    int degree = 0;          ///< highest power of time in any part: modes without such elements are cheaper
     std::vector<double> transients;
     std::vector<double> decays;
   };
   class ExactInterval;
 
-  /// Speed and its rate in a slip, as the first guard has them: velocity and acceleration times the direction.
+  /// Speed and its rate in a slip, from the first guard: velocity and acceleration times the direction.
   [[nodiscard]] const core::ModeFunction& speed() const { return guards_.front().value; }
   [[nodiscard]] const core::ModeFunction& speed_rate() const { return guards_.front().slope; }
   [[nodiscard]] double start_acceleration() const;
@@ -117,9 +116,9 @@ class ExactEngine final : public Engine {
   [[nodiscard]] double force_rounding() const;
   [[nodiscard]] double velocity_rounding() const;
 
-  double x_rounding_ = 0.0;  ///< of x_ and v_ from the interval before
+  double x_rounding_ = 0.0;  ///< of x_ from the interval before; v_rounding_: of v_
   double v_rounding_ = 0.0;
-  double time_rounding_ = 0.0;  ///< of the events at this instant [s]
+  double time_rounding_ = 0.0;  ///< of the time of the events at this instant [s]
   std::map<ModeKey, LinearMode> modes_;
   ModeKey key_;
   const LinearMode* mode_ = nullptr;  ///< of the present interval
@@ -127,8 +126,7 @@ class ExactEngine final : public Engine {
   std::array<Total, 3> totals_;    ///< by direction
   Total* total_ = totals_.data();  ///< of the present interval
   double force_scale_ = 0.0;
-  double instant_scale_ =
-      0.0;  ///< the largest of the intervals that met at this instant, the one before it included
+  double instant_scale_ = 0.0;  ///< largest force scale of all intervals that meet at this instant
   core::ModeFunction motion_;
   std::vector<core::Guard> guards_;
   std::vector<Watch> watches_;

@@ -1,5 +1,4 @@
-// Laying an interval: what the laws do in it, its mode, its motion and its guards. What the engine does with it is
-// in exact_engine.cpp.
+// Sets up an interval: the forces of the laws, the mode, the motion and the guards. exact_engine.cpp uses them.
 
 #include <algorithm>
 #include <cassert>
@@ -14,12 +13,12 @@ using core::ModeFunction;
 using friction::Affine;
 using friction::Direction;
 
-/// Asks every law once what it does in this interval: its force, while the mass sticks the limits of the laws that
-/// hold it, too; and the guards.
+/// Asks every law once for its force in this interval; while the mass sticks also for the limits of the laws that
+/// hold it; and for the guards.
 void ExactEngine::collect(bool with_guards) {
   const int index = static_cast<int>(direction_) + 1;
   total_ = &totals_[static_cast<std::size_t>(index)];
-  // Laws without modes do the same each time in one direction.
+  // Laws without modes have the same force in every interval of one direction.
   if (total_->lasting) return;
   total_->lasting = !some_modal_;
   const friction::Instant at = now();
@@ -89,12 +88,13 @@ const LinearMode& ExactEngine::mode_for(double damping, double stiffness) {
   key_.layout.decays = total_->decays;
   const auto known = modes_.find(key_);
   if (known != modes_.end()) return known->second;
-  // A law whose stiffness varies continuously would fill the list; old modes then go, the present one stays.
+  // A law whose stiffness varies continuously would fill the list. Then all modes except the present one are
+  // dropped.
   if (modes_.size() > 4096) std::erase_if(modes_, [&](const auto& entry) { return &entry.second != mode_; });
   return modes_.try_emplace(key_, mass, damping, stiffness, drive_.frequencies(), key_.layout).first->second;
 }
 
-/// forcing_ = drive + extra - the laws' parts that do not move with the mass.
+/// forcing_ = drive + extra - the parts of the laws that do not depend on the motion.
 void ExactEngine::load_forcing(double extra_constant) {
   forcing_.polynomial = drive_.force_polynomial();
   forcing_.polynomial[0] += extra_constant - total_->force.constant;
@@ -166,12 +166,12 @@ void ExactEngine::lay_stick() {
   }
 }
 
-/// Of all intervals that met at this instant: a law that lets go takes its large forces away, but not their
-/// rounding.
+/// Rounding of forces, over all intervals that meet at this instant: if a law lets go, its large forces vanish, but
+/// not their rounding.
 double ExactEngine::force_rounding() const { return rounding * std::max(force_scale_, instant_scale_); }
 
-/// In a slip. Forces of this interval cancel to the acceleration; their rounding reaches the velocity through the
-/// fastest rate.
+/// Rounding of the velocity in a slip. The forces of this interval cancel in the acceleration; their rounding over
+/// the fastest rate is that of the velocity.
 double ExactEngine::velocity_rounding() const {
   return rounding * force_scale_ / model_.oscillator.mass / mode_->basis().fastest();
 }
@@ -234,8 +234,9 @@ void ExactEngine::lay_interval() {
   add_law_guards();
 }
 
-/// The germ of the velocity in a slip that begins at v = 0. Rest or slip was decided by the sum of forces, known to
-/// `rounding` of its parts; the acceleration is that sum again, and may not overrule the decision within rounding.
+/// The germ of the velocity in a slip that begins at v = 0. The sum of forces, known to `rounding` of its parts,
+/// has decided between stick and slip. The acceleration is the same sum; within rounding it must not change the
+/// decision.
 core::Germ ExactEngine::slip_germ(const core::Guard& guard, double tolerance) const {
   const double push = friction::sign(direction_) * pull_now();
   const double error = force_rounding();
@@ -244,7 +245,7 @@ core::Germ ExactEngine::slip_germ(const core::Guard& guard, double tolerance) co
   return core::germ(mode_->basis(), guard, tolerance, 2);
 }
 
-/// Whether a guard below zero rises above it before the events of this instant are over for sure.
+/// Whether a guard below zero rises above zero within the rounding of the time of the events at this instant.
 bool ExactEngine::rises_in_time(const core::Guard& guard, double tolerance) const {
   const core::ExponentialBasis& basis = mode_->basis();
   const double value = core::at_start(basis, guard.value);
@@ -254,9 +255,10 @@ bool ExactEngine::rises_in_time(const core::Guard& guard, double tolerance) cons
   return value > -clearly * core::start_amplitude(basis, guard.value) - tolerance && value + tolerance + rise > 0.0;
 }
 
-/// Two modes of a law may have the same zero by different formulas, each with its own rounding, and both could then
-/// send the law to the other one. The event is known to a time: what rises through zero within it begins at zero. A
-/// slider that lets go of a mass at rest has the speed of the mass, and cannot stop before it.
+/// The guards of two modes of a law may have the same zero by different formulas with different rounding. Each
+/// could then send the law to the other mode. The time of the event is known to its rounding: a guard that rises
+/// through zero within that time begins at zero. A slider that lets go of a mass at rest has the speed of the mass,
+/// so it cannot stop before the mass does.
 core::Germ ExactEngine::start_germ(const core::Guard& guard, bool is_speed, double tolerance) const {
   if (is_speed && v_ == 0.0) return slip_germ(guard, tolerance);
   const core::Germ germ = core::germ(mode_->basis(), guard, tolerance);
@@ -265,7 +267,7 @@ core::Germ ExactEngine::start_germ(const core::Guard& guard, bool is_speed, doub
   return from_zero.sign > 0 ? from_zero : germ;
 }
 
-/// Counts the zeros of each guard at the start; true when one is negative just after it (crossing_ says which).
+/// Counts the zeros of each guard at the start. True if a guard is negative just after it; crossing_ has its index.
 bool ExactEngine::find_violated() {
   const core::ExponentialBasis& basis = mode_->basis();
   std::size_t i = 0;
@@ -294,8 +296,8 @@ bool ExactEngine::find_violated() {
   return false;
 }
 
-/// Beside a sticking mass a guard that is zero to every order stays zero; a search would take its rounding for
-/// crossings.
+/// While the mass sticks, a guard that is zero to every examined order stays zero. A search would report its
+/// rounding as crossings.
 void ExactEngine::drop_guard(std::size_t i) {
   --guard_count_;
   std::swap(guards_[i], guards_[guard_count_]);

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-// GCC 12 loses track of what Odeint's resizers initialise, and warns inside system headers too.
+// GCC 12 does not see that Odeint's resizers initialise the states, and warns inside system headers too.
 #if defined(__GNUC__) && !defined(__clang__)
 #pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
 #endif
@@ -73,7 +73,7 @@ class Dop853 final : public Stepper {
     if constexpr (N == any_size) state.resize(n);
   }
 
-  /// A step with all that its dense output needs.
+  /// A step with the data for its dense output.
   struct Step {
     State start;
     State end;
@@ -88,8 +88,8 @@ class Dop853 final : public Stepper {
     }
   };
 
-  /// Passes Odeint's calls on to the field, and keeps what Odeint does not show: the rates of all stages and the
-  /// state of the last.
+  /// Passes Odeint's calls on to the field, and keeps the rates of all stages and the state of the last stage,
+  /// which Odeint does not give out.
   struct ObservedField {
     const VectorField& field;
     std::array<State, dop853::all_stages>& rates;
@@ -148,8 +148,8 @@ class Dop853 final : public Stepper {
     for (double& e : error) e *= part;
   }
 
-  /// |f(end) - f(last stage)| / |end - last stage| [1/s]: both belong to the end of the step, and what separates
-  /// them is mostly the fastest motion (hairer1996, IV.2).
+  /// |f(end) - f(last stage)| / |end - last stage| [1/s]. Both states belong to the end of the step and differ
+  /// mostly in the fastest motion (hairer1996, IV.2).
   [[nodiscard]] double fastest_rate(const Step& step, std::span<const double> allowed) const {
     double rates = 0.0;
     double states = 0.0;

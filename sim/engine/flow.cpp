@@ -16,13 +16,13 @@ using friction::Memory;
 
 namespace {
 
-/// Relative increment at which truncation and rounding of a difference balance.
+/// Relative increment of a difference at which truncation and rounding are equal.
 constexpr double increment = 1.5e-8;
 
-/// Speeds matter down to this part of the largest one: the scale of Stribeck curves.
+/// Laws may change over speeds down to this part of the largest one: the scale of Stribeck curves.
 constexpr double slow = 0.01;
 
-/// Shorter steps over which a speed is varied: each by this factor, down to this part of the largest speed.
+/// The displacement of a speed is shortened by this factor at a time, down to this part of the largest speed.
 constexpr double ladder = 100.0;
 constexpr double least_speed = 1e-40;
 
@@ -86,7 +86,7 @@ const Memory& Flow::memory(std::size_t i, std::span<const double> X) const {
   return memories_[i];
 }
 
-/// What all laws see alike.
+/// The instant that is the same for all laws.
 Instant Flow::instant(std::span<const double> X, double t) const {
   Instant now{.t = offset_ + t, .x = X[0], .v = X[1]};
   if (model_.excitation.is_harmonic()) {
@@ -96,7 +96,7 @@ Instant Flow::instant(std::span<const double> X, double t) const {
   return now;
 }
 
-/// What law i sees of the past.
+/// Adds the past velocity for law i.
 void Flow::remember(std::size_t i, Instant& now, double t) const {
   const double delay = model_.friction[i].delay();
   if (delay > 0.0) now.past_velocity = past_.at(t - delay);
@@ -108,10 +108,10 @@ Instant Flow::instant(std::size_t i, std::span<const double> X, double t) const 
   return now;
 }
 
-/// The force that `law` says, a function of the instant. The slope of a power of speed below 1 has no bound at
-/// rest: a mass that it nearly holds creeps at the tenth or the fiftieth power of the force. Where a force without
-/// states rises with speed, a speed within rounding makes that part of the rise which it is of the slowest speed
-/// that is known. A force that falls lets the mass go at once, however steeply: it is as its law says.
+/// The force of `law`, a function of the instant. For a force in proportion to a power of speed below 1 the slope
+/// has no bound at rest: a mass that such a force nearly holds creeps at the tenth or the fiftieth power of the
+/// pull. So a force without states that rises with speed is taken as linear up to the slowest speed above rounding.
+/// A force that falls with speed lets the mass go at once and is not changed.
 template <class Force>
 double Flow::resolved_force(std::size_t i, const Instant& now, const Force& law) const {
   const double slowest = rounded * scales_[1];
@@ -163,8 +163,8 @@ void Flow::evaluate(std::span<const double> X, double t, std::span<double> rates
   rates[1] = (driving(X[0], X[1], drive(t)) - force) / model_.oscillator.mass;
 }
 
-/// Difference of law i over a step from X, where its force is `base` and its rates base_: of its rates, left in
-/// displaced_rates_, and of its force.
+/// Differences of law i over a step from X, where its force is `base` and its rates are base_rates_: of the rates,
+/// in displaced_rates_, and of the force.
 Flow::Slope Flow::difference(std::size_t i, std::size_t column, double step, std::span<const double> X, double t,
                              double base) const {
   displaced_.assign(X.begin(), X.end());
@@ -176,14 +176,14 @@ Flow::Slope Flow::difference(std::size_t i, std::size_t column, double step, std
   return {(force - base) / exact_step, std::abs(force - base) > resolved * (std::abs(force) + std::abs(base))};
 }
 
-/// One column of the Jacobian as far as law i makes it.
+/// The contribution of law i to one column of the Jacobian.
 void Flow::differentiate_law(std::size_t i, std::size_t column, std::span<const double> X, double t, double base,
                              std::span<double> columns) const {
   const double own = std::abs(X[column]);
   double step = increment * (own + (column == 1 ? slow * scales_[1] : scales_[column]));
   double slope = difference(i, column, step, X, t, base).value;
-  // Friction that goes by the logarithm of the speed is a steep dashpot at speeds far below the largest one: the
-  // step is shortened until the slope no longer grows.
+  // Friction that depends on the logarithm of the speed is a steep dashpot at speeds far below the largest one. So
+  // the step is shortened until the slope no longer grows.
   const double shortest = std::max(increment * own, least_speed * scales_[1]);
   while (column == 1 && step > ladder * shortest) {
     step = std::max(shortest, step / ladder);
@@ -246,7 +246,7 @@ Sample Flow::sample(std::span<const double> X, double t) const {
   const Drive::Value& now = drive(t);
   Sample sample{.t = offset_ + t, .y = now.y, .y_rate = now.y_rate, .x = X[0], .external = now.external};
   if (direction_ == Direction::none) {
-    // Friction balances all else.
+    // Friction balances all other forces.
     sample.force = driving(X[0], 0.0, now);
     return sample;
   }

@@ -1,17 +1,18 @@
 #pragma once
-/// The equation of motion as a first-order system X' = f(X, t) with one branch frozen.
+/// The equation of motion as a first-order system X' = f(X, t) with a frozen branch.
 ///
 ///   X = (x, v, states of the first law, of the second, ...)        x [m], v [m/s]
 ///   x' = v
 ///   v' = (k (y - x) + k3 (y - x)^3 + c (y' - v, or -v) + f(t) - F) / m
-///   states by their rates
+///   states' = the rates that the laws state
 ///
 /// While the mass sticks x' = v' = 0. The direction of slip and the modes of the laws are those given to freeze(),
-/// whatever X: the field is analytic beyond the event that ends the interval. Time runs within the forcing period.
+/// for every X: so the field is analytic beyond the event that ends the interval. Time is counted from the start of
+/// the forcing period. The spring of a pendulum: sim/oscillator.hpp.
 ///
-/// The Jacobian is that of the known part exactly and of the laws by differences, relative error about 1e-8:
-/// enough for Newton iterations and Floquet multipliers, and the same for every law (decision 017). Where a law
-/// changes over speeds far below the motion's the differences are taken over those.
+/// The Jacobian of the known part is exact. That of the laws comes from differences, relative error about 1e-8:
+/// enough for Newton iterations and Floquet multipliers, and the same for every law (decision 017). If a law
+/// changes over speeds far below the motion's, the differences are taken over such speeds.
 
 #include <array>
 #include <limits>
@@ -28,35 +29,35 @@ namespace dualdamp::sim {
 
 class Flow final : public VectorField {
  public:
-  /// `drive` counts time from the start of a period and stays there; with pieces it is in the present one. `past`:
-  /// asked for the velocity of old where a law sees it.
+  /// `drive`: set to the start of a period, or in the present piece; it is not moved. `past`: the past velocity,
+  /// for laws with a delay.
   Flow(const Model& model, const Drive& drive, const VelocityHistory& past);
 
   /// Fixes modes and direction. `offset`: absolute time at which the local time is 0 [s].
   void freeze(const std::vector<friction::Memory>& memories, friction::Direction direction, double offset);
-  /// The size of x [m] and v [m/s], against which increments are small.
+  /// Sets the sizes of x [m] and v [m/s]; increments of differences are small parts of them.
   void set_scales(double x, double v);
 
   [[nodiscard]] std::size_t size() const override { return size_; }
   void evaluate(std::span<const double> X, double t, std::span<double> rates) const override;
   void jacobian(std::span<const double> X, double t, std::span<double> columns) const override;
 
-  /// How often a law has been asked so far.
+  /// Number of evaluations of laws so far.
   [[nodiscard]] long responses() const { return responses_; }
 
-  /// Size of every component: those set, and what the laws say of their states.
+  /// Size of every component: those of set_scales(), and those that the laws state for their states.
   [[nodiscard]] std::span<const double> scales() const { return scales_; }
 
-  /// X from the mass and the memories, and back; modes stay.
+  /// From the mass and the memories to X, and back to the memories; modes do not change.
   void gather(double x, double v, const std::vector<friction::Memory>& memories, std::vector<double>& X) const;
   void scatter(std::span<const double> X, std::vector<friction::Memory>& memories) const;
 
   /// While the mass sticks: the pull and its limit [N] (sim/engine/sticking_gate.hpp).
   [[nodiscard]] double pull(std::span<const double> X, double t) const;
   [[nodiscard]] double limit(std::span<const double> X, double t) const;
-  /// Guards of law i, appended.
+  /// Appends the guards of law i to `values`.
   void guards(std::size_t i, std::span<const double> X, double t, std::vector<double>& values) const;
-  /// All that is said of the motion; time absolute.
+  /// All quantities of the motion at the local time t; the time of the sample is absolute.
   [[nodiscard]] Sample sample(std::span<const double> X, double t) const;
 
  private:
@@ -91,18 +92,18 @@ class Flow final : public VectorField {
   std::vector<double> own_scales_;  ///< 0 for positions
   std::vector<double> scales_;
   mutable long responses_ = 0;
-  // Scratch: laws take their memories as they are kept, with the states of X put in.
+  // Scratch: the memories as they are kept, with the states of X in place of their own.
   mutable std::vector<friction::Memory> memories_;
   mutable std::vector<double> displaced_;
   mutable std::vector<double> base_rates_;
   mutable std::vector<double> displaced_rates_;
-  /// The drive of late: iterations and displaced steps ask for the times of a step's stages again and again.
+  /// The drive at recent times: iterations and displaced steps need it at the stages of a step again and again.
   struct KnownDrive {
     double t = std::numeric_limits<double>::quiet_NaN();
     long piece = 0;
     Drive::Value value{};
   };
-  mutable std::array<KnownDrive, 16> known_drives_;  ///< by the bits of the time
+  mutable std::array<KnownDrive, 16> known_drives_;  ///< the index is a hash of the time's bits
 };
 
 }  // namespace dualdamp::sim

@@ -1,8 +1,8 @@
 #pragma once
 /// An interval: the motion between two events, as a function of time.
 ///
-/// Both engines hand out a stream of intervals; sampling, extremes, energy and event logs are observers of that
-/// stream (`sim/motion/observers.hpp`). Within an interval the velocity keeps one sign or the mass sticks, so
+/// Both engines give a stream of intervals. Sampling, extremes, energy and event lists are observers of the stream
+/// (`sim/motion/observers.hpp`). Within an interval the velocity keeps one sign or the mass sticks, so
 /// extremes of x lie at interval ends only.
 
 #include <optional>
@@ -19,7 +19,7 @@ enum class EventKind {
   stop,       ///< a slip ends and the mass sticks
   release,    ///< a stick ends and the mass slips
   grazing,    ///< a guard touches zero within rounding and does not cross
-  switching,  ///< a law changes its mode, the mass moving on
+  switching,  ///< a law changes its mode, and the mass goes on as before
 };
 
 /// "reversal", "stop", "release", "grazing", "switching".
@@ -47,16 +47,15 @@ class Interval {
   double begin = 0.0;     ///< s
   double duration = 0.0;  ///< s
   friction::Direction direction = friction::Direction::none;
-  std::optional<EventKind>
-      ending;  ///< none: it ends at a period boundary, at the end of a drive's piece or the horizon
+  std::optional<EventKind> ending;  ///< none: the end of a period, of a drive's piece, or the horizon
 
   /// The motion at `begin + s`, 0 <= s <= duration.
   [[nodiscard]] virtual Sample at(double s) const = 0;
-  /// The width [s] of a panel from `begin + s` on over which the motion is well resolved by a polynomial of low
-  /// degree; it grows where fast transients have died out.
+  /// The width [s] of a panel from `begin + s` on in which a polynomial of low degree represents the motion well;
+  /// it grows where fast transients have died out.
   [[nodiscard]] virtual double resolution(double s) const = 0;
-  /// The motion as functions that can be integrated (`sim/engine/closed_form.hpp`), where the engine knows them;
-  /// else a null pointer, and there is at(). Valid as long as the interval.
+  /// The motion as functions that can be integrated (`sim/engine/closed_form.hpp`), or a null pointer if the engine
+  /// does not have them: then use at(). Valid as long as the interval.
   [[nodiscard]] virtual const ClosedForm* closed_form() const { return nullptr; }
 
   [[nodiscard]] double end() const { return begin + duration; }

@@ -13,11 +13,12 @@ using core::ModeFunction;
 
 namespace {
 
-/// Relative distance of exponents below which divided differences take over; naive forms lose at most this factor.
+/// Relative distance of exponents below which divided differences are used. Plain forms lose at most the digits of
+/// this factor.
 constexpr double closeness = 1e-2;
-/// A stiffness vanishes when the mass cannot feel it within the time that matters: own exponents below this part of
-/// the drive's frequency, or (without a drive) the smaller one below that part of the larger one. A power s^n loses
-/// the power n + 1 of that part.
+/// A stiffness counts as vanishing if it does not affect the mass within the relevant time. Under a drive: own
+/// exponents below this part of the drive's frequency. Without a drive: the smaller own exponent below
+/// `slow_beside_decay` of the larger one; a power s^n loses the power n + 1 of that part.
 constexpr double slow_beside_drive = 1e-2;
 constexpr double slow_beside_decay = 1e-8;
 constexpr std::array<double, 4> power_slow_beside_decay = {1e-8, 1e-4, 2e-3, 1e-2};
@@ -60,13 +61,13 @@ void LinearMode::lay_powers() {
   }
 }
 
-/// A periodic motion mostly reverses twice a forcing period, a free one twice a period of its own.
+/// A periodic motion usually reverses twice in a forcing period, a free motion twice in its own period.
 double LinearMode::expected_reversal(std::span<const double> frequencies) const {
   if (!frequencies.empty()) return std::numbers::pi / frequencies.front();
   return own_form_ == OwnForm::oscillating ? std::numbers::pi * inverse_gap_ : 0.0;
 }
 
-/// Exponents of m z^2 + C z + K. The small root of a real pair comes from the product K/m, free of cancellation.
+/// Exponents of m z^2 + C z + K. The smaller root of a real pair comes from the product K/m, without cancellation.
 void LinearMode::lay_own_motion() {
   const double half = damping_ / (2.0 * mass_);
   const double discriminant = stiffness_ / mass_ - half * half;
@@ -107,8 +108,8 @@ LinearMode::Near LinearMode::near_own(Complex z, double slow) const {
   return first ? Near::first : second ? Near::second : Near::none;
 }
 
-/// Particular solution of m x'' + C x' + K x = E_source, a function with exponent z. With one own exponent w close
-/// to z and the other one u apart it is the divided difference over z and w by m (z - u).
+/// Particular solution of m x'' + C x' + K x = E_source, a function with exponent z. If one own exponent w is close
+/// to z and the other one, u, is not, it is the divided difference over z and w, divided by m (z - u).
 LinearMode::Driven LinearMode::drive(Complex z, int source, double slow) {
   const Near near = near_own(z, slow);
   switch (near) {
@@ -132,8 +133,8 @@ void LinearMode::represent(const ModeForcing& forcing, ModeFunction& f) const {
 
 void LinearMode::solve(const ModeForcing& forcing, double x0, double v0, ModeFunction& x) const {
   core::clear(basis_, x);
-  // Value and slope at s = 0 of the particular solution: elements on a chain start from zero, that of two nodes
-  // with slope 1, longer ones with slope 0.
+  // Value and slope at s = 0 of the particular solution. Elements on a chain start from zero: a chain of two nodes
+  // with slope 1, a longer one with slope 0.
   double start = 0.0;
   double slope = 0.0;
   const auto apply = [&](const Driven& driven, Complex amplitude) {
@@ -146,7 +147,7 @@ void LinearMode::solve(const ModeForcing& forcing, double x0, double v0, ModeFun
       slope += coefficient.real();
     }
   };
-  // From the highest power down: what an element does not balance is left to lower ones.
+  // From the highest power down: the force that an element does not balance is added to the lower powers.
   std::array<double, 4> left = forcing.polynomial;
   for (std::size_t n = powers_.size(); n-- > 0;) {
     const Driven& power = powers_[n];
@@ -160,7 +161,7 @@ void LinearMode::solve(const ModeForcing& forcing, double x0, double v0, ModeFun
       if (n >= 1) left[n - 1] -= coefficient * damping_;
       if (n >= 2) left[n - 2] -= coefficient * mass_;
     } else if (power.near != Near::both) {
-      // Of the other own exponent u the element leaves the force -1/u.
+      // The element does not contain the other own exponent u, which leaves the force -1/u.
       const Complex other = power.near == Near::first ? second_ : first_;
       if (n == 0) slope += coefficient;
       if (n >= 1) left[n - 1] += left[n] / other.real();
@@ -187,7 +188,7 @@ void LinearMode::solve(const ModeForcing& forcing, double x0, double v0, ModeFun
 }
 
 Eigen::Matrix2d LinearMode::propagator(const ExponentialBasis::Values& values) const {
-  // x = own E1 + own_slope D with D the divided difference of exp(first s) and exp(second s), x' accordingly.
+  // x = own E1 + own_slope D, where D is the divided difference of exp(first s) and exp(second s); x' accordingly.
   const Complex e1(values.re[at(own_first_)], values.im[at(own_first_)]);
   double difference = 0.0;
   if (own_form_ == OwnForm::oscillating) {
@@ -201,7 +202,7 @@ Eigen::Matrix2d LinearMode::propagator(const ExponentialBasis::Values& values) c
     const double own = column == 0 ? 1.0 : 0.0;
     const double own_slope = (column == 0 ? 0.0 : 1.0) - first_.real() * own;
     result(0, column) = own * e1.real() + own_slope * difference;
-    // E1' = first E1 and D' = second D + E1; of complex ones the real part.
+    // E1' = first E1 and D' = second D + E1; the real part if they are complex.
     result(1, column) = own * (first_ * e1).real() + own_slope * (second_.real() * difference + e1.real());
   }
   return result;

@@ -2,13 +2,16 @@
 /// Closed-form motion of one mode:  m x'' + C x' + K x = f(s),
 ///     f(s) = sum_n polynomial_n s^n/n! + sum_i transient_i exp(-decay_i s) + Re sum_j phasor_j exp(i w_j s)  [N].
 ///
-/// C [N.s/m] and K [N/m] of any sign, zero included. A basis of exponentials is laid out once for (m, C, K, w);
-/// each interval then only solves for coefficients. Where an exponent of f lies close to one of the oscillator's
-/// own (resonance with little damping, vanishing stiffness), or those two lie close to each other (critical
-/// damping), the solution is written on divided differences of these, so that nothing cancels. Exponents that are
-/// far from each other are never on one chain: there derivatives would cancel, and their bounds be useless. In a
-/// mode that is brief beside the oscillator's own times no exponents are far from each other: all are on one chain,
-/// whose elements are the responses to powers of time.
+/// C [N.s/m] and K [N/m] may have any sign or be zero. The basis of exponentials is laid out once for (m, C, K, w);
+/// each interval then only solves for coefficients.
+///
+/// Close exponents: an exponent of f may lie close to one of the oscillator's own (resonance with little damping,
+/// vanishing stiffness), or the oscillator's two may lie close to each other (critical damping). The solution is
+/// then a sum of divided differences over these exponents, so that nothing cancels. Exponents far from each other
+/// are never on one chain: the derivatives of the chain would cancel, and their bounds would be useless.
+///
+/// Brief modes: if the mode is used for times that are short beside the oscillator's own times, no exponents are
+/// far from each other. All are then on one chain, whose elements are the responses to powers of time.
 
 #include <Eigen/Core>
 #include <array>
@@ -28,10 +31,10 @@ struct ModeForcing {
 
 class LinearMode {
  public:
-  /// What besides m, C and K determines a mode.
+  /// What determines a mode besides m, C, K and the frequencies.
   struct Layout {
     int degree = 0;         ///< the highest power of s in the forcing, 0 to 3
-    bool is_brief = false;  ///< it is used for times within 1/(|C|/m + sqrt(|K|/m)); without frequencies
+    bool is_brief = false;  ///< only for times up to 1/(|C|/m + sqrt(|K|/m)), and without frequencies
     std::vector<double> decays = {};
 
     friend auto operator<=>(const Layout&, const Layout&) = default;
@@ -58,22 +61,22 @@ class LinearMode {
   [[nodiscard]] Eigen::Vector2d response(std::size_t source, const core::ExponentialBasis::Values& values) const;
 
  private:
-  /// Own exponents that one of the forcing lies close to.
+  /// The oscillator's own exponents to which an exponent of the forcing lies close.
   enum class Near { none, first, second, both };
 
-  /// How a forcing exp(z s) enters the particular solution: gain on one element.
+  /// The particular solution for a forcing exp(z s): `gain` times one element.
   struct Driven {
-    int source = 0;  ///< the element exp(z s) (or s^n/n!) itself
-    int target = 0;  ///< element of the particular solution: source, or a divided difference with those of `near`
+    int source = 0;  ///< the element exp(z s) or s^n/n! of the forcing
+    int target = 0;  ///< element of the particular solution: `source`, or a divided difference over `near` too
     core::Complex gain;
     Near near = Near::none;
   };
 
-  /// The own motion on two elements.
+  /// The two elements of the own motion.
   enum class OwnForm {
     oscillating,  ///< underdamped: one complex exponential
     decaying,     ///< overdamped, or a negative stiffness: two real exponentials
-    chain,        ///< exponents too close to each other to be told apart: exponential and divided difference
+    chain,        ///< two nearly equal exponents: exponential and divided difference
   };
 
   void lay_own_motion();
@@ -94,7 +97,7 @@ class LinearMode {
   OwnForm own_form_ = OwnForm::oscillating;
   double inverse_gap_ = 0.0;    ///< 1/Im first_ or 1/(first_ - second_); unused for a chain [s]
   int own_first_ = 0;           ///< exp(first_ s)
-  int own_second_ = -1;         ///< exp(second_ s), or the divided difference; unused when oscillating
+  int own_second_ = -1;         ///< exp(second_ s), or the divided difference; unused if oscillating
   std::vector<Driven> powers_;  ///< s^n/n!
   std::vector<Driven> harmonics_;
   std::vector<Driven> transients_;

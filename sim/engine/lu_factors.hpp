@@ -1,6 +1,6 @@
 #pragma once
-/// LU factors with partial pivoting for the matrices of the implicit stepper. Most have two to four rows: their
-/// size is known to the compiler (docs/decisions/016-radau-with-five-stages.md).
+/// LU factors with partial pivoting for the matrices of the implicit stepper. Most have two to four rows; for these
+/// the size is a template argument (docs/decisions/016-radau-with-five-stages.md).
 
 #include <array>
 #include <complex>
@@ -12,10 +12,10 @@
 
 namespace dualdamp::sim {
 
-/// A size that is known at run time only.
+/// The template argument for a size that is known only at run time.
 constexpr std::size_t any_size = 0;
 
-/// A size as a function object; the compiler knows it where it can.
+/// A size as a function object: a constant for N > 0, else the number it was given.
 template <std::size_t N>
 struct Extent {
   constexpr std::size_t operator()() const { return N; }
@@ -43,14 +43,15 @@ class LuFactors {
     }
   }
 
-  /// Factors of shift I - matrix, given column by column. Of a singular matrix they are not finite.
+  /// Factors of shift I - matrix; `matrix` is given column by column. The factors of a singular matrix are not
+  /// finite.
   void compute(Scalar shift, std::span<const double> matrix) {
     for (std::size_t k = 0; k < n_() * n_(); ++k) entries_[k] = -matrix[k];
     for (std::size_t k = 0; k < n_(); ++k) column(k)[k] += shift;
     for (std::size_t k = 0; k < n_(); ++k) eliminate(k);
   }
 
-  /// In place.
+  /// Replaces b by the solution.
   void solve(Scalar* b) const {
     for (std::size_t k = 0; k < n_(); ++k) std::swap(b[k], b[pivots_[k]]);
     for (std::size_t k = 0; k < n_(); ++k)
@@ -65,7 +66,7 @@ class LuFactors {
   [[nodiscard]] Scalar* column(std::size_t k) { return entries_.data() + k * n_(); }
   [[nodiscard]] const Scalar* column(std::size_t k) const { return entries_.data() + k * n_(); }
 
-  /// The diagonal keeps the pivots' reciprocals.
+  /// The diagonal holds the reciprocals of the pivots.
   void eliminate(std::size_t k) {
     Scalar* const pivoted = column(k);
     std::size_t pivot = k;

@@ -12,7 +12,7 @@ namespace {
 using Complex = std::complex<double>;
 using ComplexRow = std::array<Complex, radau_stages>;
 
-/// Newton's correction for a zero of P_s - P_(s-1) (Legendre) inside (-1, 1).
+/// Newton's correction for a zero of P_s - P_(s-1) (Legendre polynomials) in (-1, 1).
 double radau_correction(double x) {
   double before = 1.0;  // P_(n-1)
   double value = x;     // P_n
@@ -20,7 +20,7 @@ double radau_correction(double x) {
     const auto n = static_cast<double>(k);
     before = std::exchange(value, ((2.0 * n + 1.0) * x * value - n * before) / (n + 1.0));
   }
-  // Here P_(s-1) and P_(s-2); the derivatives by (x^2 - 1) P_n' = n (x P_n - P_(n-1)).
+  // Now P_(s-1) and P_(s-2). The derivatives: (x^2 - 1) P_n' = n (x P_n - P_(n-1)).
   const auto s = static_cast<double>(radau_stages);
   const double next = ((2.0 * s - 1.0) * x * value - (s - 1.0) * before) / s;
   const double slope = (s * (x * next - value) - (s - 1.0) * (x * value - before)) / (x * x - 1.0);
@@ -30,7 +30,7 @@ double radau_correction(double x) {
 RadauCollocation::Row radau_points() {
   RadauCollocation::Row points{};
   for (std::size_t k = 0; k + 1 < radau_stages; ++k) {
-    // Asymptotic zeros of Jacobi's polynomial P^(1,0), which the quotient by x - 1 is.
+    // Asymptotic zeros of Jacobi's polynomial P^(1,0), to which the quotient by x - 1 is proportional.
     const auto from_above = static_cast<double>(radau_stages - 1 - k);
     double x = std::cos((2.0 * from_above + 0.5) * std::numbers::pi / (2.0 * static_cast<double>(radau_stages)));
     for (int iteration = 0; iteration < 10; ++iteration) x -= radau_correction(x);
@@ -41,7 +41,7 @@ RadauCollocation::Row radau_points() {
 }
 
 /// The eigenvalues of Butcher's inverse matrix: the poles of the stability function, which is Pade's approximation
-/// of exp(z) with degrees s - 1 and s. All at once by Weierstrass' (Durand and Kerner's) iteration.
+/// of exp(z) with degrees s - 1 and s. Found together by Weierstrass' (Durand and Kerner's) iteration.
 ComplexRow poles() {
   std::array<double, radau_stages + 1> coefficients{};  // of the denominator, highest first, the highest 1
   coefficients[0] = 1.0;
@@ -139,7 +139,7 @@ void RadauCollocation::diagonalise() {
   std::size_t pair = 0;
   for (const Complex& eigenvalue : poles()) {
     const bool real = std::abs(eigenvalue.imag()) < 1e-6;
-    if (!real && eigenvalue.imag() < 0.0) continue;  // its conjugate says the same
+    if (!real && eigenvalue.imag() < 0.0) continue;  // its conjugate gives the same pair
     const ComplexRow right = eigenvector(matrix, eigenvalue);
     const ComplexRow left = eigenvector(transposed, eigenvalue);
     Complex product = 0.0;

@@ -23,10 +23,11 @@ constexpr std::size_t middle = radau_stages / 2;
 constexpr std::size_t speed = 1;
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
-/// NaN where one of them is.
+/// The larger one; NaN if one of them is NaN.
 double larger(double a, double b) { return a >= b || std::isnan(a) ? a : b; }
 
-/// The method for states of N components, or of any number. A set of s states is stored one after the other.
+/// The method for states of N components, or of any number. The states of the s stages are stored one after the
+/// other.
 template <std::size_t N>
 class RadauStepper final : public Stepper {
  public:
@@ -95,7 +96,7 @@ class RadauStepper final : public Stepper {
     return sum;
   }
 
-  /// z from the last step's polynomial, also beyond its end; false where that says nothing about this step.
+  /// Predicts z from the last step's polynomial, also beyond its end; false if this step is not close enough to it.
   bool predict(double t, double h) {
     constexpr double farthest = 4.0;
     const double from = (t - t_) / h_;
@@ -110,15 +111,16 @@ class RadauStepper final : public Stepper {
     return true;
   }
 
-  /// z from the rates at the start: away from a speed at which alone friction is steep.
+  /// Predicts z from the rates at the start: this leaves a speed at which alone friction is steep.
   void begin_straight(const VectorField& field, std::span<const double> x, double t, double h) {
     field.evaluate(x, t, state_);
     for (std::size_t i = 0; i < radau_stages; ++i)
       for (std::size_t k = 0; k < n_(); ++k) z_[i * n_() + k] = radau_.nodes[i] * h * state_[k];
   }
 
-  /// Newton's method on z with a Jacobian taken in the middle of the step as far as z tells it; again with another
-  /// one where z came to tell something else: a force that is steep at one speed alone would pass for converged.
+  /// Newton's method on z with a Jacobian in the middle of the step, where z puts it. If z moves far from there,
+  /// the iteration is repeated with a new Jacobian: it could otherwise seem to converge with a force that is steep
+  /// at one speed alone.
   bool solve(const VectorField& field, std::span<const double> x, double t, double h,
              std::span<const double> allowed) {
     constexpr int most_jacobians = 20;
@@ -132,8 +134,8 @@ class RadauStepper final : public Stepper {
     return false;
   }
 
-  /// Where friction turns over at one speed alone, a correction below `allowed` may leave a force that sets the
-  /// mass in motion: z has then stopped where no speed within `allowed` satisfies the equation.
+  /// If friction changes its sign at one speed alone, a correction below `allowed` may leave a force that moves the
+  /// mass. The iteration has then stopped although no speed within `allowed` of z satisfies the equation.
   [[nodiscard]] bool is_held_falsely(const VectorField& field, std::span<const double> x, double t, double h,
                                      std::span<const double> allowed) {
     constexpr double round_off = 64.0 * epsilon;
@@ -158,7 +160,7 @@ class RadauStepper final : public Stepper {
 
   enum class Pace { converged, slow, lost };
 
-  /// With the Jacobian as it is.
+  /// Newton's iteration with the present factors.
   Pace iterate(const VectorField& field, std::span<const double> x, double t, double h,
                std::span<const double> allowed) {
     constexpr int most_iterations = 20;
@@ -171,7 +173,7 @@ class RadauStepper final : public Stepper {
       if (iteration > 0) {
         const double contraction = size / before;
         if (contraction >= 1.0) return size <= 1.0 ? Pace::converged : Pace::lost;
-        // Hopeless at this pace: most steps that fail do so after three iterations. A quick one has time left.
+        // At this rate it will not converge in time. A quick iteration may go on: its rate is below 0.1.
         if (contraction > 0.1 && size * std::pow(contraction, most_iterations - 1 - iteration) > 1.0)
           return Pace::slow;
         if (size * std::min(1.0, contraction / (1.0 - contraction)) <= 1.0) return Pace::converged;
@@ -181,7 +183,7 @@ class RadauStepper final : public Stepper {
     return Pace::slow;
   }
 
-  /// The middle of the step is far from where the Jacobian was taken, measured by the smaller of both.
+  /// Whether the middle of the step is far from the state at which the Jacobian was taken, relative to that state.
   [[nodiscard]] bool has_moved_on(std::span<const double> x) const {
     for (std::size_t k = 0; k < n_(); ++k) {
       const double now = x[k] + z_[middle * n_() + k];
@@ -190,7 +192,8 @@ class RadauStepper final : public Stepper {
     return false;
   }
 
-  /// False: the Jacobian is within `closeness` of the one whose factors are there, relative, entry by entry.
+  /// Computes the Jacobian and its factors. False: each entry is within `closeness` (relative) of the Jacobian
+  /// whose factors are kept.
   bool factorise(const VectorField& field, std::span<const double> x, double t, double h, double closeness) {
     for (std::size_t k = 0; k < n_(); ++k) middle_state_[k] = x[k] + z_[middle * n_() + k];
     field.jacobian(middle_state_, t + radau_.nodes[middle] * h, jacobian_);
@@ -234,8 +237,7 @@ class RadauStepper final : public Stepper {
     }
   }
 
-  /// The largest part of the correction in units of what may be left of it: a thousandth of `allowed`, or
-  /// round-off.
+  /// The largest component of the correction in units of its tolerance: a thousandth of `allowed`, or round-off.
   [[nodiscard]] double correction_size(std::span<const double> x, std::span<const double> allowed) const {
     double size = 0.0;
     for (std::size_t k = 0; k < n_(); ++k) {
@@ -251,8 +253,8 @@ class RadauStepper final : public Stepper {
     return size;
   }
 
-  /// The defect of the polynomial at the start of the step, f(x, t) - u'(0)/h, seen through (gamma/h - J)^-1, which
-  /// takes from a fast component what it would lose within the step (hairer1996, IV.8).
+  /// The defect of the polynomial at the start of the step, f(x, t) - u'(0)/h, times (gamma/h - J)^-1, which damps
+  /// a fast component as the step does (hairer1996, IV.8).
   bool estimate(const VectorField& field, std::span<const double> x, double t, double h, std::span<double> error) {
     field.evaluate(x, t, error);
     for (std::size_t k = 0; k < n_(); ++k) error[k] -= combine(radau_.start_slope, z_, k) / h;
@@ -262,7 +264,7 @@ class RadauStepper final : public Stepper {
 
   const RadauCollocation& radau_ = RadauCollocation::once();
   Extent<N> n_;
-  // The last step that succeeded.
+  // The last successful step.
   double t_ = 0.0;
   double h_ = 0.0;
   Vector start_;

@@ -117,8 +117,8 @@ void Sensitivity::advance(const Law& law, std::size_t index, const Memory& befor
   }
 }
 
-/// Moves every perturbation along the present motion by factor times its own shift; velocity and acceleration of
-/// the mass are the caller's.
+/// Moves the states of every perturbation along the present motion by `factor` times its own shift. The caller
+/// moves position and velocity.
 void Sensitivity::flow(double factor, Laws laws, const Memories& memories, const Instant& now,
                        Direction direction) {
   for (std::size_t i = 0; i < laws.size() && with_states_; ++i) {
@@ -137,7 +137,7 @@ void Sensitivity::enter(const Event& event, Laws laws, const Memories& memories,
   for (std::size_t c = 0; c < motion_.size(); ++c) {
     const double change = event.by_position * motion_[c].x() + event.by_velocity * motion_[c].y() + guard_[c];
     guard_[c] = 0.0;
-    // A guard that only touches zero has no crossing to shift.
+    // A guard that only touches zero has no crossing that could be shifted.
     shift_[c] = event.slope != 0.0 ? -change / event.slope : 0.0;
     motion_[c] += shift_[c] * Eigen::Vector2d(event.velocity, event.acceleration);
   }

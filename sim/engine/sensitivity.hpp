@@ -1,13 +1,13 @@
 #pragma once
 /// The derivative of a motion with respect to where it started: d(x, v, states of the laws)(now)/d(same)(start).
 ///
-/// Columns are perturbations of the start. Within an interval (x, v) obey the mode's propagator and the force that
-/// perturbed states exert; at an event a perturbation comes late or early by its own `shift`, and the saltation
-/// matrix follows from that (filippov1988, leine2004): a perturbation is carried to the crossing with the motion
-/// before, through the laws' jumps, and back with the motion behind.
+/// Each column is a perturbation of the start. Within an interval (x, v) obey the mode's propagator and the force
+/// that perturbed states exert. At an event a perturbed motion is late or early by its own `shift`. The
+/// perturbation is carried to its crossing along the motion before the event, through the laws' jumps, and back
+/// along the motion after the event; this gives the saltation matrix (filippov1988, leine2004).
 ///
-/// The laws know nothing of this. Their forms and jumps are affine in their states (law.hpp), so that the
-/// difference of two evaluations is the derivative, exact to rounding however large the perturbation.
+/// Laws state no derivatives. Their forms and jumps are affine in their states (law.hpp), so the difference of two
+/// evaluations is the derivative, exact to rounding for a perturbation of any size.
 ///
 /// Cost: per interval and column some ten multiplications and, where laws have states, two evaluations of their
 /// forms.
@@ -25,7 +25,7 @@ class Sensitivity {
   using Laws = std::span<const friction::Law>;
   using Memories = std::vector<friction::Memory>;
 
-  /// The instant of an event, on the motion before it.
+  /// An event, with the motion just before it.
   struct Event {
     double by_position = 0.0;  ///< dg/dx of the guard that ends the interval
     double by_velocity = 0.0;  ///< dg/dv
@@ -34,27 +34,28 @@ class Sensitivity {
     double acceleration = 0.0;
   };
 
-  /// Identity, for a motion that begins with these memories. `modal`: some law may come to have states.
+  /// Sets the derivative to identity for a motion that begins with these memories. `modal`: some law may have
+  /// states now or later.
   void begin(const Memories& memories, bool modal);
 
-  /// Asks the laws what perturbed states exert in the interval that begins now. `decays`: of the transients.
+  /// Computes the forces that perturbed states exert in the interval that begins now. `decays`: of the transients.
   void lay(Laws laws, const Memories& memories, const friction::Instant& now, friction::Direction direction,
            const std::vector<double>& decays);
 
-  /// Over a slip. `responses`: (x, v) at its end to a unit constant force and to a unit of each transient,
-  /// from rest at zero.
+  /// Carries the derivative over a slip. `responses`: (x, v) at its end under a unit constant force and under a
+  /// unit of each transient, from rest at zero.
   void slip(const Eigen::Matrix2d& propagator, std::span<const Eigen::Vector2d> responses);
-  /// Over a stick.
+  /// Carries the derivative over a stick.
   void stick();
 
-  /// What perturbed states add to a guard of law `law` at the end of the interval laid last; `duration` of it [s].
-  /// Call before the memories move on.
+  /// Computes the change of a guard of law `law` by perturbed states at the end of the present interval;
+  /// `duration`: of the interval [s]. Call it before the memories are advanced.
   void perturb_guard(Laws laws, const Memories& memories, const friction::Instant& begin,
                      friction::Direction direction, std::size_t law, std::size_t guard, double duration);
-  /// The same of the pull's limit: `factor` times the perturbed force.
+  /// The same for the guard of the pull: `factor` times the perturbed force.
   void perturb_limit(double factor, const std::vector<double>& decays, double duration);
 
-  /// States of law `law` over the interval, for a law that advances. `before`: its memory at the begin.
+  /// Carries the states of law `law` over the interval, for a law that advances. `before`: its memory at the start.
   void advance(const friction::Law& law, std::size_t index, const friction::Memory& before,
                const friction::Memory& after, const friction::Instant& begin, const friction::Instant& end,
                double duration, friction::Direction direction);
@@ -62,20 +63,20 @@ class Sensitivity {
   /// Carries the perturbations to their own crossings of the guard.
   void enter(const Event& event, Laws laws, const Memories& memories, const friction::Instant& now,
              friction::Direction direction);
-  /// Jump of one law; `after`: its memory behind the jump.
+  /// Carries the states through the jump of one law; `after`: its memory after the jump.
   void jump(const friction::Law& law, std::size_t index, const friction::Memory& before,
             const friction::Memory& after, friction::Trigger trigger, const friction::Instant& now,
             friction::Direction direction);
-  /// Carries them back to the common time with the motion that begins now.
+  /// Carries the perturbations back to the common time along the motion that begins now.
   void leave(double acceleration, Laws laws, const Memories& memories, const friction::Instant& now,
              friction::Direction direction);
 
-  /// False: no law has states, now or later.
+  /// Whether some law has states, now or later.
   [[nodiscard]] bool has_states() const { return with_states_; }
-  /// Between enter() and leave().
+  /// Whether the perturbations are at their crossings: between enter() and leave().
   [[nodiscard]] bool at_crossing() const { return crossing_; }
 
-  /// Rows: x, v, states of the laws as they are now; columns: the same at the begin.
+  /// Rows: x, v, states of the laws now; columns: the same at the start.
   [[nodiscard]] Eigen::MatrixXd matrix() const;
 
  private:
@@ -89,8 +90,8 @@ class Sensitivity {
   std::vector<Eigen::Vector2d> begin_;   ///< motion_ at the start of the interval
   std::vector<Eigen::MatrixXd> states_;  ///< of each law: state by column
   std::vector<Eigen::VectorXd> force_;   ///< of each column: constant part, then the transients [N]
-  std::vector<double> guard_;            ///< of each column: what its states add to the guard
-  std::vector<double> shift_;            ///< of each column [s]
+  std::vector<double> guard_;            ///< of each column: change of the guard by its states
+  std::vector<double> shift_;            ///< of each column: delay of its crossing [s]
   bool with_states_ = false;
   bool crossing_ = false;
   friction::Memory probe_;

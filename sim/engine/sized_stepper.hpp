@@ -1,6 +1,6 @@
 #pragma once
-/// A one-step method as a template of the number of equations, as a stepper of any number: two, three and four, the
-/// most frequent, have code of their own, whose loops the compiler knows.
+/// Makes a stepper for any number of equations from a one-step method that is a template of this number. The most
+/// frequent numbers, two, three and four, have code of their own, so the compiler can unroll the loops.
 
 #include <cstddef>
 #include <memory>

@@ -345,7 +345,7 @@ double SmoothEngine::crossing(std::size_t watch, double before, double negative)
   const double value_negative = guard(watch, negative);
   if (value_negative > 0.0) {
     throw friction::LawFault(
-        "a guard of a friction law has another sign when it is asked again for the same instant, t = " +
+        "a guard of a friction law changed its sign between two calls for the same instant, t = " +
         std::to_string(time() + negative * taken_) + " s");
   }
   std::uintmax_t iterations = 60;

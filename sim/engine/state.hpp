@@ -1,5 +1,5 @@
 #pragma once
-/// All that the motion after an instant depends on, apart from the phase of the excitation.
+/// Everything on which the motion after an instant depends, apart from the phase of the excitation.
 
 #include <memory>
 #include <vector>
@@ -15,17 +15,17 @@ struct State {
   double v = 0.0;  ///< m/s
   friction::Direction direction = friction::Direction::none;
   std::vector<friction::Memory> memories{};  ///< of each law
-  /// The velocity before, where a law sees it; else none.
+  /// The past velocity, if a law depends on it; else none.
   std::shared_ptr<const VelocityHistory> past{};
-  /// A reversal here would change no force and nothing that a law remembers: the direction is no part of the mode.
+  /// A reversal here would change no force and no law's memory: the direction is not part of the mode.
   bool turns_freely = false;
 };
 
-/// Both lie in the same mode, so that their difference is one of continuous states. Where both turn freely that
-/// holds for slips in both directions.
+/// Whether both are in the same mode, so that only continuous states differ. If both turn freely, slips in opposite
+/// directions are in the same mode.
 [[nodiscard]] bool same_mode(const State& a, const State& b);
-/// The same, or slips in both directions: their difference is one of continuous states too, but of a map with a
-/// kink.
+/// Whether both are in the same mode, or are slips in opposite directions: then, too, only continuous states
+/// differ, but the map has a kink between them.
 [[nodiscard]] bool are_comparable(const State& a, const State& b);
 
 }  // namespace dualdamp::sim

@@ -2,18 +2,18 @@
 /// The derivative of a step: the variational equation along its dense output, by Radau IIA with five stages.
 ///
 ///   u' = J u           u: a perturbation of the state, J = df/dx on the motion
-///   d' = J d + df/dt   d: what a later begin changes beside the shift in time, d = 0 at the begin
+///   d' = J d + df/dt   d: change of the end by a later start, without the shift in time; d = 0 at the start
 ///
 /// It is the derivative of the motion, not of the method that computed it: a perturbation that decays within an
-/// explicit step decays here too. The nodes of a step by Radau IIA are its own stages.
+/// explicit step decays here too. In a step by Radau IIA the nodes are the stages of the step.
 ///
-/// A step that the motion takes lightly may hide a place where J alone changes sharply, as at v = 0 under a level
-/// that falls within a small part of the speed: such a step is passed in parts, halved until a cubic through the
-/// other stages tells J in each of them. So is one in which a perturbation turns by more than 1 rad, where the
-/// motion does not turn with it.
+/// The variational equation may need shorter steps than the motion. J alone may change sharply within a step, as at
+/// v = 0 under a level that falls within a small part of the speed. Such a step is halved until each entry of J at
+/// a stage agrees with a cubic through the other stages. A step is also halved while a perturbation turns by more
+/// than 1 rad in it although the motion does not.
 ///
-/// Errors: order 9 in the part; J is as exact as the field gives it. Cost of a part: five Jacobians, ten
-/// evaluations of the field, LU factors of five times as many rows as the state has; eigenvalues of J where
+/// Errors: order 9 in the length of a part; J is as exact as the field gives it. Cost of a part: five Jacobians,
+/// ten evaluations of the field, LU factors of five times as many rows as the state has; eigenvalues of J if
 /// components act on each other within the part.
 
 #include <memory>
@@ -23,23 +23,23 @@
 
 namespace dualdamp::sim {
 
-/// A step that a stepper has taken last.
+/// The last step of a stepper.
 struct TakenStep {
   const Stepper& stepper;
-  double t = 0.0;                 ///< its begin [s]
+  double t = 0.0;                 ///< its start [s]
   double h = 0.0;                 ///< its length [s]
-  double increment = 0.0;         ///< over which df/dt is a difference [s]
+  double increment = 0.0;         ///< time over which df/dt is a difference [s]
   std::span<const double> sizes;  ///< of the state's components
 };
 
 class Variation {
  public:
   virtual ~Variation() = default;
-  /// `columns`: perturbations at the begin of the step, one after the other; become those at its end. `late`: d at
-  /// its end. False: a value is not finite.
+  /// `columns`: perturbations at the start of the step, one after the other; replaced by those at its end. `late`:
+  /// d at the end. False: a value is not finite.
   [[nodiscard]] virtual bool pass(const VectorField& field, const TakenStep& step, std::span<double> columns,
                                   std::span<double> late) = 0;
-  /// So many times the equation has been linearised so far.
+  /// Number of parts passed so far, each with one linearisation.
   [[nodiscard]] virtual long parts() const = 0;
 };
 

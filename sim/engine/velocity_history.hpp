@@ -1,8 +1,9 @@
 #pragma once
-/// The velocity of the past, for laws that see it with a delay.
+/// The past velocity, for laws that depend on it with a delay.
 ///
-/// Kept as polynomials of degree four, one a step, through the ends and three points between; before the first step
-/// the velocity is that of the start. Time is local: shift() moves the origin when a forcing period ends.
+/// It is stored as one polynomial of degree four for each step, through both ends and three points between. Before
+/// the first step the velocity is that of the start. Time is local: shift() moves the origin at the end of a
+/// forcing period.
 
 #include <array>
 #include <deque>
@@ -14,12 +15,12 @@ class VelocityHistory {
   static constexpr int points = 5;
   using Values = std::array<double, points>;  ///< at 0, 1/4, ..., 1 of the step [m/s]
 
-  /// `reach` [s]: how far back anybody looks.
+  /// Starts with the velocity v [m/s]. `reach` [s]: the longest delay.
   void clear(double v, double reach);
   void add(double begin, double duration, const Values& values);
   void shift(double period);
 
-  /// m/s; beyond the last step its polynomial goes on.
+  /// The velocity at t [m/s]; after the last step its polynomial is extrapolated.
   [[nodiscard]] double at(double t) const;
 
  private:

@@ -12,10 +12,11 @@ namespace dualdamp::sim {
 
 namespace {
 
-/// A base that is elsewhere by more than this part of its motion has jumped; less is rounding.
+/// A change of the base at one instant by more than this part of its motion is a jump; less is rounding.
 constexpr double jump = 1e-12;
 
-/// Calls visit(begin, width) for panels that cover the interval, each resolved by a polynomial of low degree.
+/// Calls visit(begin, width) for panels that cover the interval; a polynomial of low degree represents the motion
+/// on each of them.
 template <class Visit>
 void for_panels(const Interval& interval, const Visit& visit) {
   double s = 0.0;
@@ -26,7 +27,7 @@ void for_panels(const Interval& interval, const Visit& visit) {
   }
 }
 
-/// Calls visit(sample, weight) with the nodes of Gauss and Legendre's rule on a panel.
+/// Calls visit(sample, weight) for the nodes of Gauss and Legendre's rule on a panel.
 template <unsigned points, class Visit>
 void apply_rule(const Interval& interval, double begin, double width, const Visit& visit) {
   using Rule = boost::math::quadrature::gauss<double, points>;
@@ -39,9 +40,9 @@ void apply_rule(const Interval& interval, double begin, double width, const Visi
   }
 }
 
-/// Calls visit(sample, weight) so that sum weight f(sample) = int f dt over the interval, f a product of two
-/// quantities. On a panel of the resolution these are exp(z s) with |z s| <= 1.6; on an eighth of it five points
-/// leave out 4e-17, on a 128th three points 1.2e-16.
+/// Calls visit(sample, weight) so that sum weight f(sample) = int f dt over the interval, where f is a product of
+/// two quantities. On a panel as wide as the resolution these are exp(z s) with |z s| <= 1.6. On an eighth of that
+/// width the error of five points is 4e-17, on a 128th that of three points is 1.2e-16.
 template <class Visit>
 void quadrature(const Interval& interval, const Visit& visit) {
   for_panels(interval, [&](double begin, double width) {
@@ -56,10 +57,11 @@ void quadrature(const Interval& interval, const Visit& visit) {
   });
 }
 
-/// The speed is largest where the acceleration changes sign; so many cells a panel bracket that.
+/// The speed is largest where the acceleration changes sign. A panel is divided into this number of cells to
+/// bracket such a place.
 constexpr int cells = 8;
 
-/// Where the acceleration changes sign between low and high, by bisection; `sign` is its sign at low.
+/// The time between low and high at which the acceleration changes sign, by bisection; `sign` is its sign at low.
 double speed_extreme(const Interval& interval, double low, double high, double sign) {
   for (int step = 0; step < 60; ++step) {
     const double middle = 0.5 * (low + high);
@@ -68,7 +70,7 @@ double speed_extreme(const Interval& interval, double low, double high, double s
   return low;
 }
 
-/// The largest |v| at sign changes of the acceleration; 0 without any.
+/// The largest |v| at sign changes of the acceleration; 0 if there is none.
 double largest_inner_speed(const Interval& interval) {
   double largest = 0.0;
   double left = 0.0;
@@ -88,8 +90,8 @@ double largest_inner_speed(const Interval& interval) {
   return largest;
 }
 
-/// |v| where the acceleration, of the sign of `left_a` at `low`, vanishes between there and `high`: Newton's method
-/// from `s` on, kept between both. An error of s enters the speed by its square.
+/// |v| at the time between `low` and `high` at which the acceleration vanishes; `left_a` has its sign at `low`. By
+/// Newton's method from `s`, kept between both ends. An error of s changes the speed only by its square.
 double speed_between(const ClosedForm& form, const core::ModeFunction& jerk, double low, double high, double s,
                      double left_a) {
   const core::ExponentialBasis& basis = *form.basis;
@@ -109,7 +111,7 @@ double speed_between(const ClosedForm& form, const core::ModeFunction& jerk, dou
   return std::abs(core::evaluate(basis, form.v, values));
 }
 
-/// E_k(s + delta) from E_k(s) and by = E_k(delta).
+/// Changes E_k(s) to E_k(s + delta); by = E_k(delta).
 void turn_by(const core::ExponentialBasis& basis, const core::ExponentialBasis::Values& by,
              core::ExponentialBasis::Values& values) {
   for (std::size_t k = 0; k < static_cast<std::size_t>(basis.size()); ++k) {
@@ -119,7 +121,7 @@ void turn_by(const core::ExponentialBasis& basis, const core::ExponentialBasis::
   }
 }
 
-/// The same on the closed form: from cell to cell by one product for each element, where there are no chains.
+/// The same on the closed form. Without chains it goes from cell to cell by one product for each element.
 double largest_inner_speed(const Interval& interval, const ClosedForm& form) {
   const core::ExponentialBasis& basis = *form.basis;
   core::ModeFunction jerk;
@@ -221,7 +223,7 @@ void EnergyAudit::observe(const Interval& interval) {
   if (!started_) {
     first_ = stored(begin);
   } else if (std::abs(begin.y - base_) > jump * reach_) {
-    // The work of a base that has jumped is what the spring stores more of.
+    // The work of a jump of the base is the increase of the energy in the spring.
     input_.add(spring_energy(oscillator_, begin.y - begin.x) - spring_energy(oscillator_, base_ - begin.x));
   }
   started_ = true;

@@ -1,5 +1,5 @@
 #pragma once
-/// Observers of a stream of intervals: written once, for both engines.
+/// Observers of a stream of intervals, for both engines.
 
 #include <complex>
 #include <span>
@@ -11,21 +11,21 @@
 
 namespace dualdamp::sim {
 
-/// Samples at 0, 1/rate, 2/rate, ... [s], or at times of the caller's own.
+/// Samples at 0, 1/rate, 2/rate, ... [s], or at given times.
 class Sampler {
  public:
   /// rate in Hz; 0 takes none.
   explicit Sampler(double rate) : rate_(rate) {}
-  /// Ascending times >= 0, which outlive this.
+  /// Ascending times >= 0 [s]; the span must outlive this object.
   explicit Sampler(std::span<const double> times) : times_(times) {}
 
   void observe(const Interval& interval);
-  /// Takes the sample that falls on the very end of the last interval, if one does.
+  /// Takes the sample at the end of the last interval, if one is due there.
   void finish(const Sample& final);
   [[nodiscard]] std::vector<Sample>& samples() { return samples_; }
 
  private:
-  /// Of the sample to come [s]; infinite when there is none.
+  /// Time of the next sample [s]; infinite if there is none.
   [[nodiscard]] double next() const;
 
   double rate_ = 0.0;
@@ -49,8 +49,8 @@ class Extremes {
   double max_speed_ = 0.0;
 };
 
-/// A sum that carries its own rounding error along (Neumaier): equal periods would otherwise add up a systematic
-/// one.
+/// A sum with compensation of its rounding error (Neumaier): over equal periods the error would otherwise be
+/// systematic.
 class CompensatedSum {
  public:
   void add(double term) {
@@ -66,9 +66,9 @@ class CompensatedSum {
   double lost_ = 0.0;
 };
 
-/// Energy account: from the interval's closed form, or else by Gauss-Legendre quadrature; the integrands are
-/// analytic inside an interval, so that either is exact to rounding. Forces come from the laws, not from the
-/// equation of motion: the defect is a real check.
+/// Energy account, from the interval's closed form or by Gauss-Legendre quadrature. The integrands are analytic
+/// within an interval, so both are exact to rounding. Forces come from the laws, not from the equation of motion,
+/// so the defect is a check of the motion.
 class EnergyAudit {
  public:
   explicit EnergyAudit(const Oscillator& oscillator) : oscillator_(oscillator) {}
@@ -90,7 +90,7 @@ class EnergyAudit {
   CompensatedSum friction_;
   CompensatedSum viscous_;
   CompensatedSum square_speed_;
-  double base_ = 0.0;   ///< where the last interval ended [m]
+  double base_ = 0.0;   ///< y at the end of the last interval [m]
   double reach_ = 0.0;  ///< largest |y| so far [m]
   double first_ = 0.0;
   double last_ = 0.0;

@@ -47,9 +47,9 @@ FreeDecay free_decay(const Model& model, int peaks) {
   const std::unique_ptr<Engine> owned = make_engine(valid_free(model, "free_decay"));
   Engine& engine = *owned;
   if (engine.velocity() == 0.0) decay.peaks.push_back({0.0, engine.position()});
-  // A motion that creeps without reversals (strong damping, friction that never quite holds) has no further
-  // extreme. With damping so near the critical that a swing lasts a hundred natural periods, it ends at exp(-628)
-  // of its start.
+  // A motion that creeps without reversals (strong damping, friction that never quite holds the mass) has no
+  // further extreme. If damping is so close to critical that a swing lasts a hundred natural periods, the swing
+  // ends at exp(-628) of its start.
   const double patience = 100.0 * 2.0 * std::acos(-1.0) / natural_frequency(model.oscillator);
   double deadline = patience;
   while (static_cast<int>(decay.peaks.size()) < peaks) {

@@ -31,7 +31,7 @@ struct History {
 struct SimulateOptions {
   double duration = 0.0;     ///< s
   double sample_rate = 0.0;  ///< Hz; 0: no samples, or those at `times`
-  /// Ascending times of the samples, >= 0 [s]; those behind the end are not reached.
+  /// Ascending times of the samples, >= 0 [s]; those after the end are ignored.
   std::span<const double> times = {};
   long max_events = 10'000'000;
 };
@@ -46,9 +46,9 @@ struct Extreme {
 
 struct FreeDecay {
   core::Outcome outcome;
-  std::vector<Extreme> peaks;  ///< the initial position first when released from rest
-  bool came_to_rest = false;   ///< fewer than the requested peaks because the mass stuck
-  bool creeps = false;         ///< fewer because the motion turns no more within 100 natural periods
+  std::vector<Extreme> peaks;  ///< the initial position is the first if the mass is released from rest
+  bool came_to_rest = false;   ///< fewer peaks than requested because the mass sticks
+  bool creeps = false;         ///< fewer because the motion has no turning point within 100 natural periods
 };
 
 /// Successive extremes of the motion from `model.initial`; at most `peaks` of them. The excitation must be `none`.

@@ -14,25 +14,26 @@ namespace dualdamp::sim {
 
 namespace {
 
-/// Newton's method takes over where the motion closes this well over one forcing period, and over several.
+/// Newton's method is tried if the motion closes this well over one forcing period, or over several.
 constexpr double near_orbit = 1e-2;
 constexpr double near_longer_orbit = 1e-3;
 
-/// Whatever the closure, Newton's method is tried after so many periods, or after this part of the work that the
-/// motion may take, and each time that they have grown by four.
+/// Whatever the closure, Newton's method is tried after this number of periods, or after this part of the work that
+/// the motion may take, and again each time that either has grown by four.
 constexpr int first_trial = 32;
 constexpr long first_trial_of_work = 16;
 
-/// A motion that closes this well after thousands of periods and still is not periodic creeps.
+/// A motion creeps if it closes this well after thousands of periods and still is not periodic.
 constexpr double creeping = 1e-3;
 
-/// Deviations from an orbit below this part of the motion are none.
+/// A deviation from an orbit below this part of the motion counts as zero.
 constexpr double arrived = 1e-9;
 
-/// A perturbation is followed over so many forcing periods.
+/// Most and fewest forcing periods over which the growth of a perturbation is measured.
 constexpr std::size_t periods_of_divergence = 200;
 constexpr std::size_t least_periods_of_divergence = 20;
-/// Mean logarithmic growth of a perturbation in one forcing period: more is no rounding and no slow transient.
+/// Mean logarithmic growth of a perturbation in one forcing period above which the motion is aperiodic: neither
+/// rounding nor a slow transient grows so fast.
 constexpr double diverging = 0.03;
 
 constexpr const char* neighbours =
@@ -60,7 +61,7 @@ Approach::Approach(const Model& model, const SteadyStateOptions& options, Period
       next_trial_(first_trial),
       next_trial_work_(patience_.work / first_trial_of_work) {
   solver_.limit(patience_.work);
-  // A single period may take half as much again.
+  // A single period may exceed the limit by half.
   map_.limit(begun_at_ + patience_.work + patience_.work / 2);
   level_.fill(near_longer_orbit);
   level_[1] = near_orbit;
@@ -87,7 +88,7 @@ std::optional<Orbit> Approach::find(SteadyState& result) {
   return orbit;
 }
 
-/// What the motion shows after one more period.
+/// Examines the motion after one more period: the orbit, if it has been reached.
 std::optional<Orbit> Approach::look(const ForcingPeriod& period, SteadyState& result) {
   if (std::optional<Orbit> orbit = closed(period.end)) {
     const double radius = has_past_ || !period.moves ? 0.0 : orbit->period.radius();
@@ -107,7 +108,7 @@ std::optional<Orbit> Approach::look(const ForcingPeriod& period, SteadyState& re
   return std::nullopt;
 }
 
-/// The motion has had its share; attempts to find an orbit beside it have their own.
+/// Whether the motion has used its share of the work; attempts to find an orbit near it have their own share.
 bool Approach::is_followed_enough() const { return map_.engine().work() - begun_at_ >= patience_.work; }
 
 bool Approach::is_time_to_tell() const {
@@ -115,26 +116,27 @@ bool Approach::is_time_to_tell() const {
   return passed_ >= patience_.periods || is_followed_enough();
 }
 
-/// The motion has come back to rounding; after one forcing period whether the orbit attracts is not asked.
+/// The orbit, if the motion has come back within rounding. After one forcing period it need not attract.
 std::optional<Orbit> Approach::closed(const State& state) {
   const int periods = recurrence_.shortest((has_past_ ? 1.0 : 10.0) * options_.tolerance);
   if (periods == 0 || (periods > 1 && (motions_ != Motions::may_part || passed_ < next_closing_)))
     return std::nullopt;
-  // A motion that depends on its past has no state that could be displaced.
+  // The state of a motion that depends on its past cannot be displaced.
   const Monodromy monodromy = has_past_ ? Monodromy::without : Monodromy::with;
   Orbit orbit{solver_.patient_map_over(periods).from(state, monodromy), periods};
-  // It may come back, at a loose tolerance, while it still moves across the border of another mode.
+  // At a loose tolerance it may come back while it still moves across the border to another mode.
   if (!orbit.period.ends_in_its_mode()) return std::nullopt;
-  // An own motion that nothing damps comes back too where the frequencies fit.
+  // An undamped own motion comes back too, if its period fits that of the drive.
   if (periods > 1 && !has_past_ && !(orbit.period.free_radius() < 1.0 - neutral_margin)) {
-    // A motion that winds towards its orbit comes back so period after period: the next look is not at once.
+    // A motion that winds towards its orbit comes back like this in every period: so it is not examined again at
+    // once.
     next_closing_ = passed_ + 1 + passed_ / 8;
     return std::nullopt;
   }
   return orbit;
 }
 
-/// Tells the candidate of the motion, once in each of its periods.
+/// Gives the motion to the candidate, once in each of its periods; true if the motion approaches the candidate.
 bool Approach::has_arrived(const State& state) {
   if (!candidate_ || (passed_ - candidate_->found_at) % candidate_->orbit.period_ratio != 0) return false;
   candidate_->attraction.observe(state);
@@ -146,11 +148,11 @@ bool Approach::has_arrived(const State& state) {
   return false;
 }
 
-/// Over how many forcing periods the motion has come back well enough for Newton's method, for a whole period of
-/// its own: a chance return does not last. 0: over none.
+/// The number of forcing periods after which the motion has come back well enough for Newton's method, for a whole
+/// period of its own: a return by chance does not last as long. 0: none.
 int Approach::worth_trying() {
   int shortest = 0;
-  // Two motions that never part are a motion and itself some periods later: a longer period would not attract.
+  // If two motions never part, the motion and itself some periods later do not: a longer period would not attract.
   const std::size_t longest = motions_ == Motions::may_part ? longest_period : 1;
   for (std::size_t periods = longest; periods >= 1; --periods) {
     const bool back = recurrence_.closure(static_cast<int>(periods)) <= level_[periods];
@@ -160,9 +162,9 @@ int Approach::worth_trying() {
   return shortest;
 }
 
-/// By periods, or by work: the fewer periods there will be the more each of them costs.
+/// Whether a trial is due by periods or by work: if a period takes more work, there will be fewer periods.
 bool Approach::is_due() {
-  // In another mode than a period ago Newton's method has no step.
+  // If the motion is in another mode than a period ago, Newton's method has no step.
   if (!std::isfinite(recurrence_.closure(1))) return false;
   const long spent = map_.engine().work() - begun_at_;
   const bool by_periods = passed_ >= next_trial_;
@@ -191,7 +193,7 @@ void Approach::try_candidate(const State& state) {
   candidate_.emplace(Candidate{std::move(*orbit), std::move(attraction), passed_});
 }
 
-/// Slips that rounding hides are no subharmonic (orbit_account.hpp).
+/// Whether the mass only makes slips below rounding: these are no subharmonic motion (orbit_account.cpp).
 bool Approach::is_at_rest(const Orbit& orbit) {
   SteadyState seen{.period = 2.0 * std::numbers::pi / omega_ * orbit.period_ratio,
                    .period_ratio = orbit.period_ratio,
@@ -201,13 +203,13 @@ bool Approach::is_at_rest(const Orbit& orbit) {
   return seen.peak == seen.trough;
 }
 
-/// The orbit of a candidate from the first of its periods on that begins with the motion at t = 0.
+/// The orbit of a candidate, moved on so that its period begins as the motion's periods do, at t = 0.
 Orbit Approach::at_start(const Candidate& candidate) {
   const int ratio = candidate.orbit.period_ratio;
   return solver_.later(candidate.orbit, (ratio - candidate.found_at % ratio) % ratio);
 }
 
-/// The time is over, and the motion has come nearer to an orbit all along.
+/// The candidate, if the limit of periods is reached and the motion has come nearer to it up to then.
 std::optional<Orbit> Approach::nearly_there(SteadyState& result) {
   if (!candidate_ || growth_.is_endless()) return std::nullopt;
   const Attraction& attraction = candidate_->attraction;
@@ -217,8 +219,8 @@ std::optional<Orbit> Approach::nearly_there(SteadyState& result) {
   return at_start(*candidate_);
 }
 
-/// Mean logarithmic growth of a perturbation in one forcing period: the largest Lyapunov exponent, nearly. The
-/// first half is left out: a position that drifts with a speed grows too, but ever more slowly.
+/// Mean logarithmic growth of a perturbation in one forcing period: approximately the largest Lyapunov exponent.
+/// The first half is left out, because a position that drifts grows too, but ever more slowly.
 double Approach::divergence(const State& state) {
   PeriodMap& map = solver_.patient_map_over(1);
   map.limit(map.engine().work() + patience_.work / 4);
@@ -240,11 +242,11 @@ double Approach::divergence(const State& state) {
   return std::accumulate(growth.begin(), growth.end(), 0.0) / static_cast<double>(growth.size());
 }
 
-/// Why integrating the motion found no orbit. Without numbers of one point, so that many can share a reason.
+/// Why the integration found no orbit. The text has no numbers of one point, so that many points share a reason.
 core::Outcome Approach::failure() const {
   if (growth_.has_grown()) {
     return {core::OutcomeKind::no_steady_state,
-            "no steady state: the amplitude still grows; damping limits it far out or not at all"};
+            "no steady state: the amplitude still grows; damping limits it at a much larger amplitude, or never"};
   }
   if (divergence_ > diverging) {
     return {core::OutcomeKind::no_steady_state,
@@ -257,10 +259,9 @@ core::Outcome Approach::failure() const {
                 " forcing periods, and it has so many events or steps in each that it is followed no longer"};
   }
   if (motions_ == Motions::meet_sliding) {
-    return {
-        core::OutcomeKind::no_steady_state,
-        "no steady state found: there is one, but the motion creeps towards it too slowly, or it moves the mass by "
-        "hardly more than rounding"};
+    return {core::OutcomeKind::no_steady_state,
+            "no steady state found: there is one, but the motion approaches it too slowly, or the mass moves by "
+            "hardly more than rounding"};
   }
   const std::string after = " after " + std::to_string(passed_) + " forcing periods";
   if (recurrence_.closure(1) < creeping) {

@@ -2,8 +2,8 @@
 /// The orbit that the motion from the initial state approaches, found by integrating that motion.
 ///
 /// Once the motion nearly comes back after one forcing period, or after up to 64, Newton's method on the map over
-/// as many periods finds the orbit near it. The motion goes on until it shows that it approaches this orbit
-/// (`attraction.hpp`) or another one. So the answer is the orbit that an integration for ever would end on.
+/// as many periods finds an orbit near it. The motion goes on until it shows that it approaches this orbit
+/// (`attraction.hpp`) or another one. So the result is the orbit that the motion approaches without end.
 
 #include <array>
 #include <optional>
@@ -22,13 +22,14 @@ namespace dualdamp::sim {
 
 class Approach {
  public:
-  /// `map`: of one forcing period; `solver`: of the same model; `motions`: whether several orbits are looked for.
+  /// `map`: over one forcing period; `solver`: for the same model; `motions`: whether several orbits may attract.
   Approach(const Model& model, const SteadyStateOptions& options, PeriodMap& map, OrbitSolver& solver,
            Motions motions);
 
-  /// Counts the periods in `result`, adds warnings to it, or says why there is no orbit.
+  /// The orbit. Adds the number of periods and warnings to `result`, or sets its outcome to the reason why there is
+  /// none.
   [[nodiscard]] std::optional<Orbit> find(SteadyState& result);
-  /// Orbits that attract but not this motion.
+  /// Orbits that attract other motions, not this one.
   [[nodiscard]] const std::vector<Orbit>& others() const { return others_; }
 
  private:
@@ -56,23 +57,23 @@ class Approach {
   SteadyStateOptions options_;
   double omega_;
   PeriodMap& map_;
-  OrbitSolver& solver_;  ///< for attempts beside the motion
+  OrbitSolver& solver_;  ///< for attempts to find an orbit near the motion
   Motions motions_;
   bool has_past_;
   Recurrence recurrence_;
   Growth growth_;
   std::array<double, longest_period + 1> level_;  ///< closure over n periods at which Newton's method is tried next
-  std::array<int, longest_period + 1> streak_{};  ///< for how many periods it has closed so well
+  std::array<int, longest_period + 1> streak_{};  ///< number of periods in a row that closed so well
   std::optional<Candidate> candidate_;
   std::vector<Orbit> others_;
   long passed_ = 0;  ///< forcing periods since the start
   Patience patience_;
-  long begun_at_;          ///< work of the engine before
-  long next_trial_;        ///< when Newton's method is tried whatever the closure
-  long next_trial_work_;   ///< likewise, by the work of the motion
-  long next_closing_ = 0;  ///< when a motion that has come back over several periods is looked at again
+  long begun_at_;          ///< work of the engine before this motion
+  long next_trial_;        ///< number of periods at which Newton's method is tried whatever the closure
+  long next_trial_work_;   ///< the same as work of the motion
+  long next_closing_ = 0;  ///< when a motion that came back over several periods is examined again
   double divergence_ = 0.0;
-  bool is_told_ = false;  ///< divergence_ was asked for
+  bool is_told_ = false;  ///< divergence_ has been computed
 };
 
 }  // namespace dualdamp::sim

@@ -39,8 +39,8 @@ Attraction::Attraction(const ForcingPeriod& orbit, double omega, double resoluti
   root_ = sum_of_powers(monodromy_).llt().matrixU();
 }
 
-/// Scaled, of the free coordinates; empty where the motion is in another mode, or what the orbit leaves as it is
-/// stands elsewhere.
+/// The scaled deviation of the free coordinates. Empty if the motion is in another mode, or if a coordinate that
+/// the orbit never changes has another value.
 VectorXd Attraction::from_orbit(const State& state) const {
   if (!are_comparable(state, orbit_)) return {};
   const VectorXd all = (coordinates(state) - coordinates(orbit_)).cwiseQuotient(scale_);
@@ -54,7 +54,7 @@ VectorXd Attraction::from_orbit(const State& state) const {
 void Attraction::observe(const State& state) {
   const VectorXd now = from_orbit(state);
   const bool comparable = now.size() > 0 && last_.size() > 0;
-  // At v = 0 the direction is a state of its own: friction jumps there.
+  // At v = 0 the mode must be the same too, because friction jumps there.
   const bool there = now.size() > 0 && now.norm() <= resolution_ && same_mode(state, orbit_);
   bool closer = false;
   if (comparable && !there) {

@@ -1,15 +1,15 @@
 #pragma once
-/// Whether a motion approaches an orbit, told from the motion itself.
+/// Decides from a motion whether it approaches an orbit.
 ///
 /// Newton's method finds an orbit near the motion, but not always the one that the motion approaches. Let d be the
-/// motion's deviation from the orbit, once every period, M the orbit's monodromy matrix with all Floquet
+/// motion's deviation from the orbit, once in each period. Let M be the orbit's monodromy matrix, with all Floquet
 /// multipliers inside the unit circle, and
 ///
 ///   P = sum_k (M^T)^k M^k,   |d|_P^2 = d^T P d,   so that   |M d|_P^2 = |d|_P^2 - |d|^2:
 ///
-/// in this norm the linear motion approaches the orbit with every period. The motion itself does where it departs
-/// from the linear one by less than half of that gain. This is asked of several periods in a row; as the departure
-/// is of second order in d, what holds there holds better and better from there on.
+/// In this norm the linear motion approaches the orbit in every period. The motion itself does so too if it differs
+/// from the linear one by less than half of this gain. The condition must hold in several periods in a row. The
+/// difference is of second order in d, so it becomes ever smaller beside the gain as the motion approaches.
 
 #include <Eigen/Core>
 
@@ -19,16 +19,16 @@ namespace dualdamp::sim {
 
 class Attraction {
  public:
-  /// `orbit`: a period of the orbit with its monodromy matrix; `resolution`: relative to the size of the motion,
-  /// deviations below it are none.
+  /// `orbit`: a period of the orbit with its monodromy matrix; `resolution`: a smaller deviation, relative to the
+  /// size of the motion, counts as zero.
   Attraction(const ForcingPeriod& orbit, double omega, double resolution);
 
-  /// Of the motion one period after the last call (or at first).
+  /// Takes the state of the motion one period after that of the last call.
   void observe(const State& state);
 
-  /// So many periods in a row brought the motion closer as they should.
+  /// Whether enough periods in a row brought the motion closer by the condition above.
   [[nodiscard]] bool approaches() const { return approaching_ >= enough_; }
-  /// The motion is farther than it was: it approaches something else.
+  /// Whether the motion is twice as far away as it has been: it approaches something else.
   [[nodiscard]] bool leaves() const { return deviation_ > 2.0 * nearest_; }
   /// Deviation now, and the first one, in the norm above.
   [[nodiscard]] double deviation() const { return deviation_; }
@@ -42,7 +42,7 @@ class Attraction {
 
   State orbit_;
   double resolution_;
-  std::vector<Eigen::Index> free_;  ///< coordinates that the orbit does not leave as they are
+  std::vector<Eigen::Index> free_;  ///< coordinates that a period of the orbit changes
   Eigen::VectorXd scale_;           ///< of all coordinates
   Eigen::MatrixXd monodromy_;       ///< scaled, of the free coordinates
   Eigen::MatrixXd root_;            ///< P = root^T root

@@ -23,7 +23,7 @@ State state_at(double x, double v, const Model& model) {
   return state;
 }
 
-/// The first harmonic of an oscillator with a cubic spring. `w`: elongation x - y of the spring.
+/// Harmonic balance of an oscillator with a cubic spring, for the elongation x - y of the spring.
 class HarmonicBalance {
  public:
   explicit HarmonicBalance(const Model& model) : o_(model.oscillator), omega_(model.excitation.frequency) {
@@ -39,7 +39,8 @@ class HarmonicBalance {
     }
   }
 
-  /// Largest amplitudes first, where the balance holds, or nearly: it is no exact condition near a fold.
+  /// States at the amplitudes, the largest first, at which the balance holds or nearly holds: near a fold it is not
+  /// an exact condition.
   [[nodiscard]] std::vector<State> states(const Model& model) const {
     constexpr int cells = 2000;
     constexpr double nearly = 0.2;
@@ -87,8 +88,8 @@ class HarmonicBalance {
   double friction_ = 0.0;  ///< N
 };
 
-/// Where the orbit would be that never sticks, with the static limits lowered to the kinetic ones; a guess for
-/// both engines.
+/// A guess for the orbit that never sticks: the one with the static limits lowered to the kinetic ones. For both
+/// engines.
 std::optional<State> sliding_start(Model model) {
   model.solver.kind = SolverKind::automatic;
   std::optional<OscillatorBatch> batch = batch_of(model, 1);
@@ -98,7 +99,8 @@ std::optional<State> sliding_start(Model model) {
   return orbit ? start_of(*orbit, model) : std::nullopt;
 }
 
-/// The model mirrored in x = 0, half a forcing period later: the same where the model is its own mirror image.
+/// The model mirrored in x = 0, with the drive half a forcing period later: the mirrored motion obeys the same
+/// equations if the model is its own mirror image.
 Model mirrored(const Model& model) {
   Model mirror = model;
   mirror.initial = {-model.initial.position, -model.initial.velocity};

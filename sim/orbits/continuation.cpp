@@ -18,10 +18,10 @@ using Eigen::VectorXd;
 
 namespace {
 
-/// Of the sequence, between two points of a branch.
+/// Most changes of the sequence between two points of a branch that are located.
 constexpr int most_changes = 64;
 
-/// b is a, perhaps begun elsewhere in the forcing period.
+/// Whether b is a, perhaps with another start in the forcing period.
 bool same_sequence(const std::vector<EventKind>& a, const std::vector<EventKind>& b) {
   if (a.size() != b.size()) return false;
   std::vector<EventKind> twice = a;
@@ -34,8 +34,7 @@ ChangeKind kind_of(const SteadyState& before, const SteadyState& after) {
   return before.stops_per_cycle != after.stops_per_cycle ? ChangeKind::stops : ChangeKind::sequence;
 }
 
-/// How orbits cease to attract, or begin to: by the Floquet multiplier nearest to the unit circle on the side that
-/// attracts.
+/// The kind of a change of stability, by the Floquet multiplier nearest to the unit circle of the attracting orbit.
 ChangeKind crossing_of(const SteadyState& a, const SteadyState& b) {
   const SteadyState& attracting = a.stable() ? a : b;
   std::complex<double> nearest = 0.0;
@@ -70,7 +69,7 @@ void Continuation::add_change(ChangeKind kind, const BranchPoint& before, const 
   const double near = 4.0 * options_.location * std::max(std::abs(from_), std::abs(to_));
   const bool one = !branch_.changes.empty() && kind != ChangeKind::end && branch_.changes.back().kind == kind &&
                    std::abs(branch_.changes.back().parameter - after.parameter) <= near;
-  if (one) {  // two steps of one change, both halves of the forcing period
+  if (one) {  // one change in two steps: one in each half of the forcing period
     branch_.changes.back().stops_after = after.state.stops_per_cycle;
     branch_.changes.back().stable_after = after.state.stable();
     return;
@@ -80,7 +79,7 @@ void Continuation::add_change(ChangeKind kind, const BranchPoint& before, const 
                              after.state.stable()});
 }
 
-/// Brings `low` and `high` together in the parameter to where `changed` tells a point from `low`.
+/// Bisects the parameter between `low` and `high` to the place at which `changed` becomes true.
 template <class Changed>
 void Continuation::bisect(BranchPoint& low, BranchPoint& high, const State& guess, const Changed& changed) const {
   const double scale = std::max(std::abs(from_), std::abs(to_));
@@ -94,7 +93,7 @@ void Continuation::bisect(BranchPoint& low, BranchPoint& high, const State& gues
   }
 }
 
-/// Every place between a point and the newest one where the sequence changes.
+/// Locates every change of the sequence between the last point and the new one.
 void Continuation::locate_sequences(const Node& before, const BranchPoint& last) {
   BranchPoint low = branch_.points.back();
   for (int changes = 0; !same_sequence(low.state.sequence, last.state.sequence); ++changes) {
@@ -112,8 +111,8 @@ void Continuation::locate_sequences(const Node& before, const BranchPoint& last)
   }
 }
 
-/// Where orbits begin or cease to attract between a point and the newest one; nothing where the sequence changes
-/// just there, for that is listed.
+/// Locates the place between the last point and the new one at which orbits begin or cease to attract. If the
+/// sequence changes at the same place, that change is listed already and only gets the stability.
 void Continuation::locate_stability(const Node& before, const BranchPoint& last) {
   BranchPoint low = branch_.points.back();
   BranchPoint high = last;
@@ -132,14 +131,15 @@ void Continuation::locate_stability(const Node& before, const BranchPoint& last)
   add_change(kind, low, high);
 }
 
-/// The tangent has no part along the parameter at a fold: bisection along the branch.
+/// Locates a fold by bisection along the branch: there the tangent has no part along the parameter.
 void Continuation::locate_fold(const Node& before, const Node& after) {
   Node low = before;
   Node high = after;
   double step = (coordinates(after.period.begin) - coordinates(before.period.begin)).norm() > 0.0
                     ? options_.largest_step
                     : options_.smallest_step;
-  // Near a fold the parameter is a parabola of the way along the branch: equal parameters do not tell how near.
+  // Near a fold the parameter is a parabola in the length along the branch: the distance from the fold goes with
+  // the square root of the parameter's change.
   const double near = std::sqrt(options_.location);
   while (step > near) {
     step *= 0.5;
@@ -152,7 +152,7 @@ void Continuation::locate_fold(const Node& before, const Node& after) {
   add_change(ChangeKind::fold, describe(low), describe(high));
 }
 
-/// Adds the point `after` and all that changed on the way to it.
+/// Adds the point `after` and all changes between `before` and it.
 void Continuation::record(const Node& before, const Node& after) {
   BranchPoint point = describe(after);
   const BranchPoint& last = branch_.points.back();
@@ -169,9 +169,9 @@ void Continuation::record(const Node& before, const Node& after) {
   branch_.points.push_back(std::move(point));
 }
 
-/// A point on a part of the branch that was passed before: between two of its points.
+/// Whether a point lies on a part of the branch that was passed before: between two of its points.
 bool Continuation::was_passed(const Node& node) const {
-  constexpr double on_it = 0.05;  // of the distance of the two points
+  constexpr double on_it = 0.05;  // of the distance between the two points
   const auto place = [&](double parameter, const State& state) {
     const VectorXd size = scale(node);
     return Eigen::Vector3d(state.x / size[0], state.v / size[1], parameter / parameter_scale(node.parameter));
@@ -214,7 +214,7 @@ Branch Continuation::run() {
     }
     const bool left = !inside(next->parameter);
     if (left) {
-      // The last point lies exactly on the end of the range.
+      // The last point is put exactly at the end of the range.
       const double edge = std::abs(next->parameter - from_) < std::abs(next->parameter - to_) ? from_ : to_;
       std::optional<Node> last = orbit(edge, node.period.begin);
       if (!last)

@@ -1,13 +1,13 @@
 #pragma once
 /// Continuation: a branch of steady states over amplitude or frequency, by pseudo-arc-length (keller1977).
 ///
-/// Unknowns are the start of the orbit and the parameter; each step predicts along the branch's tangent and
-/// corrects by Newton's method on the period map, so that folds are passed and unstable orbits found. The engine
-/// finds the sequence of sticks and slips at each point anew. Where it changes the monodromy matrix jumps; the
-/// place is then located by bisection and is a result of its own.
+/// The unknowns are the start of the orbit and the parameter. Each step predicts along the branch's tangent and
+/// corrects by Newton's method on the period map, so folds are passed and unstable orbits are found. The engine
+/// finds the sequence of sticks and slips again at each point. Where the sequence changes, the monodromy matrix
+/// jumps; the place is located by bisection and is a result of its own.
 ///
-/// A branch of a non-smooth system may end: at a place where one of the orbit's own intervals disappears and no
-/// orbit continues the branch (static friction above kinetic). That too is a change, `end`.
+/// A branch of a non-smooth system may end where an interval of the orbit disappears and no orbit continues the
+/// branch (static friction above kinetic). This is a change too, `end`.
 
 #include <string>
 #include <string_view>
@@ -19,18 +19,18 @@
 
 namespace dualdamp::sim {
 
-/// What is varied.
+/// The parameter that is varied.
 enum class BranchParameter { amplitude, frequency };
 
 enum class ChangeKind {
-  sequence,        ///< other events in one period
+  sequence,        ///< the events of one period change
   sticking,        ///< the first stick appears, or the last one goes
   stops,           ///< more or fewer stops in a period
-  fold,            ///< the branch turns back; a Floquet multiplier passes 1 there, which is no change of its own
+  fold,            ///< the branch turns back; a Floquet multiplier passes 1 there, which is not listed again
   flip,            ///< a Floquet multiplier passes -1: a motion of twice the period begins
   neimark_sacker,  ///< a complex pair leaves or enters the unit circle: a motion with a second frequency begins
-  stability,  ///< orbits begin or cease to attract otherwise: a Floquet multiplier passes 1 where nothing turns, or
-              ///< jumps
+  stability,  ///< orbits begin or cease to attract otherwise: a Floquet multiplier passes 1 and the branch does
+              ///< not turn, or it jumps
   end,        ///< no orbit continues the branch
 };
 
@@ -45,8 +45,8 @@ struct BranchPoint {
 struct BranchChange {
   ChangeKind kind = ChangeKind::sequence;
   double parameter = 0.0;
-  double amplitude = 0.0;  ///< of x there [m]
-  int stops_before = 0;    ///< per forcing period
+  double amplitude = 0.0;  ///< of x at the change [m]
+  int stops_before = 0;    ///< in one period of the motion
   int stops_after = 0;
   bool stable_before = false;
   bool stable_after = false;
@@ -56,8 +56,8 @@ struct BranchChange {
 enum class BranchEnd {
   range,   ///< it left the range of the parameter: complete
   orbit,   ///< no orbit continues it
-  points,  ///< it has as many points as it may have
-  edge,    ///< it left the range, but its orbit just on the end of the range was not found
+  points,  ///< it has max_points points
+  edge,    ///< it left the range, but no orbit was found exactly at the end of the range
 };
 
 /// "range", "orbit", "points", "edge".
@@ -66,23 +66,23 @@ enum class BranchEnd {
 struct Branch {
   core::Outcome outcome;  ///< not ok(): there is no orbit at the first value
   BranchEnd end = BranchEnd::range;
-  std::vector<std::string> warnings;  ///< what is missing
+  std::vector<std::string> warnings;  ///< e.g. the branch is not complete
   std::vector<BranchPoint> points;    ///< in order along the branch
   std::vector<BranchChange> changes;  ///< likewise
-  core::SearchCount certificate;      ///< of all searches for events on the way along the branch
+  core::SearchCount certificate;      ///< of all searches for events, those of rejected steps too
 };
 
 struct BranchOptions {
-  double largest_step =
-      0.02;  ///< along the branch, relative to the range of the parameter and the size of the motion
+  double largest_step = 0.02;  ///< relative to the range of the parameter and the size of the motion
   double smallest_step = 1e-6;
   double tolerance = 1e-13;  ///< closure of each orbit
   double location = 1e-9;    ///< of changes, relative to the larger end of the range
   int max_points = 5000;
 };
 
-/// From the steady state at `from`, the one approached from the model's initial state, until the parameter leaves
-/// the range between `from` and `to` (both > 0), the branch ends or max_points are reached.
+/// The branch from the steady state at `from` that the motion from the model's initial state approaches. It is
+/// continued until the parameter leaves the range between `from` and `to` (both > 0), the branch ends, or it has
+/// max_points points.
 [[nodiscard]] Branch continue_branch(const Model& model, BranchParameter parameter, double from, double to,
                                      const BranchOptions& options = {});
 

@@ -14,12 +14,12 @@ using Eigen::VectorXd;
 namespace {
 
 constexpr int max_corrections = 12;
-/// Periods integrated to enter the mode that a predicted state belongs to.
+/// Periods of transient by which a predicted state may enter the mode of its orbit.
 constexpr int settling_periods = 4;
-/// Of the parameter, for the difference that stands for the derivative by it.
+/// Relative change of the parameter for the difference quotient by it.
 constexpr double nudge = 1e-7;
 
-/// Derivative of (end - begin) by the coordinates and the parameter. A slider that never slips stays where it is.
+/// Derivative of (end - begin) by the coordinates and the parameter. A slider that never slips keeps its position.
 MatrixXd closing(const ForcingPeriod& period, const VectorXd& by_parameter) {
   const Index n = period.monodromy.cols();
   MatrixXd system(n, n + 1);
@@ -31,7 +31,7 @@ MatrixXd closing(const ForcingPeriod& period, const VectorXd& by_parameter) {
   return system;
 }
 
-/// What of a tangent all modes have: the parts along x, v and the parameter.
+/// The parts of a tangent that all modes share: along x, v and the parameter.
 Eigen::Vector3d common_part(const VectorXd& tangent) {
   return {tangent[0], tangent[1], tangent[tangent.size() - 1]};
 }
@@ -51,10 +51,10 @@ ForcingPeriod Continuation::period(double parameter, const State& start) const {
   return map.from(start, Monodromy::with);
 }
 
-/// The range may span decades: what happens at its lower end happens within a part of the parameter's value there.
+/// Scale of the parameter. The range may span decades, so at its lower end the scale is the parameter itself.
 double Continuation::parameter_scale(double parameter) const { return std::min(range_, std::abs(parameter)); }
 
-/// Sizes of the coordinates and of the parameter.
+/// Scales of the coordinates and of the parameter.
 VectorXd Continuation::scale(const Node& node) const {
   const VectorXd z = coordinates(node.period.begin);
   const double size = std::max(node.period.size, std::abs(z[1]) / omega(node.parameter));
@@ -64,7 +64,7 @@ VectorXd Continuation::scale(const Node& node) const {
   return result;
 }
 
-/// d(end)/d(parameter), by a difference; none where the nudge meets another mode.
+/// d(end)/d(parameter), by a difference; none if the changed parameter leads to another mode.
 std::optional<VectorXd> Continuation::by_parameter(const Node& node) const {
   for (const double step : {nudge * node.parameter, -nudge * node.parameter}) {
     CountedMap map(at(node.parameter + step), ratio_, count_);
@@ -75,7 +75,7 @@ std::optional<VectorXd> Continuation::by_parameter(const Node& node) const {
   return std::nullopt;
 }
 
-/// Unit tangent, scaled, on the side of `along`.
+/// Unit tangent in scaled coordinates, in the direction of `along`.
 std::optional<VectorXd> Continuation::tangent(const Node& node, const VectorXd& along) const {
   const std::optional<VectorXd> slope = by_parameter(node);
   const Index n = node.period.monodromy.cols();
@@ -102,7 +102,7 @@ std::optional<Node> Continuation::orbit(double parameter, const State& guess) co
   return std::nullopt;
 }
 
-/// Predictor and corrector: (orbit closes, step along the tangent is `step`).
+/// Predictor and corrector: the orbit closes, and the step along the tangent has the length `step`.
 std::optional<Node> Continuation::correct(const Node& from, double step) const {
   const VectorXd size = scale(from);
   const Index n = size.size() - 1;
@@ -134,8 +134,8 @@ std::optional<Node> Continuation::correct(const Node& from, double step) const {
   return std::nullopt;
 }
 
-/// The same where the predicted state lies in another mode than the orbit: the motion itself finds the mode, the
-/// sooner the better, for it leaves an orbit that does not attract.
+/// The same if the predicted state is in another mode than the orbit: a few periods of the motion find the mode.
+/// They must be few, because the motion leaves an orbit that does not attract.
 std::optional<Node> Continuation::cross_modes(const Node& from, double step) const {
   const VectorXd size = scale(from);
   const Index n = size.size() - 1;
@@ -152,10 +152,10 @@ std::optional<Node> Continuation::cross_modes(const Node& from, double step) con
   return std::nullopt;
 }
 
-/// Another branch is not a continuation of this one, nor is a part of it that lies behind: x, v and the parameter,
-/// which all modes have, go on by about a step.
+/// Whether `node` continues the branch: x, v and the parameter, which all modes share, go on by about a step.
+/// Another branch, or a part of this one that lies behind, does not.
 bool Continuation::is_ahead(const Node& from, const Node& node, double step) const {
-  // In steps. Where a branch has a corner, as where a release passes t = 0, the state changes by many small ones.
+  // In steps. At a corner of the branch (a release passes t = 0) the state changes by many small steps.
   const double farthest = step > 16.0 * options_.smallest_step ? 4.0 : 100.0;
   constexpr double least = 0.1;
   const VectorXd size = scale(from);
@@ -167,8 +167,8 @@ bool Continuation::is_ahead(const Node& from, const Node& node, double step) con
   return change.norm() <= farthest * step && change.dot(along) >= least * step * along.norm();
 }
 
-/// Between both points the branch turns by more than its tangents may tell: a tangent has no direction of its own,
-/// so that a step over a bend would turn it round.
+/// Whether the branch turns so far between both points that the direction of the tangent is uncertain: a step over
+/// a bend could reverse it.
 bool Continuation::turns_too_far(const Node& from, const Node& node, const VectorXd& tangent) const {
   constexpr double least = 0.5;  // cosine of the angle
   const VectorXd size = scale(from);
@@ -180,14 +180,14 @@ bool Continuation::turns_too_far(const Node& from, const Node& node, const Vecto
   return tangent.dot(from.tangent) < least || tangent.dot(chord) < least || from.tangent.dot(chord) < least;
 }
 
-/// The next point, with its tangent; shortens `step` as needed. None: the branch ends.
+/// The next point with its tangent; halves `step` as often as needed. None: the branch ends.
 std::optional<Node> Continuation::advance(const Node& from, double& step) const {
   for (; step >= options_.smallest_step; step *= 0.5) {
     std::optional<Node> node = correct(from, step);
     if (!node) node = cross_modes(from, step);
     if (!node) continue;
     const Index n = node->period.monodromy.cols();
-    // Across modes of different size the old tangent says only which way the parameter went.
+    // Between modes with different states the old tangent only gives the direction of the parameter.
     const double sense = from.tangent[from.tangent.size() - 1] < 0.0 ? -1.0 : 1.0;
     const bool alike = same_mode(from.period.begin, node->period.begin);
     const VectorXd along = alike ? from.tangent : VectorXd(sense * VectorXd::Unit(n + 1, n));

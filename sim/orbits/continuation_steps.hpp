@@ -1,6 +1,6 @@
 #pragma once
-/// Steps of a continuation along its branch (`continuation.hpp`): from one orbit to the next, in whatever mode it
-/// is.
+/// Steps of a continuation along its branch (`continuation.hpp`): from one orbit to the next, also into another
+/// mode.
 
 #include <Eigen/Core>
 #include <optional>
@@ -11,14 +11,14 @@
 
 namespace dualdamp::sim {
 
-/// A point with what the next step needs.
+/// A point of the branch with the data for the next step.
 struct Node {
   double parameter = 0.0;
   ForcingPeriod period;
   Eigen::VectorXd tangent;  ///< scaled: coordinates, then the parameter; empty before the first step
 };
 
-/// A period map whose searches count for a branch.
+/// A period map that adds its searches to the count of a branch.
 class CountedMap : public PeriodMap {
  public:
   CountedMap(const Model& model, int periods, core::SearchCount& total)
@@ -78,7 +78,7 @@ class Continuation {
   double range_;
   int ratio_ = 1;  ///< forcing periods in a period of the motion
   Branch branch_;
-  mutable core::SearchCount count_;  ///< of all maps, those of attempts included
+  mutable core::SearchCount count_;  ///< of all maps, including failed attempts
 };
 
 }  // namespace dualdamp::sim

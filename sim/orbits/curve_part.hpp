@@ -1,5 +1,5 @@
 #pragma once
-/// Points of a curve with what is said about them: one part is filled by one thread, and all are merged in order.
+/// Points of a curve with their remarks. One thread fills one part; the parts are merged in order.
 
 #include <cstddef>
 #include <cstdint>
@@ -34,10 +34,10 @@ class Remarks {
 class CurvePart {
  public:
   void take(const SlidingOrbit& orbit, const SteadyStateOptions& options, CurvePoint& point);
-  /// `index`: of the point in the curve.
+  /// Fills `point` from `state`. `index`: of the point in the curve.
   void take(const SteadyState& state, CurvePoint& point, std::size_t index);
 
-  /// `points` are those of this part.
+  /// Adds the remarks of this part to the curve. `points`: those of this part.
   void merge_into(Curve& curve, std::span<CurvePoint> points, Remarks& remarks);
 
  private:

@@ -12,8 +12,8 @@ namespace dualdamp::sim {
 
 namespace {
 
-/// What packs find of these points; nothing where the model is none for them, or closure is to be better than
-/// theirs.
+/// The orbits of these points that packs find. Empty if packs cannot compute the model, or if the tolerance is
+/// below their closure.
 std::vector<std::optional<SlidingOrbit>> in_packs(const Model& model, const SteadyStateOptions& options, int width,
                                                   std::span<const CurvePoint> points) {
   std::optional<OscillatorBatch> batch = batch_of(model, points.size());
@@ -23,7 +23,7 @@ std::vector<std::optional<SlidingOrbit>> in_packs(const Model& model, const Stea
   return sliding_orbits(*batch, width);
 }
 
-/// Consecutive points, done by one thread; `first`: index of the first point.
+/// Computes consecutive points on one thread; `first`: index of the first point.
 void compute(Model model, const SteadyStateOptions& options, int width, std::span<CurvePoint> points,
              std::size_t first, CurvePart& part) {
   const std::vector<std::optional<SlidingOrbit>> orbits = in_packs(model, options, width, points);
@@ -38,10 +38,10 @@ void compute(Model model, const SteadyStateOptions& options, int width, std::spa
   }
 }
 
-/// Fills in points that have their `omega` and `Y`.
+/// The curve of points whose `omega` and `Y` are given.
 Curve computed(const Model& model, std::vector<CurvePoint> points, const SteadyStateOptions& options,
                const BatchOptions& batch) {
-  // Points for packs take a microsecond each, the others up to some ten milliseconds.
+  // A point in a pack takes a microsecond, another point up to some ten milliseconds.
   const std::size_t chunk_size = batch_of(model, 1) ? 64 : 4;
   const std::span<CurvePoint> all(points);
   std::vector<CurvePart> parts((points.size() + chunk_size - 1) / chunk_size);
@@ -60,7 +60,7 @@ Curve computed(const Model& model, std::vector<CurvePoint> points, const SteadyS
   return curve;
 }
 
-/// Checks the model and what takes the place of its excitation's frequency and amplitude.
+/// Checks the model, and the frequencies and amplitudes that replace those of its excitation.
 void check(Model model, std::span<const double> frequencies, std::span<const double> amplitudes,
            std::string_view analysis) {
   require_in(positive, "analysis.frequencies", frequencies, "rad/s");
@@ -70,7 +70,7 @@ void check(Model model, std::span<const double> frequencies, std::span<const dou
   valid_harmonic(model, analysis);
 }
 
-/// For points without a phase.
+/// Options for points without a phase.
 SteadyStateOptions brief(SteadyStateOptions options) {
   options.full_account = false;
   return options;

@@ -1,10 +1,10 @@
 #pragma once
 /// Many steady states of one model: output amplitude over input amplitude, over frequency, and over both.
 ///
-/// Points are computed in parallel; each starts anew from the model's initial state and depends on its own numbers
-/// only, so that results are the same for every number of threads. Points of a model that batches know
-/// (`sim/batch/batch.hpp`) are tried in packs first: those that do not stick cost about 0.1 us there, and differ
-/// from `steady_state` by rounding. Every other point is one `steady_state`. Memory: 48 bytes a point.
+/// Points are computed in parallel. Each starts from the model's initial state and depends on its own numbers only,
+/// so results are the same for every number of threads. If batches can compute the model (`sim/batch/batch.hpp`),
+/// its points are tried in packs first: points that do not stick cost about 0.1 us there and differ from
+/// `steady_state` by rounding. Every other point is one `steady_state`. Memory: 48 bytes a point.
 
 #include <cstddef>
 #include <cstdint>
@@ -17,7 +17,7 @@
 
 namespace dualdamp::sim {
 
-/// What the mass does in a steady state.
+/// Kinds of steady states by the rests of the mass.
 enum class Regime {
   no_steady_state,
   never_moves,
@@ -28,16 +28,16 @@ enum class Regime {
 /// "no steady state", "never moves", "rests", "slides through".
 [[nodiscard]] std::string_view name(Regime regime);
 
-/// One steady state. Where there is none only `omega` and `Y` mean something.
+/// One steady state. If there is none, only `omega` and `Y` are valid.
 struct CurvePoint {
   double omega = 0.0;  ///< rad/s
   double Y = 0.0;      ///< m (base) or N (force)
   double x = 0.0;      ///< output amplitude (peak - trough)/2 [m]
   double phase = 0.0;  ///< lag of x's fundamental [rad], in [0, 2 pi); of a frequency response only
-  int stops = 0;       ///< stops per forcing period
+  int stops = 0;       ///< stops in one period of the motion
   int sticks = 0;      ///< sticks in a period; in a regime map also rests judged by speed (`SteadyState::rests`)
   bool stable = false;
-  std::uint32_t reason = 0;  ///< 0: there is a steady state; else why not, an index into `Curve::reasons`
+  std::uint32_t reason = 0;  ///< 0: there is a steady state; else an index into `Curve::reasons`
 
   [[nodiscard]] bool ok() const { return reason == 0; }
   [[nodiscard]] Regime regime() const {
@@ -47,7 +47,7 @@ struct CurvePoint {
   }
 };
 
-/// What was said about some of the points.
+/// A reason or warning that some of the points have.
 struct Remark {
   std::string text;
   std::size_t first = 0;  ///< index of the first point
@@ -56,22 +56,22 @@ struct Remark {
 
 struct Curve {
   std::vector<CurvePoint> points;
-  std::vector<std::string> reasons = {""};  ///< distinct reasons for points without numbers; the first is none
-  std::vector<Remark> remarks;              ///< reasons and warnings by first appearance
+  std::vector<std::string> reasons = {""};  ///< distinct reasons for points without numbers; the first is empty
+  std::vector<Remark> remarks;              ///< reasons and warnings in order of first appearance
   core::SearchCount certificate;            ///< of all points together
 
   [[nodiscard]] const std::string& reason(const CurvePoint& point) const { return reasons[point.reason]; }
 };
 
-/// The model's excitation amplitude is replaced by each of `amplitudes` [m or N] in turn.
+/// Steady states over input amplitude: `amplitudes` [m or N] replace the amplitude of the model's excitation.
 [[nodiscard]] Curve xy_curve(const Model& model, const std::vector<double>& amplitudes,
                              const SteadyStateOptions& options = {}, const BatchOptions& batch = {});
 
-/// The model's excitation frequency is replaced by each of `frequencies` [rad/s] in turn.
+/// Steady states over frequency: `frequencies` [rad/s] replace the frequency of the model's excitation.
 [[nodiscard]] Curve frequency_response(const Model& model, const std::vector<double>& frequencies,
                                        const SteadyStateOptions& options = {}, const BatchOptions& batch = {});
 
-/// Both are replaced: all amplitudes at the first frequency, then at the next.
+/// Steady states over both: all amplitudes at the first frequency, then at the next.
 [[nodiscard]] Curve regime_map(const Model& model, const std::vector<double>& frequencies,
                                const std::vector<double>& amplitudes, const SteadyStateOptions& options = {},
                                const BatchOptions& batch = {});

@@ -1,10 +1,11 @@
 #pragma once
-/// Tells growth without end from growth that slows down and from beats.
+/// Distinguishes growth without end from growth that slows down and from beats.
 ///
-/// Asked at 500, 1000, 2000, ... periods: an amplitude grows on when it gained 1.7 times as much over the last
-/// doubling of time, n to 2 n, as over the one before; 2 is in proportion to time. One that tends to its end as
-/// 1 - exp(-n/tau) or as tanh(n/tau) gains so much for n below tau/4.5 or tau/3.4 only, and would not settle within
-/// 20,000 periods from there. One that beats was larger before.
+/// It decides after 500, 1000, 2000, ... periods. An amplitude grows without end if it gained 1.7 times as much
+/// over the last doubling of time, n to 2 n, as over the doubling before; growth in proportion to time gains 2
+/// times as much. An amplitude that tends to a limit as 1 - exp(-n/tau) or as tanh(n/tau) gains 1.7 times as much
+/// only for n below tau/4.5 or tau/3.4, and would then not settle within 20,000 periods. A beating amplitude has
+/// been larger before.
 
 #include <algorithm>
 
@@ -12,7 +13,7 @@ namespace dualdamp::sim {
 
 class Growth {
  public:
-  /// Once a period, with the largest |x| in it [m].
+  /// Takes the largest |x| of the next period [m].
   void observe(double amplitude) {
     const int period = period_++;
     (period < half_ ? first_half_ : second_half_) =
@@ -25,25 +26,25 @@ class Growth {
     next_ *= 2;
     constexpr double gained_more = 1.7;
     constexpr double beating = 0.9;
-    constexpr double at_least = 0.1;  // of the amplitude; 1/2 in proportion to time
+    constexpr double at_least = 0.1;  // of the amplitude; growth in proportion to time gains 1/2
     const double gain = amplitude < beating * largest_ ? 0.0 : amplitude - last_;
     goes_on_ = gain_ > 0.0 && gain > gained_more * gain_ && gain > at_least * amplitude;
     gain_ = last_ > 0.0 ? gain : 0.0;
     last_ = amplitude;
   }
 
-  /// `periods`: how many there will be at most.
+  /// `periods`: largest number of periods.
   explicit Growth(int periods) : half_(periods / 2) {}
 
-  /// Nothing slows it down, or it has left all bounds.
+  /// Whether growth does not slow down, or the amplitude is beyond all bounds.
   [[nodiscard]] bool is_endless() const { return goes_on_ || runs_away_; }
-  /// The motion grew all along.
+  /// Whether the motion grew up to the end.
   [[nodiscard]] bool has_grown() const {
     return is_endless() || second_half_ > 1.5 * first_half_ || last_seen_ > 1.5 * first_half_;
   }
 
  private:
-  /// Growth over the first period's motion that counts as growth without bound.
+  /// An amplitude that is this many times that of the first period is beyond all bounds.
   static constexpr double runaway = 1e9;
 
   int half_;

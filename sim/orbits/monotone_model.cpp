@@ -14,7 +14,7 @@ namespace {
 /// Relative rounding of a law's force.
 constexpr double rounding = 1e-12;
 
-/// The forces with which the law can hold the mass lie between those of the slips backward and forward.
+/// Whether the forces with which the law can hold the mass lie between those of slips backward and forward.
 bool holds_between(const Law& law, const Instant& at) {
   const double middle = law.force({}, at, Direction::none);
   const double limit = law.static_limit({}, at);
@@ -24,7 +24,7 @@ bool holds_between(const Law& law, const Instant& at) {
          middle - limit >= backward - rounding * std::abs(backward);
 }
 
-/// F never falls as v grows from 0 in this direction.
+/// Whether F never falls as v grows from 0 in this direction.
 bool rises_with_speed(const Law& law, double t, Direction direction) {
   constexpr double slowest = 1e-12;  // m/s
   constexpr double fastest = 1e9;

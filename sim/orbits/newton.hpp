@@ -1,5 +1,5 @@
 #pragma once
-/// Newton's method on the period map: end = begin.
+/// Newton's method on the period map, for end = begin of a period.
 
 #include "sim/orbits/period_map.hpp"
 
@@ -7,24 +7,24 @@ namespace dualdamp::sim {
 
 struct NewtonOptions {
   double omega = 0.0;      ///< rad/s
-  double tolerance = 0.0;  ///< closure that is asked for
-  double rounding = 0.0;   ///< closure that counts when corrections have sunk into rounding
+  double tolerance = 0.0;  ///< closure to reach
+  double rounding = 0.0;   ///< closure that is enough once rounding limits the corrections
   int most_steps = 60;
-  int most_transients = 60;  ///< periods of transient in place of steps that do not help
+  int most_transients = 60;  ///< most periods of transient that replace steps that do not help
 };
 
 struct NewtonResult {
   bool found = false;
   int steps = 0;
-  int transient_periods = 0;  ///< of the map: as many forcing periods as it passes
+  int transient_periods = 0;  ///< counted in periods of the map
 };
 
-/// Size of the correction that Newton's method would take, relative to the motion: how well the orbit is known.
-/// Infinite when the monodromy matrix gives none, as in a continuum.
+/// Size of the next correction of Newton's method, relative to the motion: the error of the orbit. Infinite if the
+/// monodromy matrix gives no correction, as in a continuum.
 [[nodiscard]] double correction_left(const ForcingPeriod& period, double omega);
 
-/// From `period`, which has its monodromy matrix, to an orbit. A step that does not bring the orbit closer is
-/// replaced by a period of transient.
+/// Changes `period`, which needs its monodromy matrix, to an orbit. A period of transient replaces a step that does
+/// not bring the orbit closer.
 [[nodiscard]] NewtonResult close_orbit(PeriodMap& map, const NewtonOptions& options, ForcingPeriod& period);
 
 }  // namespace dualdamp::sim

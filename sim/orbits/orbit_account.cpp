@@ -11,7 +11,7 @@ using friction::Direction;
 
 namespace {
 
-/// Of the speed, in a forcing period.
+/// Number of samples of the speed in a forcing period.
 constexpr int samples = 1000;
 
 }  // namespace
@@ -55,8 +55,8 @@ void OrbitAccount::collect_speeds(const Interval& interval) {
   }
 }
 
-/// Times longer than `shortest_rest` of a forcing period at a speed below `rest_speed` times the largest; the
-/// period closes.
+/// Number of times longer than `shortest_rest` of a forcing period at a speed below `rest_speed` times the largest.
+/// The end of the period is joined to its start.
 int OrbitAccount::slow_spans(double period) const {
   if (speeds_.empty()) return 0;
   const double slow = rest_speed * *std::ranges::max_element(speeds_);
@@ -82,16 +82,16 @@ void OrbitAccount::collect_stick(const Interval& interval, double x) {
   }
 }
 
-/// A stick that crosses the period boundary counts once and starts in the period before.
+/// A stick across the end of the period counts once, and starts in the period before.
 void OrbitAccount::join_stick_across_boundary() {
   if (!sticking_ || !sticks_at_start_ || sticks_.size() < 2) return;
   sticks_.back().duration += sticks_.front().duration;
   sticks_.erase(sticks_.begin());
 }
 
-/// A mass that friction comes to hold creeps to its rest for ever: the n-th slip is shorter by a share 3/n than the
-/// one before. Once it is held all the time but for slips that rounding hides it counts as resting. The slips of
-/// several forcing periods add up.
+/// A mass that friction finally holds creeps towards its rest position without end: the n-th slip is shorter than
+/// the one before by the part 3/n. The mass counts as at rest once it sticks all the time except for slips below
+/// rounding. The slips of several forcing periods add up.
 bool OrbitAccount::is_at_rest(double period, int forcing_periods) const {
   constexpr double hidden = 1e-10;  // of the position, in a forcing period
   constexpr double held = 0.99;     // of the period

@@ -1,5 +1,5 @@
 #pragma once
-/// All that a steady state reports of its orbit, collected along one period.
+/// Collects the results of a steady state along one period of its orbit.
 
 #include "sim/motion/observers.hpp"
 #include "sim/orbits/period_map.hpp"
@@ -7,16 +7,16 @@
 
 namespace dualdamp::sim {
 
-/// Watches a period of the motion from its begin: the map hands it every interval.
+/// Observes a period of the motion from its start; the period map calls it for every interval.
 class OrbitAccount final : public PeriodObserver {
  public:
-  /// `full`: phase, largest speed and energy too; `judge_rests`: by speed, where no law holds the mass.
+  /// `full`: with phase, largest speed and energy; `judge_rests`: count rests by speed if no law holds the mass.
   OrbitAccount(const Model& model, bool full, bool judge_rests = false);
 
   void begin(const State& start) override;
   void observe(const Interval& interval, double x) override;
 
-  /// Fills the numbers of `result`, once a period has passed.
+  /// Fills in the numbers of `result` after a period has passed.
   void write(SteadyState& result);
 
  private:
@@ -32,7 +32,7 @@ class OrbitAccount final : public PeriodObserver {
   EnergyAudit energy_;
   Fundamental fundamental_;
   bool judges_speed_ = false;
-  double spacing_ = 0.0;  ///< of the speeds below [s]
+  double spacing_ = 0.0;  ///< of the sampled speeds [s]
   std::vector<double> speeds_;
   double peak_ = 0.0;
   double trough_ = 0.0;
@@ -43,8 +43,8 @@ class OrbitAccount final : public PeriodObserver {
   bool sticking_ = false;  ///< at the end of the last interval
 };
 
-/// Walks along the orbit that begins at `result.start` and fills the other numbers of `result`. `map`: over its
-/// `period_ratio` forcing periods.
+/// Computes the orbit that starts at `result.start` and fills in the other numbers of `result`. `map`: over
+/// `result.period_ratio` forcing periods.
 void account_for_orbit(const Model& model, PeriodMap& map, bool full, SteadyState& result,
                        bool judge_rests = false);
 

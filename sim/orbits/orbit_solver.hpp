@@ -1,5 +1,5 @@
 #pragma once
-/// Orbits that attract, found by Newton's method from a state near one, over one forcing period or several.
+/// Finds orbits that attract by Newton's method from a state near the orbit, over one forcing period or several.
 
 #include <limits>
 #include <memory>
@@ -11,13 +11,13 @@
 
 namespace dualdamp::sim {
 
-/// An orbit with its monodromy matrix, and its period in forcing periods.
+/// An orbit: one period of it with the monodromy matrix, and the period in forcing periods.
 struct Orbit {
   ForcingPeriod period;
   int period_ratio = 1;
 };
 
-/// Orbits nearer to each other than this, relative to their size, are one.
+/// Two orbits whose distance, relative to their size, is below this are the same.
 inline constexpr double same_orbit = 1e-6;
 
 class OrbitSolver {
@@ -25,25 +25,25 @@ class OrbitSolver {
   /// `tolerance`, `rounding`: as in NewtonOptions.
   OrbitSolver(const Model& model, double tolerance, double rounding);
 
-  /// An orbit that attracts, of its shortest period, which divides `periods`.
+  /// An orbit near the state that attracts, with its shortest period, which divides `periods`.
   [[nodiscard]] std::optional<Orbit> near(const State& state, int periods);
-  /// An orbit of one forcing period that moves, near the state or near where the motion from it is some periods
-  /// later: Newton's method from far off may end at a rest, or nowhere.
+  /// An orbit of one forcing period on which the mass moves, near the state or near the motion from it some periods
+  /// later: Newton's method from a distant state may end at a rest, or fail.
   [[nodiscard]] std::optional<Orbit> near_motion_from(State state);
-  /// The orbit from the state on that it reaches after `periods`.
+  /// The same orbit with its start moved on by `periods` forcing periods.
   [[nodiscard]] Orbit later(const Orbit& orbit, long periods);
-  /// Both are met at the same time.
+  /// Whether both are one orbit with the same start.
   [[nodiscard]] bool same(const Orbit& a, const Orbit& b) const;
-  /// The same, perhaps some forcing periods apart.
+  /// Whether both are one orbit, with starts that may be some forcing periods apart.
   [[nodiscard]] bool coincide(const Orbit& a, const Orbit& b);
-  /// A map over so many forcing periods; valid until the next call of any function here.
+  /// A map over this number of forcing periods; valid until the next call of a member function.
   [[nodiscard]] PeriodMap& map_over(int periods);
-  /// The same for an orbit that is known: without a limit of its work.
+  /// The same without a limit of its work, for a known orbit.
   [[nodiscard]] PeriodMap& patient_map_over(int periods);
 
   [[nodiscard]] int newton_steps() const { return newton_steps_; }
   [[nodiscard]] core::SearchCount count() const;
-  /// How much work (`Engine::work`) there may be all in all; beyond it no orbit is found.
+  /// Limits the total work (`Engine::work`); beyond the limit no orbit is found.
   void limit(long work) { most_work_ = work; }
 
  private:
@@ -52,8 +52,8 @@ class OrbitSolver {
   const Model& model_;
   NewtonOptions options_;
   std::unique_ptr<PeriodMap> map_;
-  core::SearchCount searched_;  ///< by maps that are gone
-  long work_ = 0;               ///< of maps that are gone
+  core::SearchCount searched_;  ///< by deleted maps
+  long work_ = 0;               ///< of deleted maps
   int newton_steps_ = 0;
   long most_work_ = std::numeric_limits<long>::max();
 };

@@ -1,16 +1,16 @@
 #pragma once
-/// How long a motion is followed that does not become periodic: by forcing periods, and by the work that this takes
-/// (`Engine::work`), whose amount is the same on every machine. Beyond some five seconds the answer says how far it
-/// came.
+/// How long a motion that does not become periodic is integrated: a limit of forcing periods, and a limit of work
+/// (`Engine::work`), which is the same on every machine. After some five seconds the program gives up, and the
+/// message states the number of forcing periods.
 
 namespace dualdamp::sim {
 
 struct Patience {
-  long periods;  ///< a motion that has not come back after so many is asked whether it is aperiodic
-  long work;     ///< of the motion, and as much again of all attempts beside it
+  long periods;  ///< a motion that has not come back after this many is tested for being aperiodic
+  long work;     ///< of the motion; all attempts to find an orbit near it may take as much again
 };
 
-/// `accuracy`: of the engine, 0 for the exact one.
+/// `accuracy`: Engine::accuracy(), 0 for the exact engine.
 constexpr Patience patience_with(double accuracy) {
   return accuracy > 0.0 ? Patience{1000, 3'000'000} : Patience{8000, 2'000'000};
 }

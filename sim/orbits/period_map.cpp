@@ -21,7 +21,7 @@ double distance(const State& a, const State& b, double size, double omega) {
     const std::vector<double>& before = a.memories[i].state;
     const std::vector<double>& after = b.memories[i].state;
     for (std::size_t k = 0; k < before.size(); ++k) {
-      // A state near zero is one of the motion's size that happens to pass there.
+      // A state near zero may have the size of the motion and pass zero here.
       const double own = std::max({std::abs(before[k]), std::abs(after[k]), scale});
       if (own > 0.0) result = std::max(result, std::abs(after[k] - before[k]) / own);
     }
@@ -34,7 +34,7 @@ bool ForcingPeriod::ends_in_its_mode() const { return same_mode(begin, end); }
 std::vector<std::complex<double>> ForcingPeriod::multipliers() const {
   if (!ends_in_its_mode()) return {};
   if (monodromy.rows() == 2 && monodromy.cols() == 2) {
-    // Without law states there are two: a quadratic equation, without the cost of a general solver.
+    // Without law states there are two eigenvalues: a quadratic equation is cheaper than a general solver.
     const double half_trace = 0.5 * (monodromy(0, 0) + monodromy(1, 1));
     const double half_gap = 0.5 * (monodromy(0, 0) - monodromy(1, 1));
     const std::complex<double> root =
@@ -133,7 +133,7 @@ Eigen::VectorXd newton_step(const ForcingPeriod& period) {
   if (!period.ends_in_its_mode()) return {};
   const Eigen::VectorXd gap = coordinates(period.end) - coordinates(period.begin);
   const Eigen::Index n = gap.size();
-  // A neighbour's matrix, of an orbit that holds in another mode, has other coordinates.
+  // The matrix of a neighbour that sticks in another mode has other coordinates.
   if (period.monodromy.rows() != n || period.monodromy.cols() != n) return {};
   Eigen::MatrixXd system = Eigen::MatrixXd::Identity(n, n) - period.monodromy;
   for (Eigen::Index row = 2; row < n; ++row) {

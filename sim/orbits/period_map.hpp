@@ -1,9 +1,9 @@
 #pragma once
-/// The period map: the state one forcing period later, or several, and the monodromy matrix: the derivative of that
-/// state by the state at the start. Its eigenvalues are the Floquet multipliers.
+/// The period map gives the state one forcing period later, or several, and the monodromy matrix, which is the
+/// derivative of this state by the state at the start. Its eigenvalues are the Floquet multipliers.
 ///
-/// Coordinates of a state are x, v and the states of every law, in this order. A mass at rest at a period boundary
-/// and a law in a mode whose state does not act make the monodromy matrix singular: their Floquet multipliers are
+/// Coordinates of a state are x, v and the states of every law, in this order. The monodromy matrix is singular if
+/// the mass sticks at a period boundary or if a law is in a mode whose state does not act: a Floquet multiplier is
 /// zero.
 
 #include <Eigen/Core>
@@ -19,64 +19,63 @@
 namespace dualdamp::sim {
 
 /// Distance of two states relative to `size` [m], the size of the motion; velocities scaled by omega [rad/s], law
-/// states relative to their own size. Infinite when a law is in another mode.
+/// states relative to their own size. Infinite if a law is in another mode.
 [[nodiscard]] double distance(const State& a, const State& b, double size, double omega);
 
-/// One forcing period, or as many as the map passes: where it starts, where it ends, how the end depends on the
-/// start.
+/// One period of the map, which may be several forcing periods: its start, its end, and the derivative of the end
+/// by the start.
 struct ForcingPeriod {
   State begin;
   State end;
-  Eigen::MatrixXd monodromy;  ///< empty unless asked for
-  double size = 0.0;          ///< largest |x| met [m]
+  Eigen::MatrixXd monodromy;  ///< empty if not computed
+  double size = 0.0;          ///< largest |x| in the period [m]
   bool moves = false;
 
   /// Distance of end and begin.
   [[nodiscard]] double closure(double omega) const { return distance(begin, end, size, omega); }
-  /// It ends in the mode in which it began, so that the monodromy matrix maps displacements to such of the same
-  /// kind.
+  /// Whether it ends in the mode in which it began: the monodromy matrix then maps coordinates to the same
+  /// coordinates.
   [[nodiscard]] bool ends_in_its_mode() const;
-  /// Floquet multipliers; none of a period that ends in another mode.
+  /// Floquet multipliers; empty if the period ends in another mode.
   [[nodiscard]] std::vector<std::complex<double>> multipliers() const;
-  /// The largest modulus of them; infinite when there are none or the monodromy matrix is not finite: what is not
-  /// known does not attract.
+  /// The largest modulus of a Floquet multiplier. Infinite if there is none or the monodromy matrix is not finite:
+  /// an unknown orbit must not count as attracting.
   [[nodiscard]] double radius() const;
-  /// The same without the coordinates that a period leaves as they are, whatever the others do: sliders that never
-  /// slip. Their Floquet multipliers are 1.
+  /// The same without coordinates that a period never changes, such as sliders that never slip. The Floquet
+  /// multiplier of such a coordinate is 1.
   [[nodiscard]] double free_radius() const;
-  /// These coordinates.
+  /// All coordinates except those that a period never changes.
   [[nodiscard]] std::vector<Eigen::Index> free_coordinates() const;
-  /// Whether the period leaves law state `row` (2, 3, ...) as it is.
+  /// Whether the period never changes law state `row` (2, 3, ...), whatever the other coordinates are.
   [[nodiscard]] bool holds(Eigen::Index row) const;
 };
 
-/// Whether the monodromy matrix is computed too.
+/// Whether to compute the monodromy matrix.
 enum class Monodromy { without, with };
 
-/// Is told of the period on the way.
+/// Observer of the intervals of a period.
 class PeriodObserver {
  public:
   virtual ~PeriodObserver() = default;
   virtual void begin(const State& start) = 0;
-  /// `x`: where the interval ends [m].
+  /// `x`: position at the end of the interval [m].
   virtual void observe(const Interval& interval, double x) = 0;
 };
 
 class PeriodMap {
  public:
-  /// Over `periods` forcing periods.
+  /// A map over `periods` forcing periods.
   explicit PeriodMap(const Model& model, int periods = 1) : engine_(make_engine(model)), periods_(periods) {}
 
-  /// From the model's initial state, laws at their start.
+  /// The period from x, v at t = 0, with all laws at their start.
   [[nodiscard]] ForcingPeriod from_start(double x, double v, Monodromy monodromy);
   [[nodiscard]] ForcingPeriod from(const State& state, Monodromy monodromy, PeriodObserver* observer = nullptr);
-  /// From where the last one ended.
+  /// The period that starts at the end of the last one.
   [[nodiscard]] ForcingPeriod next(Monodromy monodromy);
 
-  /// Of the engine, or that the map has done more work than it may.
+  /// The outcome of the engine, or that the limit of work was reached.
   [[nodiscard]] const core::Outcome& outcome() const { return exhausted_.ok() ? engine_->outcome() : exhausted_; }
-  /// How much work (`Engine::work`) the engine may have done in all; a period during which it does more is not
-  /// followed to its end.
+  /// Limits the total work of the engine (`Engine::work`); a period during which it exceeds this is given up.
   void limit(long work) { most_work_ = work; }
   [[nodiscard]] Engine& engine() { return *engine_; }
   [[nodiscard]] int periods() const { return periods_; }
@@ -91,13 +90,13 @@ class PeriodMap {
 };
 
 [[nodiscard]] Eigen::VectorXd coordinates(const State& state);
-/// `state` with its coordinates changed by `change`; a mass that sticks goes on sticking, one that slips goes on in
-/// its direction unless it turns freely.
+/// `state` with its coordinates changed by `change`. A mass that sticks still sticks; one that slips keeps its
+/// direction unless it turns freely.
 [[nodiscard]] State displaced(const State& state, const Eigen::VectorXd& change);
 
-/// The change of begin that Newton's method takes to make end = begin, or an empty vector where it has none:
-/// the period ends in another mode, or the monodromy matrix is singular. A coordinate that the period does not
-/// change and that depends on itself alone (a slider that never slips) stays as it is.
+/// The change of the start by which Newton's method makes end = begin. Empty if the period ends in another mode or
+/// the equations are singular. A coordinate that the period does not change and that depends on itself alone (a
+/// slider that never slips) stays as it is.
 [[nodiscard]] Eigen::VectorXd newton_step(const ForcingPeriod& period);
 
 }  // namespace dualdamp::sim

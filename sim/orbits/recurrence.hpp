@@ -1,5 +1,5 @@
 #pragma once
-/// After how many forcing periods a motion comes back: to where it was up to 64 periods ago.
+/// The number of forcing periods after which a motion comes back, up to 64.
 
 #include <array>
 #include <cstddef>
@@ -9,19 +9,19 @@
 
 namespace dualdamp::sim {
 
-/// The longest period of a motion that is looked for, in forcing periods.
+/// The longest period of a motion that is recognised, in forcing periods.
 inline constexpr int longest_period = 64;
 
 class Recurrence {
  public:
   explicit Recurrence(double omega) : omega_(omega) {}
 
-  /// The state at the end of a forcing period; `size` [m] of the motion in it.
+  /// Takes the state at the end of a forcing period; `size`: of the motion in it [m].
   void add(const State& state, double size);
-  /// Distance of the last state and that `periods` ago, relative to the size of the motion; infinite before there
-  /// is one.
+  /// Distance between the last state and the state `periods` ago, relative to the size of the motion; infinite if
+  /// there is no such state yet.
   [[nodiscard]] double closure(int periods) const;
-  /// The smallest number of periods, from 1 on, after which the motion closes to `limit`; 0: none.
+  /// The smallest number of periods, at least 1, after which the motion closes to `limit`; 0: none.
   [[nodiscard]] int shortest(double limit) const;
 
  private:

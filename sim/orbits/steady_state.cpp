@@ -31,13 +31,13 @@ namespace {
 /// Rounding of a Floquet multiplier on the unit circle.
 constexpr double on_circle = 1e-9;
 
-/// Closure that counts as an orbit when Newton's corrections have sunk into rounding.
+/// Closure that is enough once rounding limits Newton's corrections.
 constexpr double rounding_closure = 1e-12;
 
-/// Of the only orbit: how well it is known at least, relative to its size.
+/// Largest relative error of the only orbit with which it is accepted.
 constexpr double known = 1e-6;
 
-/// Where the steady state of an oscillator without friction is at t = 0.
+/// The state at t = 0 of the steady state of an oscillator without friction.
 State linear_response(const Model& model) {
   const Oscillator& o = model.oscillator;
   const Drive drive(o, model.excitation);
@@ -83,19 +83,18 @@ class OrbitFinder {
   PeriodMap map_;
   Motions motions_;
   std::optional<OrbitAccount> account_;  ///< of the sliding orbit that Newton's method began on, if it stayed there
-  core::SearchCount searched_;           ///< beside those of the engine
+  core::SearchCount searched_;           ///< in addition to those of the engine
   double rounding_closure_ = 0.0;
 };
 
-/// An orbit without sticking that attracts every motion is found without integrating any; Newton's method then has
-/// nothing left to do.
+/// Starts on the orbit without sticking that attracts every motion, if batches find it: no motion is integrated.
 bool OrbitFinder::begin_on_sliding_orbit(State& begin) {
   const std::optional<SlidingOrbit> orbit = sliding_orbit(model_);
   if (!orbit) return false;
   const std::optional<State> start = start_of(*orbit, model_);
   if (!start) return false;
   begin = *start;
-  // Newton's method will find nothing left to do: one walk along the orbit is enough.
+  // Newton's method will accept this start at once, so its pass along the orbit can collect the account too.
   account_.emplace(model_, options_.full_account);
   searched_ += orbit->certificate;
   return true;
@@ -122,7 +121,7 @@ std::optional<Orbit> OrbitFinder::only_orbit_from(const State& start, SteadyStat
   return std::nullopt;
 }
 
-/// Where motions never part: any way to an orbit leads to the right one.
+/// If motions never part, there is one orbit that attracts: Newton's method may start anywhere.
 std::optional<Orbit> OrbitFinder::the_only_orbit(SteadyState& result) {
   State start;
   const InitialState& initial = model_.initial;
@@ -132,7 +131,7 @@ std::optional<Orbit> OrbitFinder::the_only_orbit(SteadyState& result) {
     start = after_transient(initial.position, initial.velocity, result);
   }
   std::optional<Orbit> orbit = only_orbit_from(start, result);
-  // A motion that begins far off may creep for long to where Newton's method finds the orbit.
+  // A motion that starts far away may need many periods to a place from which Newton's method finds the orbit.
   if (!orbit && motions_ == Motions::meet_sliding && (initial.position != 0.0 || initial.velocity != 0.0))
     orbit = only_orbit_from(after_transient(0.0, 0.0, result), result);
   return orbit;
@@ -151,7 +150,7 @@ void OrbitFinder::describe(SteadyState& result) {
       result.warnings.emplace_back("subharmonic: the motion repeats itself after several forcing periods only");
   }
   add_mirror_images(result);
-  // Beside a mass that never moves other rests are no news.
+  // If the mass never moves, other rest positions are not listed.
   if (result.peak == result.trough)
     std::erase_if(result.others, [](const OtherState& other) { return other.peak == other.trough; });
   if (!result.others.empty())
@@ -199,7 +198,7 @@ void OrbitFinder::add_mirror_images(SteadyState& result) {
 
 void OrbitFinder::find(SteadyState& result) {
   std::optional<Orbit> orbit;
-  // A motion that depends on its past has no state that Newton's method could change.
+  // Newton's method cannot change the state of a motion that depends on its past.
   const bool has_past = map_.engine().has_past();
   if (motions_ != Motions::may_part && !has_past) orbit = the_only_orbit(result);
   if (!orbit) {
@@ -258,7 +257,7 @@ std::vector<Sample> one_period(const Model& model, const SteadyState& state, int
     final = interval->at(interval->duration);
   }
   sampler.finish(final);
-  if (state.peak == state.trough)  // slips that rounding hides are no motion
+  if (state.peak == state.trough)  // slips below rounding are no motion
     for (Sample& sample : sampler.samples()) sample.x = state.peak, sample.v = sample.a = 0.0;
   return std::move(sampler.samples());
 }

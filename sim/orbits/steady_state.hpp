@@ -1,6 +1,6 @@
 #pragma once
-/// Steady states: the periodic orbit approached from the model's initial state, or from another. Its period is the
-/// forcing period or a multiple of it, up to 64 (subharmonic motion).
+/// Steady states: the periodic orbit that the motion from the model's initial state, or from another state,
+/// approaches. Its period is the forcing period or up to 64 of them (subharmonic motion).
 
 #include <complex>
 #include <optional>
@@ -30,7 +30,7 @@ struct OtherState {
 };
 
 struct SteadyState {
-  core::Outcome outcome;              ///< when not ok() the numbers below mean nothing
+  core::Outcome outcome;              ///< if not ok(), the numbers below mean nothing
   std::vector<std::string> warnings;  ///< e.g. other orbits exist
 
   double peak = 0.0;               ///< max x [m]
@@ -44,13 +44,13 @@ struct SteadyState {
   double mean_square_speed = 0.0;  ///< m^2/s^2
   int stops_per_cycle = 0;         ///< stops in one period
   std::vector<Stick> sticks;
-  int rests = 0;                    ///< sticks; of laws that do not hold the mass as `judge_rests` has it
+  int rests = 0;                    ///< sticks; rests by speed if `judge_rests` is set and no law holds the mass
   std::vector<EventKind> sequence;  ///< events of one period in order
   std::vector<std::complex<double>> multipliers;  ///< Floquet multipliers over one period
   Energy energy;                                  ///< J in one period
 
-  /// Steady states that attract other motions, where they are easily known (`coexistence.hpp`); one period of
-  /// theirs may begin in any forcing period. An empty list proves nothing.
+  /// Steady states that attract other motions, as far as `coexistence.hpp` finds them; their period may begin in
+  /// any forcing period. An empty list proves nothing.
   std::vector<OtherState> others;
 
   State start;  ///< of the orbit, at t = 0
@@ -58,32 +58,33 @@ struct SteadyState {
   int transient_periods = 0;
   core::SearchCount certificate;  ///< of all searches for events on the way to the orbit and on it
 
-  /// No Floquet multiplier outside the unit circle; one on it is a mass that never moves, or a continuum (see
-  /// `warnings`).
+  /// Whether no Floquet multiplier is outside the unit circle. One on the circle belongs to a mass that never
+  /// moves, or to a continuum of orbits (see `warnings`).
   [[nodiscard]] bool stable() const;
 };
 
-/// Floquet multipliers this close to the unit circle do not attract within any laboratory's patience; and Newton's
-/// method meets them at the end of a continuum, whose double root it knows to half the digits only.
+/// An orbit with a Floquet multiplier this close to the unit circle attracts too slowly for any test in a
+/// laboratory. Such orbits also appear at the end of a continuum, a double root that Newton's method finds to half
+/// the digits.
 inline constexpr double neutral_margin = 1e-6;
 
 struct SteadyStateOptions {
   double tolerance = 1e-14;  ///< closure of the orbit relative to its size
   int max_periods = 20'000;  ///< of transient integrated before giving up
-  /// Phase, fundamental, speeds and energy cost more than the orbit itself; without this they stay zero.
+  /// Whether to compute phase, fundamental, speeds and energy, which cost more than the orbit; else they stay zero.
   bool full_account = true;
-  /// Under laws none of which holds the mass (smooth laws, compliant contacts) it never quite sticks: a rest is
-  /// then a time longer than `shortest_rest` of a period at a speed below `rest_speed` times the largest.
+  /// If no law holds the mass (smooth laws, compliant contacts), the mass never quite sticks. With this a rest is a
+  /// time longer than `shortest_rest` of a forcing period at a speed below `rest_speed` times the largest.
   bool judge_rests = false;
-  /// Where the motion begins at t = 0, with the memories of the laws: the `start` of a steady state of a model with
-  /// the same laws. Nothing: in the model's initial state, laws at their start.
+  /// The state at t = 0 with the memories of the laws: the `start` of a steady state of a model with the same laws.
+  /// Nothing: the model's initial state, with the laws at their start.
   std::optional<State> from = {};
 };
 
 inline constexpr double rest_speed = 1e-3;
 inline constexpr double shortest_rest = 0.02;
 
-/// Needs a harmonic excitation.
+/// The steady state of the model. Needs a harmonic excitation.
 [[nodiscard]] SteadyState steady_state(const Model& model, const SteadyStateOptions& options = {});
 
 /// One period of a steady state: `count` + 1 samples equally spaced in time, both ends included.

@@ -12,11 +12,11 @@ namespace dualdamp::sim {
 
 namespace {
 
-/// A correction must bring the orbit closer by this factor; neighbours come closer by far more.
+/// A correction must reduce the closure by this factor at least; for neighbours it reduces it by far more.
 constexpr double quick = 0.3;
 
-/// Corrections by the known orbit's monodromy matrix until the orbit closes, and one more: differences between
-/// neighbours are small beside the tolerance. False where they do not help.
+/// Corrects by the known orbit's monodromy matrix until the orbit closes, and once more, because differences
+/// between neighbours may be small beside the tolerance. False if a correction does not help.
 bool correct(PeriodMap& map, const KnownOrbit& near, const Model& model, const SteadyStateOptions& options,
              SteadyState& result) {
   const double tolerance = std::max(options.tolerance, map.engine().accuracy());

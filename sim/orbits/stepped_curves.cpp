@@ -11,7 +11,7 @@ namespace dualdamp::sim {
 
 namespace {
 
-/// Fills in points that have their `omega` and `Y`, one after the other.
+/// The curve of points whose `omega` and `Y` are given, computed one after the other.
 Curve followed(Model model, std::vector<CurvePoint> points, SteadyStateOptions options) {
   CurvePart part;
   for (std::size_t i = 0; i < points.size(); ++i) {

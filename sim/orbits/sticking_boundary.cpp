@@ -16,7 +16,7 @@ namespace {
 constexpr double precision = 1e-12;
 constexpr int max_doublings = 60;
 
-/// Force limits of the laws together at the start [N].
+/// Force limits of all laws together at the start [N].
 struct ForceLimits {
   double kinetic = 0.0;
   double holding = 0.0;
@@ -62,7 +62,7 @@ BoundaryPoint find(Model model, const ForceLimits& limits, double omega) {
   model.excitation.frequency = omega;
   BoundaryPoint point{.omega = omega};
   const bool base = model.excitation.type == ExcitationType::base_harmonic;
-  // A drive this weak cannot move the mass.
+  // This drive is too weak to move the mass.
   double low = limits.holding / (base ? model.oscillator.stiffness : 1.0);
   double high = 2.0 * low;
   SteadyState state = at(model, high);
@@ -86,7 +86,7 @@ BoundaryPoint find(Model model, const ForceLimits& limits, double omega) {
   return point;
 }
 
-/// With a frequency and an amplitude that stand for those to come.
+/// The model with a valid frequency and amplitude, in place of those that are set later.
 Model driven(Model model) {
   model.excitation.frequency = 1.0;
   model.excitation.amplitude = 0.0;

@@ -11,7 +11,7 @@ namespace dualdamp::sim {
 
 namespace {
 
-/// Decides by how the last periods closed.
+/// Decides by the closure of the last periods whether the transient has ended.
 class Closing {
  public:
   Closing(double rounding, double settled) : rounding_(rounding), settled_(settled) {}
@@ -27,21 +27,21 @@ class Closing {
   }
 
  private:
-  static constexpr std::size_t back = 8;  // an orbit that winds closes better and worse by turns
+  static constexpr std::size_t back = 8;  // a motion that winds closes better and worse in turn
   struct Largest {
     double value = 0.0;
     std::size_t ago = 0;  ///< periods
   };
 
-  /// Of the periods from `from` ago to `to` ago.
+  /// The largest closure of the periods from `from` ago to `to` ago.
   [[nodiscard]] Largest largest_between(std::size_t from, std::size_t to) const {
     const auto place = [&](std::size_t ago) { return closures_.end() - static_cast<std::ptrdiff_t>(ago); };
     const auto largest = std::max_element(place(from), place(to));
     return {*largest, static_cast<std::size_t>(closures_.end() - largest) - 1};
   }
 
-  /// One that winds slowly closes well for many periods where it turns: the same by the envelope of longer and
-  /// longer times, as far as the closure now may belong to it.
+  /// A motion that winds slowly closes well for many periods where it turns. So the test is repeated with the
+  /// envelope over longer and longer times, as far back as the present closure can belong to the same decay.
   [[nodiscard]] bool has_settled(double now) const {
     constexpr double deepest = 1e5;
     for (std::size_t span = 2 * back; 2 * span <= closures_.size(); span *= 2) {

@@ -1,13 +1,13 @@
 #pragma once
-/// The motion from the initial state, forcing period by forcing period, until it repeats itself: what a steady
-/// state is checked against. It shares the engine with `steady_state`, but neither Newton's method nor the
-/// monodromy matrix.
+/// The motion from the initial state, forcing period by forcing period, until it repeats itself. Steady states are
+/// checked against it: it shares the engine with `steady_state`, but neither Newton's method nor the monodromy
+/// matrix.
 ///
-/// The periods still to come add up to about d q/(1 - q), with the distance d by which the last period closes and
-/// the factor q by which this distance falls from period to period. The transient has settled when that is below
+/// Let d be the distance by which the last period closes, and q the factor by which it falls from period to period.
+/// The rest of the transient is then about d q/(1 - q). The transient has settled if this is below
 /// `TransientOptions::settled` of the size of the motion. A motion that winds about its orbit closes better and
-/// worse by turns: d and q are taken over 8, 16, 32 ... periods, and all must agree. Cost: one pass of the engine
-/// per period.
+/// worse in turn, so d and q are taken over 8, 16, 32 ... periods, and all must agree. Cost: one pass of the engine
+/// for each period.
 
 #include <functional>
 #include <limits>
@@ -24,7 +24,7 @@ struct TransientOptions {
   int period_ratio = 1;    ///< forcing periods after which the motion is expected to repeat itself
   double settled = 1e-9;   ///< relative to the size of the motion
   long most_work = std::numeric_limits<long>::max();  ///< `Engine::work`
-  std::function<bool()> give_up{};                    ///< asked after every period; may be absent
+  std::function<bool()> give_up{};  ///< called after every period: true ends the transient; may be empty
 };
 
 struct Transient {
@@ -37,10 +37,10 @@ struct Transient {
   int stops = 0;         ///< in the last period
 };
 
-/// Needs a harmonic excitation.
+/// Integrates the transient. Needs a harmonic excitation.
 [[nodiscard]] Transient follow_transient(const Model& model, const TransientOptions& options = {});
 
-/// What happens in a period: its extremes, and its events in order.
+/// The extremes of a period, and its events in order.
 class PeriodEvents : public PeriodObserver {
  public:
   void begin(const State& start) override;

@@ -31,7 +31,8 @@ TEST_CASE("every method finds an experiment, and noise spreads its estimates in 
     for (std::size_t i = 0; i < cells.size(); i += 2) {
       CHECK(cells[i].estimates == 4);
       CHECK(cells[i].zeta.spread > 0.0);
-      // To first order; a random motion spreads the estimates far more than these readings do.
+      // To first order. In the random experiment the random motion scatters the estimates far more than the noise
+      // does.
       const bool random = cells[i].experiment == "random response";
       const double growth = cells[i + 1].zeta.spread / cells[i].zeta.spread;
       CHECK(growth == (random ? Approx(1.0).epsilon(0.2) : Approx(4.0).epsilon(0.6)));

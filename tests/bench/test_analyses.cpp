@@ -1,4 +1,5 @@
-// The composed list of analyses: what a file may ask for depends on the list alone, and abilities are detected.
+// The composed list of analyses: the analyses that a file may ask for depend on the list alone, and abilities are
+// detected.
 #include "bench/analyses.hpp"
 
 #include <catch2/catch.hpp>

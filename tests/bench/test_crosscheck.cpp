@@ -1,4 +1,4 @@
-/// The campaign of random systems: what it draws, its variants of a scenario, and that it finds planted faults.
+/// The campaign of random systems: its draws, its variants of a scenario, and whether it finds planted faults.
 
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -27,7 +27,7 @@ Json scenario(const std::string& law) {
           {"analysis", {{"type", "steady_state"}}}};
 }
 
-/// What ends the endless loop of a test.
+/// Ends the endless loop of a test.
 volatile bool never = false;
 
 }  // namespace
@@ -156,8 +156,8 @@ TEST_CASE("crosscheck: what an engine does not resolve by its tolerance is named
     for (sim::Sample& sample : other.samples) sample.x += sample.t > from ? by : 0.0;
     return other;
   };
-  // A looser tolerance moves the motion by 2e-6 from 4 s on: from there on the other engine may be a few times as
-  // far off, not more, and times of events are not compared.
+  // A looser tolerance moves the motion by 2e-6 from 4 s on: from then on the other engine may be wrong by a few
+  // times as much, not more, and times of events are not compared.
   mild.unresolved = crosscheck::resolution(walk, off(4.0, 2e-6));
   CHECK(mild.unresolved.size() == walk.samples.size());
   const crosscheck::Difference late = crosscheck::difference(walk, off(4.5, 5e-6), mild, 1e-7);
@@ -166,7 +166,7 @@ TEST_CASE("crosscheck: what an engine does not resolve by its tolerance is named
   CHECK_FALSE(crosscheck::difference(walk, off(4.5, 1e-5), mild, 1e-7).fault.empty());
   CHECK(late.until == Approx(4.0));
   CHECK_FALSE(crosscheck::difference(walk, off(3.0, 1e-5), mild, 1e-7).fault.empty());
-  // It loses an event: from there on nothing is excused.
+  // It loses an event: from then on no difference is allowed.
   crosscheck::Walk lost = off(4.0, 2e-6);
   lost.events.erase(lost.events.begin());
   mild.unresolved = crosscheck::resolution(walk, lost);
@@ -176,7 +176,7 @@ TEST_CASE("crosscheck: what an engine does not resolve by its tolerance is named
 
 TEST_CASE("crosscheck: the reversals of a mass at rest within the tolerance are named, those of a motion are not",
           "[crosscheck]") {
-  // It rests but for exp(-20 t) from t = 1 on.
+  // From t = 1 on it is at rest except for exp(-20 t).
   const auto walk_that_turns = [](double at) {
     crosscheck::Walk walk;
     for (int i = 1; i <= crosscheck::walk_samples; ++i) {
@@ -223,7 +223,7 @@ TEST_CASE("crosscheck: a subharmonic motion is compared over its own period", "[
 TEST_CASE("crosscheck: a motion that comes from afar is followed until it is on its orbit", "[crosscheck]") {
   // The friction limit falls to nothing 2 mm from the middle; the mass starts with an amplitude of 20 mm, and
   // friction takes less than a hundredth of its energy in 40 forcing periods. Near the orbit, of 2 um, a deviation
-  // loses six per cent of itself in each of them.
+  // decreases by six per cent in each of them.
   const Json from_afar = {
       {"schema", "dualdamp/1"},
       {"system",
@@ -266,7 +266,7 @@ TEST_CASE("crosscheck: a crash, an endless loop and an exception are entries and
 }
 
 TEST_CASE("crosscheck: random systems have no disagreement, crash or hang", "[crosscheck][campaign]") {
-  // The first cases of four seeds that were taken before they were run; the last one draws attached masses too.
+  // The first cases of four seeds that were chosen before they were run; the last one draws attached masses too.
   const std::uint64_t seed = GENERATE(31U, 41U, 42U, 71U);
   const std::uint32_t count = seed == 71U ? 30 : 60;
   crosscheck::Summary summary;

@@ -12,7 +12,7 @@ namespace {
 constexpr std::array variables = {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "MV2_COMM_WORLD_SIZE", "SLURM_STEP_NUM_TASKS",
                                   "PMIX_RANK"};
 
-/// One variable of the environment, and none of the others.
+/// An environment with this one variable only.
 struct Environment {
   Environment(const char* name, const char* value) {
     for (const char* variable : variables) ::unsetenv(variable);

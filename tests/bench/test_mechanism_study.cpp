@@ -1,5 +1,5 @@
-// Which mechanism explains bent estimates: tests made by one mechanism lead back to it, the lines are those of the
-// method, and the numbers of the study have closed forms where there is no mechanism.
+// Which mechanism explains estimates that depend on the part of the data: a test made with one mechanism leads back
+// to it, the lines are those of the method, and without a mechanism the numbers of the study have closed forms.
 
 #include "bench/mechanism_study.hpp"
 
@@ -27,7 +27,7 @@ const bench::Apparatus rig{.oscillator = oscillator,
 const bench::Levels five = {{4.452e-3, 5.027e-3, 5.602e-3, 6.177e-3, 6.752e-3},
                             {5.117e-3, 7.143e-3, 9.667e-3, 12.707e-3, 16.896e-3}};
 
-/// The paper's four parts, with what they gave.
+/// The paper's four parts of the data, with their estimates.
 bench::MechanismStudy paper() {
   bench::MechanismStudy study;
   study.friction = {3.7, 11.0};
@@ -39,7 +39,7 @@ bench::MechanismStudy paper() {
   return study;
 }
 
-/// The study of a test that a mechanism made.
+/// The study of a test that was made with one mechanism.
 bench::MechanismStudy made_by(const bench::Rig& mechanism, const bench::RigFriction& friction,
                               const std::vector<double>& values) {
   bench::MechanismStudy study = paper();
@@ -106,21 +106,21 @@ TEST_CASE("mechanism study: levels behind the estimates are found, known or not"
     REQUIRE(levels);
     const auto readings = bench::read_parts(*levels, study, constants);
     REQUIRE(readings);
-    // As many numbers as unknowns or more, and all of them fit: to the tolerance of the search.
+    // As many numbers as unknowns or more, and all of them are fitted to the tolerance of the search.
     for (std::size_t i = 0; i < readings->size(); ++i) {
       CHECK(std::abs(readings->at(i).zeta - study.estimates[i].zeta) < 0.1 * study.estimates[i].zeta_std);
       CHECK(std::abs(readings->at(i).F0 - study.estimates[i].F0) < 0.1 * study.estimates[i].F0_std);
     }
   }
-  // Lines through nested parts of data cannot lie anywhere.
+  // Lines through nested parts of data are not arbitrary.
   study.amplitudes.clear();
   study.estimates.back().F0 = 40.0;
   CHECK_FALSE(bench::reconstruct(study, constants));
 }
 
 TEST_CASE("mechanism study: a test made by a mechanism leads back to it") {
-  // Eight numbers, five unknowns, no noise: what is left is the weak pull of the search, a tenth of a standard
-  // error, against a valley in which the parameters trade off for one another.
+  // Eight numbers, five unknowns, no noise: the rest is a tenth of a standard error, by the weak prior of the
+  // search in a valley in which parameters compensate each other.
   struct Case {
     const char* name;
     bench::RigFriction friction;
@@ -151,7 +151,7 @@ TEST_CASE("mechanism study: the paper's bend is explained by a film that saturat
   const bench::MechanismFit film = best_fit(*bench::find_mechanism("viscous_saturating"), study, five);
   REQUIRE(film.outcome.ok());
   CHECK(film.chi2 < 8.0);
-  // With F0 and c alone the best is one pair for all parts: the mean of their numbers, weighted by the errors.
+  // With F0 and c alone the best fit is one pair of values for all parts: the mean, weighted by the errors.
   double zeta = 0.0, weight = 0.0;
   for (const bench::PartEstimate& estimate : study.estimates) {
     zeta += estimate.zeta / std::pow(estimate.zeta_std, 2);
@@ -165,7 +165,7 @@ TEST_CASE("mechanism study: the paper's bend is explained by a film that saturat
             std::pow((estimate.F0 - F0) / estimate.F0_std, 2);
   const bench::MechanismFit none = best_fit(*bench::find_mechanism("coulomb_viscous"), study, five);
   REQUIRE(none.outcome.ok());
-  // H, which the method neglects, bends by 2e-4, and the search ends within a per cent.
+  // H, which the method neglects, contributes 2e-4, and the search ends within a per cent.
   CHECK(none.chi2 == Approx(chi2).epsilon(0.01));
 }
 
@@ -192,14 +192,15 @@ TEST_CASE("mechanism study: the whole answer, the same on any number of threads"
     CHECK(plain.at("decay").at(segment).at("zeta") == Approx(zeta).epsilon(1e-9));
     CHECK(plain.at("decay").at(segment).at("x_f") == Approx(plain.at("F0").get<double>() / 4365.0).epsilon(1e-9));
   }
-  // The measured stiffness does not bend anything, and what fits is a hundredth of it.
+  // With the measured contact stiffness the estimates hardly depend on the part; the fitted stiffness is about a
+  // hundredth of it.
   CHECK(std::abs(json.at("effects").at(1).at("bend").get<double>()) < 1e-3);
   CHECK(of("contact_compliance").at("stretch") > 50.0);
 
   const sim::ThreadLimit one(1);
   CHECK(scenarios::run(scenario).result == result.result);
 
-  // Every number is one that the format knows.
+  // Every number is a field of the format.
   std::vector<std::string> patterns;
   for (const scenarios::ResultField& field : scenario.result_fields) patterns.push_back(field.path);
   const std::function<void(const nlohmann::json&, const std::string&)> check_paths =

@@ -1,5 +1,5 @@
-/// A law whose exact form is not its force: the campaign and the verification of a run both find it. In a program
-/// of its own: the law is known to every reader of this process.
+/// A law whose exact form differs from its force: the campaign and the verification of a run both find it. This is
+/// a separate program, because the law is registered for the whole process.
 
 #include <catch2/catch.hpp>
 #include <memory>

@@ -1,5 +1,5 @@
-// The response to a random drive beside the curves of a stress test: what is drawn for whom, and what it leaves
-// alone.
+// The response to a random drive in addition to the curves of a stress test: which cases get which draws, and that
+// other data do not change.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <set>
@@ -95,13 +95,13 @@ TEST_CASE("random_response: each motion has a drive of its own, which its readin
   CHECK(seeds.size() == campaign.grid.motions() + campaign.grid.cases());
   CHECK(Campaign(text + force + "  seed: 1\n").grid.drive_seed(0) != campaign.grid.drive_seed(0));
 
-  // Two readings differ by the noise of each, sqrt(2) times 10 um; 4001 samples tell it within 1.1 %.
+  // Two readings differ by the noise of each, sqrt(2) times 10 um; 4001 samples determine it within 1.1 %.
   const std::vector<identify::Record> truth = campaign.records(0);
   const std::vector<double>& x = truth[0].histories[0].x;
   CHECK(difference(x, truth[1].histories[0].x) == Approx(std::sqrt(2.0) * 1e-5).epsilon(0.05));
   CHECK(difference(truth[0].histories[0].force, truth[1].histories[0].force) ==
         Approx(std::sqrt(2.0) * 1e-3).epsilon(0.05));
-  // Another motion is another one: 0.4 of its own size at the least.
+  // Different motions differ by at least 0.4 of their size.
   const std::vector<double>& other = campaign.records(1)[0].histories[0].x;
   CHECK(difference(x, other) > 0.4 * difference(x, std::vector<double>(x.size())));
   // The same campaign has the same histories.
@@ -109,14 +109,15 @@ TEST_CASE("random_response: each motion has a drive of its own, which its readin
 }
 
 TEST_CASE("random_response: a phase lag is the time that it is at the frequency of the curve's drive") {
-  // At 40 rad/s, 0.2 rad are 5 ms: a sample. The same drive reads late by it, but for the noise.
+  // At 40 rad/s, 0.2 rad are 5 ms: a sample. The readings are those of the same drive, later by this time, except
+  // for noise.
   const std::string lag = text + force + "  seed: 3\n";
   std::string late = lag;
   late.replace(late.find("x: {noise: 10 um}"), 17, "x: {noise: 10 um, phase_lag: 0.2 rad}");
   const std::vector<double> x = Campaign(lag).records(0)[0].histories[0].x;
   CHECK(difference(x, Campaign(late).records(0)[0].histories[0].x, 1) < 2e-5);
   CHECK(difference(x, Campaign(late).records(0)[0].histories[0].x) > 2e-4);
-  // The departure whose severity is this lag has a drive of its own; it is recorded all the same.
+  // The departure whose severity is this lag has another drive, which is recorded too.
   CHECK(Campaign(lag).records(4)[0].histories.size() == 1);
 }
 

@@ -35,8 +35,9 @@ TEST_CASE("Batches integrate the standard case to the last bits") {
 }
 
 TEST_CASE("The general solvers find the same motion") {
-  // The error of an orbit is that of a step times the steps, divided by how much a period forgets (a third). Odeint
-  // holds its tolerance closely; CVODE takes few steps of high order, each with a constant of its own.
+  // The error of an orbit is that of a step times the number of steps, over the share by which a period reduces
+  // deviations (a third). Odeint keeps closely to its tolerance; CVODE takes few steps of high order, with
+  // different constants.
   for (const Contender& odeint : odeint_contenders(standard_case())) {
     const IntegratedMotion theirs = odeint.integrate(periods);
     CHECK(theirs.reversals == 100);

@@ -209,7 +209,7 @@ class Benchmark(unittest.TestCase):
         self.check_intervals_of_consequence(out, cells)
 
     def test_prediction_errors_recomputed_from_den_hartogs_law(self):
-        """Of answers that are drawn: amplitudes in two tests that no record holds, half as far again and 10 % below in frequency."""
+        """Of answers that are drawn: amplitudes in two tests that no record holds: at 1.5 times the largest input amplitude, and at 0.9 times the lowest frequency."""
         drawn = self.drawn()
         answers = self.write("drawn.csv", drawn, ["case", "zeta", "F0", "zeta_low", "zeta_high", "F0_low", "F0_high", "p_value", "usable"])
         out, _ = self.score(f"drawn={answers}")
@@ -423,7 +423,7 @@ class Benchmark(unittest.TestCase):
             changed = self.folder / "changed.json"
             changed.write_text(json.dumps({**self.key, "numbers": numbers}))
             result = self.call("stress", "score", SCENARIO, "--key", changed, "--answers", f"a={good}", "--out", self.folder / "k", status=3)
-            self.assertIn("changed.json: error: the key is not as the export wrote it", result.stderr)
+            self.assertIn("changed.json: error: the key was changed after the export", result.stderr)
             self.assertIn("whose cases are 40", result.stderr)
         result = self.call("stress", "export", ROOT / "scenarios/examples/coulomb.yaml", "--out", self.folder / "x", status=3)
         self.assertNotEqual(result.stderr, "")

@@ -349,8 +349,8 @@ class Identify(Case):
         document = self.document("identify", "bent.csv", *self.KNOWN, "--json", "--out", "bent", status=4)
         self.assertEqual(document["status"], 4)
         self.assertIsNone(document["result"]["answer"])
-        self.assertIn("it does not hold that friction", document["result"]["answer_reason"])
-        self.assertIn("there is no answer: it does not hold", document["errors"][0]["message"])
+        self.assertIn("the data contradict that friction", document["result"]["answer_reason"])
+        self.assertIn("there is no answer: the data contradict", document["errors"][0]["message"])
         self.assertTrue(document["result"]["estimates"])
         self.assertIn("bent/estimates.csv", tree(self.folder))
 

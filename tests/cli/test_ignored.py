@@ -92,7 +92,7 @@ class Ignored(case.Case):
             pairs = self.write("pairs.csv", "Y [m],x [m]\n" + "".join(f"{y}{scale[1:]},{x}{scale[1:]}\n" for y, x in ((4.5, 4.7), (5, 7.21), (5.5, 9.76), (6, 12.2))))
             error = self.run_program("identify", pairs, *rig, "--frequency", "6.17 Hz", status=3).stderr
             self.assertIn(f"pairs.csv:5:1: error: the largest number of column Y is too {size} to compute with", error)
-            self.assertIn("allowed: 1e-60 to 1e60 in SI, or zeros alone", error)
+            self.assertIn("allowed: 1e-60 to 1e60 in SI, or only zeros", error)
             history = self.write("drive.csv", "t [s],y [m]\n" + "".join(f"0.{i},{i % 3}{scale[1:]}\n" for i in range(10)))
             drive = "excitation={type: measured_base, file: drive.csv, column: y, unit: m}"
             error = self.run_program("run", "base.yaml", "--set", drive, "--set", "analysis={type: simulate, duration: 0.5 s}", status=3).stderr

@@ -200,7 +200,7 @@ class Stress(unittest.TestCase):
                 (response, "analysis.severities=[2]", "'bouc_wen' has no such severity"),
                 (SCENARIO, "analysis.pairs=[{law: base_gain, beside: displacement_gain}]", "both departures lie in one family"),
                 (SCENARIO, "analysis.pairs=[{law: lugre, beside: dahl}]", "cannot be 'dahl'"),
-                (SCENARIO, "analysis.laws=[drifting_friction]", "shows in records of several sweeps alone"),
+                (SCENARIO, "analysis.laws=[drifting_friction]", "has an effect only in records of several sweeps"),
                 (SCENARIO, "analysis.pairs=[{law: iwan, beside: detuning}, {law: iwan, beside: detuning}]", "two pairs of these departures"),
                 (histories, "analysis.sensors[0].average_cycles=9000", "the history has too many rows"),
                 (histories, f"analysis.random_response={{type: force_noise, {short}}}", "a record holds the samples of steady states or those of"),
@@ -210,7 +210,7 @@ class Stress(unittest.TestCase):
                 (shaken, f"analysis.random_response={{type: base_noise, {short}}}", "'N^2/Hz' is not a unit of a spectral density"),
                 (shaken, "analysis.random_response.sample_rate=1 kHz", "the history has too many rows"),
                 (shaken, "analysis.random_response.settle=1e6 s", "the simulation is too long"),
-                (shaken, "analysis.random_response.bandwidth=10 kHz", "the drive is too long"),
+                (shaken, "analysis.random_response.bandwidth=10 kHz", "the drive has too many pieces"),
                 (shaken, "analysis.sensors[0].sample_rate=1 kHz", "a record holds the samples of steady states or those of")]:
             result = self.run_program("run", file, "--out", self.folder / "none", "--set", assignment, status=3)
             self.assertIn(message, result.stderr)

@@ -1,11 +1,10 @@
-/// Numbers, quantities, uncertain quantities and unit factors from any text.
+/// Quantities, uncertain quantities and unit factors from any text: the first byte chooses dimension and coordinate.
 
 #include <array>
 #include <cmath>
 #include <string>
 #include <string_view>
 
-#include "core/numbers.hpp"
 #include "core/uncertain_quantity.hpp"
 #include "core/units.hpp"
 #include "tests/fuzz/harness.hpp"
@@ -17,17 +16,6 @@ using fuzz::require;
 
 constexpr std::array<std::string_view, 10> dimensions = {"kg",  "N/m",   "N.s/m", "1", "rad",
                                                          "m/s", "rad/s", "s",     "m", "N"};
-
-void numbers(std::string_view text) {
-  const core::NumberText read = core::read_number(text);
-  require(read.length <= text.size(), "a number is no longer than its text");
-  require(read.value.has_value() == read.fault.empty(), "a number has a value or a fault");
-  if (!read.value) return;
-  require(std::isfinite(*read.value), "a number is finite");
-  const std::string printed = core::format_number(*read.value);
-  const core::NumberText again = core::parse_number(printed);
-  require(again.value && *again.value == *read.value, "a printed number reads back to the same bits");
-}
 
 void quantities(std::string_view text, std::string_view dimension, core::Coordinate coordinate) {
   for (const core::QuantityText& read :
@@ -49,7 +37,6 @@ void dualdamp::fuzz::consume(std::string_view input) {
   if (input.empty()) return;
   const auto choice = static_cast<unsigned char>(input.front());
   input.remove_prefix(1);
-  numbers(input);
   quantities(input, dimensions.at(choice % dimensions.size()),
              (choice & 128U) != 0 ? core::Coordinate::angle : core::Coordinate::displacement);
   (void)core::is_si(input);

@@ -164,6 +164,7 @@ def write_seeds(root, folder):
         path.write_bytes(content if isinstance(content, bytes) else content.encode())
 
     for i, text in enumerate(QUANTITIES):
+        write("numbers", f"{i}", text)
         write("units", f"{i}", bytes([i]) + text.encode())
     for i, text in enumerate(scenarios(root).texts):
         write("scenario", f"{i}.yaml", text)

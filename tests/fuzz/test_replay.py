@@ -13,7 +13,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parent))
 import seeds
 
 # A scenario takes half a millisecond, a motion twenty, a process of its own two, the others a tenth.
-MUTANTS = {"units": 50_000, "records": 5_000, "scenario": 1_000, "answers": 5_000, "mat": 1_000, "resume": 1_000, "plugin": 5_000, "engines": 100}
+MUTANTS = {"numbers": 50_000, "units": 50_000, "records": 5_000, "scenario": 1_000, "answers": 5_000, "mat": 1_000, "resume": 1_000, "plugin": 5_000, "engines": 100}
 
 
 def main():

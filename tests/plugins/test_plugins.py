@@ -70,7 +70,7 @@ FAILED = {
     "start mode": "start() went to mode -1, but the table declares modes 0 to 2",
     "scale": "scales() gave a size that is not above 0",
     "limit": "static_limit() gave -1, which is below 0",
-    "guard lies": "a guard of a friction law has another sign when it is asked again",
+    "guard lies": "a guard of a friction law changed its sign between two calls",
     "endless": "a friction law's mode changes did not come to an end at t = ",
 }
 

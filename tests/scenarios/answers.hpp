@@ -1,5 +1,5 @@
 #pragma once
-/// What an analysis answers for the system of the paper's numerical example.
+/// Answers of analyses of the system of the paper's numerical example.
 
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -36,7 +36,7 @@ inline nlohmann::json result_of(const scenarios::RunResult& result) {
   return document_of({.resolved = "null"}, result).at("result");
 }
 
-/// The same of an analysis, which must succeed.
+/// The same for an analysis that must succeed.
 inline nlohmann::json answer_to(const std::string& analysis, const std::string& more = {}) {
   return result_of(scenarios::run(scenario_of(analysis, more)));
 }

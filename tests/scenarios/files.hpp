@@ -37,7 +37,7 @@ inline scenarios::Scenario load(const std::filesystem::path& path) {
   return scenarios::load_scenario(path.string(), {.analyses = bench::analyses()});
 }
 
-/// The question of a scenario as what it is.
+/// The question of a scenario as its own type.
 template <typename Question>
 const Question& question_of(const scenarios::Scenario& scenario) {
   return dynamic_cast<const Question&>(*scenario.question);

@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// A directory of its own that is gone at the end.
+/// A directory that is deleted at the end.
 struct Folder {
   fs::path path = fs::temp_directory_path() / ("dualdamp-cases-" + std::to_string(::getpid()));
   Folder() { fs::remove_all(path); }
@@ -130,7 +130,7 @@ TEST_CASE("case file: missing cases, and files that cannot be opened, are errors
   file.add(line(2));
   CHECK_THROWS_WITH(file.finish(), Catch::Contains("1 cases are missing, first 1"));
   file.add(line(1));
-  fs::create_directory(folder.path / "cases.1.jsonl");  // nobody's lines
+  fs::create_directory(folder.path / "cases.1.jsonl");  // a directory instead of a file
   CHECK_THROWS_AS(file.finish(), dualdamp::core::InputError);
   fs::remove(folder.path / "cases.1.jsonl");
   file.finish();
@@ -147,7 +147,7 @@ TEST_CASE("case file: finished cases are lost only on demand") {
                       Catch::Contains("4 finished cases of another campaign") && Catch::Contains("--overwrite"));
     CHECK(text(file.path()) == whole(4));
   }
-  {  // of this one, complete: nothing is left to do
+  {  // of this one, complete
     CaseFile file(folder.path, "cases", "abc", 4);
     begin(file);
     CHECK(file.finished() == 4);
@@ -186,7 +186,7 @@ TEST_CASE("case file: what is finished does not change while lines are added") {
   const Folder folder;
   CaseFile file(folder.path, "cases", "abc", 64);
   begin(file);
-  // Threads ask while others add: a thread checker sees a race if an answer depended on it.
+  // Threads read while others add, so that a thread checker finds a race.
   std::vector<std::jthread> threads;
   for (std::size_t thread = 0; thread < 4; ++thread)
     threads.emplace_back([&file, thread] {

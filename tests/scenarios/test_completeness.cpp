@@ -55,7 +55,7 @@ TEST_CASE("completeness: a row of a complete table lacks numbers only with a rea
 
 TEST_CASE("completeness: a growing mode that takes no part in a stick loses no release",
           "[scenarios][completeness]") {
-  // At rest under a slow drive with a damping of -12 N.s/m: the own motion would grow by e^12000 in that time. The
+  // At rest under a slow drive with a damping of -12 N.s/m: the free motion would grow by e^12000 in that time. The
   // base moves at 1e-5 m/s, so that 100 N/m reach 2 N at 2000 s.
   const std::string system =
       "{mass: 1 kg, stiffness: 100 N/m, damping: -12 N.s/m, friction: {law: coulomb, kinetic: 2 N}}";
@@ -72,7 +72,7 @@ TEST_CASE("completeness: a growing mode that takes no part in a stick loses no r
 }
 
 TEST_CASE("completeness: a motion that runs away is a numerical failure", "[scenarios][completeness]") {
-  // Without friction that could stop it: damping ratio -0.6, past e^708 after 118 s.
+  // Without friction that could stop the mass: damping ratio -0.6, growth above e^708 after 118 s.
   const auto result =
       run("{mass: 1 kg, stiffness: 100 N/m, damping: -12 N.s/m, friction: {law: coulomb, kinetic: 0.1 N}}",
           "initial: {position: 1 m}\nexcitation: {type: none}\nanalysis: {type: simulate, duration: 4000 s}");

@@ -1,5 +1,4 @@
-// Every kind of law parameter from YAML to the values a law is made of, by a table that no shipped law needs to
-// have.
+// Every kind of law parameter from YAML to the values a law is made of, with a table that no shipped law has.
 #include <algorithm>
 #include <catch2/catch.hpp>
 
@@ -18,7 +17,7 @@ scenarios::Reading reading_of(const std::string& text) {
   return scenarios::read(document, {scenarios::fields_of(both_forms)});
 }
 
-/// What a law would be made of; the text must be valid.
+/// The values from which a law is made; the text must be valid.
 friction::ParameterValues values_of(const std::string& text) {
   const scenarios::Reading reading = reading_of(text);
   REQUIRE(reading.problems.empty());

@@ -1,4 +1,4 @@
-// Tables become JSON row by row; what comes out must be what a tree of JSON objects would be written as.
+// Tables are converted to JSON row by row; the text must equal that of a tree of JSON objects.
 #include "scenarios/output.hpp"
 
 #include <catch2/catch.hpp>

@@ -1,4 +1,4 @@
-// Figures 5 and 6 of the paper in kind: what its friction-velocity plots show, in the last period of the shipped
+// Features of Figures 5 and 6 of the paper, which are friction-velocity plots, in the last period of the shipped
 // scenarios.
 
 #include <algorithm>
@@ -55,7 +55,7 @@ class Plot {
     return std::nan("");
   }
 
-  /// By how much friction is higher while the mass accelerates [N].
+  /// Friction while the mass accelerates less that while it decelerates [N].
   [[nodiscard]] double memory_at(double v) const { return force_at(v, true) - force_at(v, false); }
 
   /// The integral of F dv over slip forward [N.m/s]: the area of a loop that is run through clockwise.
@@ -89,7 +89,7 @@ class Plot {
 
 TEST_CASE("Figure 5: contact compliance slants the transitions, and gives no memory", "[scenarios][paper]") {
   const Plot plot("figure5_compliance");
-  // The slider stands up to the speed of Eq (18), 0.0275 m/s; the paper reads 0.024 m/s off its figure.
+  // The slider sticks up to the speed of Eq (18), 0.0275 m/s; the paper reads 0.024 m/s from its figure.
   CHECK(plot.transition() > 0.02);
   CHECK(plot.transition() < 0.03);
   for (const double v : {0.05, 0.1, 0.15}) CHECK(std::abs(plot.memory_at(v)) < 1e-9);
@@ -114,7 +114,7 @@ TEST_CASE("Figure 6: stick-slip runs through its loops clockwise", "[scenarios][
   for (const std::string name : {"figure6", "figure6_memory"}) {
     const Plot plot(name);
     CAPTURE(name);
-    // It creeps or sticks for a good part of the period.
+    // It creeps or sticks for a large part of the period.
     const auto slow = std::ranges::count_if(
         plot.points(), [&](const Point& point) { return std::abs(point.v) < 0.01 * plot.fastest(); });
     CHECK(4 * slow > static_cast<long>(plot.points().size()));

@@ -1,4 +1,4 @@
-// Every file of tests/invalid and tests/invalid_text says in its first lines what is wrong with it and where:
+// Every file of tests/invalid and tests/invalid_text states its faults and their places in its first lines:
 //   # expect: LINE:COLUMN: part of the message
 #include <catch2/catch.hpp>
 
@@ -45,7 +45,7 @@ TEST_CASE("refused: each invalid file, at its place and for its reason", "[scena
       const std::vector<Expected> all_expected = expected_of(text);
       const std::vector<core::Diagnostic> problems = problems_of_file(path.string());
       REQUIRE_FALSE(all_expected.empty());
-      // Nothing but what is announced: one fault must not drag others along.
+      // Only the stated faults are reported: one fault must not cause further messages.
       CHECK(problems.size() == all_expected.size());
       for (const Expected& expected : all_expected) {
         CAPTURE(expected.line, expected.column, expected.message);

@@ -194,7 +194,7 @@ TEST_CASE("rotation: identification from columns in degrees and N.m", "[scenario
   const auto same = identified("x [rad]", 1.0, "{mass: 0.3 kg.m^2, stiffness: 12 N.m/rad}");
   CHECK(same.at("result").at("estimates").at(0).at("zeta") == twin.at("result").at("estimates").at(0).at("zeta"));
   CHECK(same.at("result").at("estimates").at(0).at("F0") == twin.at("result").at("estimates").at(0).at("F0"));
-  // The columns tell where bare constants do not.
+  // The units of the columns determine the coordinate if the constants have no units.
   CHECK(identified("x [deg]", 180.0 / std::numbers::pi, "{mass: 0.3, stiffness: 12}").contains("units"));
   CHECK_THROWS_AS(identified("x [deg]", 1.0, "{mass: 0.3 kg, stiffness: 12 N/m}"), core::InputError);
   CHECK_THROWS_AS(identified("x", 1.0, "{mass: 0.3 kg.m^2, stiffness: 12 N.m/rad}"), core::InputError);

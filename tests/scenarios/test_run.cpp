@@ -30,25 +30,25 @@ std::string csv(const scenarios::Table& table, const core::Provenance& provenanc
   return text.str();
 }
 
-/// Takes long: the tests of bench/ and of the program run it.
+/// Slow scenarios, which the tests of bench/ and of the program run.
 bool answered_elsewhere(const Scenario& scenario) { return scenario.analysis_name == "mechanisms"; }
 
-/// Scenarios of records that hold no answer, because friction departs from what is asked for, or because a method
-/// reads the damping alone.
+/// Scenarios of records without an answer, because friction is not Coulomb and viscous, or because a method
+/// estimates the damping alone.
 bool has_no_answer(const std::filesystem::path& path) {
   const std::set<std::string> names = {"open_question_any_law", "open_question_two_frequencies", "section4_laws",
                                        "section4_subsets", "random_decrement"};
   return names.contains(path.stem().string());
 }
 
-/// No number of the document is infinite or NaN: JSON would not have it, and null must say so.
+/// No number of the document is infinite or NaN; JSON has null instead.
 void check_finite(const json& value) {
   if (value.is_structured())
     for (const json& item : value) check_finite(item);
   if (value.is_number_float()) CHECK(std::isfinite(value.get<double>()));
 }
 
-/// Every number of the document is a field that the analysis has described.
+/// Every number of the document is a declared field of the analysis.
 void check_described(const json& value, const std::string& path, const Scenario& scenario) {
   if (value.is_object())
     for (const auto& [key, item] : value.items())
@@ -170,7 +170,7 @@ TEST_CASE("run: a path that is not in the result is the scenario's fault", "[sce
 }
 
 TEST_CASE("run: no steady state is a numerical failure without a result", "[scenarios][run]") {
-  // Negative damping above what dry friction takes out: the motion grows without bound.
+  // Negative damping adds more energy than Coulomb friction dissipates: the motion grows without bound.
   const Scenario scenario = scenarios::parse_scenario(
       "schema: dualdamp/1\nsystem: {mass: 1, stiffness: 100, damping: -4}\n"
       "excitation: {type: base_harmonic, amplitude: 0.1 m, frequency: natural}\nanalysis: {type: steady_state}\n",

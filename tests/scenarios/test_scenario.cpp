@@ -181,7 +181,7 @@ TEST_CASE("scenario: structural damping belongs to steady vibrations of one freq
   };
   const Scenario scenario = with(eta);
   CHECK(scenario.model.oscillator.loss_factor == 0.1);
-  // That it is not causal, and that friction makes further harmonics.
+  // Warnings: it is not causal, and friction makes further harmonics.
   REQUIRE(scenario.warnings.size() == 2);
   CHECK_THAT(scenario.warnings[0], Catch::Contains("not causal"));
   const auto refused = [&](std::vector<std::string> assignments, const std::string& because) {

@@ -20,7 +20,7 @@ std::vector<core::Diagnostic> problems_of_sweep(const std::string& sweep, const 
   return test::problems_of([&] { return scenario_of(analysis, sweep); });
 }
 
-/// Those of a sweep with one problem only.
+/// The problem of a sweep that has only one.
 core::Diagnostic problem_of(const std::string& sweep, const std::string& analysis = question) {
   const std::vector<core::Diagnostic> problems = problems_of_sweep(sweep, analysis);
   REQUIRE(problems.size() == 1);
@@ -91,7 +91,7 @@ TEST_CASE("sweep: curves stand below each other with their point and value", "[s
 }
 
 TEST_CASE("sweep: a key may be left out elsewhere, and what depends on it follows", "[scenarios][sweep]") {
-  // `natural` is another frequency at each mass; the resolved scenario keeps the word and runs to the same numbers.
+  // `natural` is another frequency at each mass; the resolved scenario keeps the word and gives the same numbers.
   const std::string text =
       "schema: dualdamp/1\nsystem: {stiffness: 100 N/m, damping_ratio: 0.2, friction: {law: coulomb, kinetic: 2 "
       "N}}\n"
@@ -108,8 +108,8 @@ TEST_CASE("sweep: a key may be left out elsewhere, and what depends on it follow
 
 TEST_CASE("sweep: a default that follows the swept key does so when the resolved scenario runs",
           "[scenarios][sweep]") {
-  // `static` is `kinetic` where it is not stated, at each point its own: downwards that of the first one would
-  // change the numbers in silence, upwards it would be refused. One that the file states stays.
+  // If `static` is not stated, it equals `kinetic` at each point. The value of the first point would change the
+  // numbers without a message for smaller `kinetic`, and be refused for larger. A stated `static` is kept.
   const auto [friction, values] = GENERATE(table<std::string, std::string>(
       {{"{law: coulomb, kinetic: 2 N}", "{system.friction.kinetic: {from: 3 N, to: 1 N, count: 3}}"},
        {"{law: coulomb, kinetic: 2 N}", "{system.friction.kinetic: [1 N, 3 N, 2 N]}"},
@@ -181,7 +181,7 @@ TEST_CASE("sweep: every value is checked before anything runs", "[scenarios][swe
   CHECK(negative.place.line == 5);
   CHECK(negative.place.column == 29);
   CHECK(negative.message == "with system.mass = -2 kg: 'system.mass' is out of range");
-  // A fault that the value causes elsewhere names the value too.
+  // A fault that the value causes at another place names the value too.
   try {
     (void)scenarios::parse_scenario(
         "schema: dualdamp/1\nsystem: {mass: 1 kg, stiffness: 100 N/m, friction: {law: coulomb, kinetic: 2 N}}\n"

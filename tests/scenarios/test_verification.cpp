@@ -78,7 +78,7 @@ TEST_CASE("verification: counts are equal, and a missing number is a difference"
 }
 
 TEST_CASE("verification: each point of a curve is measured by its own amplitude", "[scenarios][verification]") {
-  // Beside an amplitude of 1 m an error of 1e-12 m would be nothing.
+  // Relative to an amplitude of 1 m an error of 1e-12 m would not count.
   const Verification off = scenarios::compare_answers(curve_answer(1e-6), curve_answer(1e-6 + 1e-12), {});
   CHECK_FALSE(off.agrees);
   CHECK(off.quantity == "points[0].x");
@@ -150,7 +150,8 @@ TEST_CASE("verification: a subharmonic motion may begin with another period", "[
 
 TEST_CASE("verification: an orbit of any period has as many samples in each of its forcing periods",
           "[scenarios][verification]") {
-  // So that it can be laid over one that begins with another period: seven, of which 720 is no multiple.
+  // So that it can be compared with an orbit that begins with another period: there are seven, and 720 is not a
+  // multiple of 7.
   const scenarios::RunResult result = scenarios::run(scenarios::parse_scenario(
       "schema: dualdamp/1\nsystem: {mass: 1, stiffness: 1, damping: 0.1, friction: {law: coulomb, kinetic: 0.093, "
       "static: 0.347}}\nexcitation: {type: base_harmonic, amplitude: 1, frequency: 0.4557 rad/s}\n"
@@ -165,7 +166,8 @@ TEST_CASE("verification: an orbit of any period has as many samples in each of i
 TEST_CASE("verification: of a mass that never moves rounding is no number", "[scenarios][verification]") {
   const std::string held = "{type: simulate, cycles: 5, sample_rate: 50}";
   CHECK(scenarios::run(verified_scenario("{law: coulomb, kinetic: 200}", held)).verification->agrees);
-  // One multiplier is 1, as any place can be held, the other 0: a push of the mass comes to nothing.
+  // One Floquet multiplier is 1, because the mass can stick at any place, the other 0, because a push of the mass
+  // has no lasting effect.
   CHECK(scenarios::run(verified_scenario("{law: coulomb, kinetic: 200}", "{type: steady_state}"))
             .verification->agrees);
   const auto work = [](double joule) {

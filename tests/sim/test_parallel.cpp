@@ -26,8 +26,8 @@ int most_at_once() {
   return most;
 }
 
-/// Whether two long parts are done at the same time although each of them is a row of short loops. A part that was
-/// left alone for 10 s gives up.
+/// Whether two long parts run at the same time although each of them is a sequence of short loops. A part that
+/// waits alone for 10 s gives up.
 bool long_parts_meet() {
   using Clock = std::chrono::steady_clock;
   const Clock::time_point end = Clock::now() + std::chrono::seconds(10);
@@ -48,7 +48,7 @@ TEST_CASE("a limit on threads holds for nested loops, and ends with its scope") 
     const sim::ThreadLimit limit(1);
     CHECK(most_at_once() == 1);
   }
-  // Sixteen items of a millisecond meet on any machine with two cores.
+  // Sixteen items of a millisecond overlap on any machine with two cores.
   if (std::thread::hardware_concurrency() > 1) CHECK(most_at_once() > 1);
 }
 

@@ -36,7 +36,7 @@ Model sound() {
 }
 
 struct Fault {
-  std::string path;  ///< as a scenario file names it
+  std::string path;  ///< as in a scenario file
   std::string allowed;
   std::function<void(Model&)> make;
 };
@@ -86,7 +86,7 @@ std::vector<std::function<void(const Model&)>> entrances() {
   };
 }
 
-/// What is varied has other values than the model's.
+/// Varied quantities have values other than those of the model.
 bool is_replaced(const std::string& path, std::size_t entrance) {
   const bool amplitude = path == "excitation.amplitude" && (entrance == 4 || entrance >= 6);
   const bool frequency = path == "excitation.frequency" && (entrance == 5 || entrance == 6 || entrance == 8);

@@ -18,7 +18,7 @@ namespace {
 
 using State = std::array<double, 2>;
 
-/// Below zero by more than this, relative to its parts, a guard has been crossed.
+/// A guard has been crossed if it is below zero by more than this, relative to its parts.
 constexpr double crossed = 1e-13;
 
 /// > 0 while the mode holds.
@@ -68,7 +68,7 @@ class Walk {
   }
 
  private:
-  /// To the next node of a sampled drive, which is not yet ahead of the mass by rounding only.
+  /// Time to the next node of a sampled drive; a node within rounding of the present time is skipped.
   [[nodiscard]] double left_in_piece() {
     if (model_.excitation.samples == nullptr) return step_;
     const std::vector<double>& nodes = model_.excitation.samples->times();
@@ -198,7 +198,7 @@ class Walk {
     const NextEvent event = crossed_after(high)->event;
     advance(high);
     note(take_place(model_, event, friction_, mass_));
-    // A spring that stands at its reach lets go as soon as the mass moves.
+    // A spring that is stretched to its reach lets go as soon as the mass moves.
     while (mass_.direction != 0 && std::abs(friction_.edge(mass_.direction) - mass_.x) <= crossed * length_) {
       friction_.let_go(mass_.direction);
       note(sim::EventKind::switching);

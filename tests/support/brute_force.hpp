@@ -1,7 +1,7 @@
 #pragma once
 /// An oscillator with plain friction by Boost.Odeint: Runge-Kutta-Fehlberg 7(8) with fixed small steps, the mode
-/// frozen between events, events by bisection within a step; 64 times smaller steps where something might cross its
-/// limit and return. It reads the model's numbers and shares no code with the engines.
+/// frozen between events, events by bisection within a step; steps are 64 times smaller where a guard might cross
+/// its limit and return. It uses the numbers of the model and shares no code with the engines.
 
 #include <vector>
 
@@ -23,8 +23,8 @@ struct BruteForce {
   double v = 0.0;
 };
 
-/// `model.friction` is ignored: `friction` stands in, at its start. Steps of a 400th of the shortest period err by
-/// 1e-16 each.
+/// `model.friction` is ignored; `friction` replaces it, in its initial state. Steps of a 400th of the shortest
+/// period have an error of 1e-16 each.
 [[nodiscard]] BruteForce follow(const sim::Model& model, const PlainFriction& friction, double duration);
 
 }  // namespace dualdamp::test

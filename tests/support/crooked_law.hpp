@@ -1,6 +1,6 @@
 #pragma once
-/// A planted fault: Coulomb friction whose affine form, which the exact engine runs, is 0.1 % stronger than its
-/// force, which the smooth engine runs.
+/// A planted fault: Coulomb friction whose affine form, which the exact engine uses, is 0.1 % larger than its
+/// force, which the smooth engine uses.
 
 #include "friction_models/registry.hpp"
 
@@ -27,7 +27,7 @@ class Crooked {
   double kinetic_;
 };
 
-/// Makes `law: crooked` known to this process.
+/// Registers `law: crooked` for this process.
 inline void add_crooked_law() {
   if (friction::find_law("crooked") != nullptr) return;
   friction::add_law({.name = "crooked",

@@ -17,7 +17,7 @@ constexpr Real argument_error = 0x1p-62L;
 constexpr int taylor_terms = 30;
 constexpr std::size_t max_nodes = 4;
 
-/// 113 bits: a divided difference loses some of them, and may.
+/// 113 bits, because a divided difference loses some of them.
 __extension__ using Quad = __float128;
 
 struct QuadComplex {
@@ -227,7 +227,7 @@ const std::vector<LongComplex>& ExponentialSum::values(Real s) const {
 std::vector<LongComplex> ExponentialSum::columns(Real s, int order) const {
   std::vector<LongComplex> derivative = values(s);
   for (int i = 0; i < order; ++i) {
-    // Children stand behind their parents.
+    // Children come after their parents.
     for (std::size_t k = derivative.size(); k-- > 0;) {
       derivative[k] *= elements_[k].exponent;
       if (elements_[k].parent != no_parent)
@@ -334,7 +334,7 @@ class ExponentialSum::Scan {
   Account account;
 
   void begin(Real horizon) {
-    // At the edge what has been taken out of the known zeros returns: a few hundredths of a level.
+    // At the edge the part that was subtracted for the known zeros is added again: a few hundredths of a level.
     const Real edge = std::min(f_.edge_, horizon);
     factored_ = f_.zeros_ > 0;
     if (factored_) scan(0, edge, 0);

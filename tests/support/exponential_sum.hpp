@@ -3,10 +3,10 @@
 /// precision. It shares no code with the library.
 ///
 /// On a cell of half width r about m the Taylor polynomial of degree four, the bound of the fifth derivative from
-/// the moduli and a bound of all rounding errors enclose f, f' and f''. A cell is left in peace when f stays clear
-/// of zero, cut at its ends when f is monotone, cut at its extremum when f is convex or concave, and halved
-/// otherwise, until f varies by less than a 64th of a rounding on it. Every root and every extremum near zero lies
-/// in such a cell: none can be missed.
+/// the moduli and a bound of all rounding errors enclose f, f' and f''. If f stays away from zero, the cell is
+/// done. If f is monotone, the cell is cut at its ends; if f is convex or concave, it is cut at its extremum.
+/// Otherwise it is halved, until f varies by less than a 64th of a rounding on it. Every root and every extremum
+/// near zero lies in such a cell, so none is missed.
 ///
 /// Precision. Plain exponentials in long double (64 bits): each term of f errs by less than 256 roundings and 4 |z
 /// s| more, which are added to the enclosures. Divided differences in 113 bits. The rounding of double precision,
@@ -47,14 +47,14 @@ class ExponentialSum {
 
   /// Appends c E, E = exp(z s) or a divided difference on top of `parent`; returns its index.
   int add(LongComplex exponent, LongComplex coefficient, int parent = no_parent);
-  /// Call once after the last add(). f and its derivatives up to order zeros - 1 vanish at s = 0; what rounding
-  /// left of them there is taken out while (fastest |z|) s <= 1/2.
+  /// Call once after the last add(). f and its derivatives up to order zeros - 1 vanish at s = 0; the rounding
+  /// errors in them are subtracted while (fastest |z|) s <= 1/2.
   void finish(int zeros = 0);
 
   [[nodiscard]] Jet jet(Real s) const;
   [[nodiscard]] Real at(Real s) const { return jet(s)[0]; }
   [[nodiscard]] Real level(Real s) const;
-  /// E_k^(order)(s) of all elements: what a change of c_k does to f^(order)(s).
+  /// E_k^(order)(s) of all elements: the derivative of f^(order)(s) by c_k.
   [[nodiscard]] std::vector<LongComplex> columns(Real s, int order) const;
   /// The denominator of a level.
   [[nodiscard]] Real rounding(Real s) const;
@@ -62,8 +62,8 @@ class ExponentialSum {
   [[nodiscard]] Real rate() const { return rate_; }
 
   struct Account {
-    /// From 0 to the horizon. Between neighbours the level stays between theirs but for a 64th, or beyond `clear`
-    /// like theirs.
+    /// From 0 to the horizon. Between neighbours the level is between theirs, within a 64th, or it is beyond
+    /// `clear` like theirs.
     std::vector<Knot> knots{};
     long cells = 0;
     bool complete = true;  ///< false when a cell could not be decided
@@ -106,14 +106,14 @@ class ExponentialSum {
 
   std::vector<Element> elements_;
   mutable std::vector<Leaf> leaves_;  ///< the chains and the powers they have needed so far
-  mutable Real last_s_ = 0;           ///< value, slope and unit are often asked for at the same place
+  mutable Real last_s_ = 0;           ///< value, slope and unit are often needed at the same place
   mutable std::vector<LongComplex> last_values_;
   std::vector<Real> taylor_;        ///< f^(k)(0)/k!
   std::vector<Real> taylor_sizes_;  ///< bounds of the sums of their terms' moduli
   Real rate_ = 0;
   Real turning_ = 0;
   int zeros_ = 0;
-  Real edge_ = -1;  ///< up to here known zeros are factored out
+  Real edge_ = -1;  ///< up to this s the known zeros are factored out
 };
 
 }  // namespace dualdamp::oracle

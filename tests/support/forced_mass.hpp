@@ -1,6 +1,7 @@
 #pragma once
 /// A free mass under a given force and one law, by Runge and Kutta's fourth order with a fixed step. Direction and
-/// mode are those at the beginning of a step: an error of the order of the step where they change within it.
+/// mode are those at the beginning of a step: if they change within the step, the error is of the order of the
+/// step.
 
 #include <cmath>
 #include <functional>

@@ -91,7 +91,7 @@ double PlainFriction::edge(int side) const {
 void PlainFriction::let_go(int side) {
   const double x = edge(side);
   for (Spring& s : springs) {
-    // Sliders that stuck at one place let go at one place, but for rounding.
+    // Sliders that stuck at the same place let go at the same place, within rounding.
     const bool reached = std::abs(s.foot + side * s.reach - x) <= 1e-12 * (std::abs(x) + s.reach);
     if (s.side != 0 || !reached) continue;
     if (s.bristle) {

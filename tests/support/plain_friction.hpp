@@ -1,7 +1,7 @@
 #pragma once
-/// The friction laws written down a second time, as plainly as their equations allow, for tests to compare with:
-/// every slider keeps its own place and is asked on its own. Nothing is shared with friction_models; bristles take
-/// the same random numbers.
+/// The friction laws a second time, directly from their equations, for comparison in tests. Every slider stores its
+/// own place and is evaluated separately. No code is shared with friction_models; bristles use the same random
+/// numbers.
 
 #include <cstdint>
 #include <vector>
@@ -15,21 +15,22 @@ struct LinearForce {
   double damping = 0.0;
 };
 
-/// A spring from the mass to a foot on the ground. Stretched by its reach it lets go: it drags its foot behind
-/// until v = 0, or sets it down elsewhere when it is a bristle.
+/// A spring from the mass to a foot on the ground. When it is stretched to its reach, it lets go: it drags its foot
+/// until v = 0, or, if it is a bristle, sets the foot down at another place.
 struct Spring {
   double stiffness = 0.0;  ///< N/m
   double damping = 0.0;    ///< N.s/m, while the foot stands
   double reach = 0.0;      ///< m
   double kinetic = 0.0;    ///< N, the force that drags the foot
-  double trail = 0.0;      ///< m, the stretch while it does
+  double trail = 0.0;      ///< m, the stretch while it drags
   bool bristle = false;
   double foot = 0.0;  ///< m, while it stands
   int side = 0;       ///< to which the foot is dragged; 0: it stands
 };
 
-/// Spring and damper side by side, on a slider. Stuck f = stiffness stretch + damping v, up to static_level;
-/// sliding f = +-kinetic, until the slider's speed v - stretch' is zero, or beside a mass at rest is `stopped`.
+/// Spring and damper in parallel, in series with a slider. While it sticks, f = stiffness stretch + damping v, up
+/// to static_level. While it slides, f = +-kinetic, until the slider's speed v - stretch' is zero, or, with the
+/// mass at rest, is `stopped`.
 struct DampedContact {
   double stiffness = 0.0;     ///< N/m
   double damping = 0.0;       ///< N.s/m
@@ -43,7 +44,7 @@ struct DampedContact {
   [[nodiscard]] double decay() const { return stiffness / damping; }
   /// m/s
   [[nodiscard]] double stopped() const { return 1e-12 * static_level / damping; }
-  /// The slide goes on for s [s].
+  /// The slip continues for s [s].
   void relax(double s);
   void break_away(int towards, double x);
   void stick(double x);
@@ -62,16 +63,16 @@ class PlainFriction {
   void add_reset_integrator(double kinetic_level, double stiffness, double static_gain, double damping);
   /// Once only.
   void add_bristles(double stiffness, double snap_distance, int count, std::uint64_t seed);
-  /// Springs unstretched, bristles where they are drawn.
+  /// Springs are unstretched, bristles are at their random places.
   void start(double x);
 
-  /// On the mass that moves in this direction (-1, 1); 0: at rest, without what holds it there.
+  /// Force on the mass that moves in this direction (-1, 1); 0: at rest, without the force that holds it there.
   [[nodiscard]] LinearForce force(int direction) const;
   /// Where on this side the next spring lets go [m]; infinite: none does.
   [[nodiscard]] double edge(int side) const;
-  /// All springs that do so there.
+  /// All springs that let go there.
   void let_go(int side);
-  /// v = 0 at x: feet that were dragged stand.
+  /// The mass stops at x: feet that were dragged now stand.
   void reverse(double x);
   /// Time passes.
   void relax(double s);

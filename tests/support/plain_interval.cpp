@@ -14,7 +14,7 @@ using oracle::LongComplex;
 using oracle::Real;
 
 constexpr double rounding = 16.0 * std::numeric_limits<double>::epsilon();
-/// Closer to zero than this, relative to its parts, a guard begins at zero.
+/// A guard counts as zero at the begin if it is closer to zero than this, relative to its parts.
 constexpr double at_zero = 1e-12;
 
 }  // namespace
@@ -88,7 +88,7 @@ PlainInterval::PlainInterval(const sim::Model& model, const PlainFriction& frict
   add_guards();
 }
 
-/// Phasors of the drive's force now.
+/// Phasors of the drive's force at the start of the interval.
 void PlainInterval::set_drive() {
   const sim::Oscillator& o = model_.oscillator;
   const sim::Excitation& e = model_.excitation;
@@ -128,7 +128,7 @@ double PlainInterval::velocity_error() const {
   return 4.0 * (force_error_ / problem_.mass / rate() + rounding * static_cast<double>(parts));
 }
 
-/// The larger of the error that the interval before has left and the error of this interval.
+/// The larger of the error from the interval before and the error of this interval.
 double PlainInterval::start_velocity_error() const { return std::max(velocity_error(), from_.v_error); }
 
 bool PlainInterval::is_regular() const {
@@ -157,7 +157,7 @@ void PlainInterval::add_guards() {
                          .error = force_error_});
     }
   } else {
-    // Released from rest under an unchanged level the mass starts without acceleration.
+    // A mass that is released from rest under an unchanged level starts without acceleration.
     int zeros = from_.v == 0.0 ? 1 : 0;
     if (zeros == 1 && std::abs(net_force()) <= at_zero * force_scale_) zeros = 2;
     guards_.push_back({.by_velocity = static_cast<double>(direction), .zeros = zeros});
@@ -172,7 +172,7 @@ void PlainInterval::add_spring_guard(int side) {
   Guard guard{.event = {.what = NextEvent::What::spring, .side = side},
               .constant = side * edge,
               .by_position = -static_cast<double>(side)};
-  // Where a foot has just come to stand, its spring stretched to its reach.
+  // A foot that has just come to stand, with its spring stretched to its reach.
   const bool touches = std::abs(edge - from_.x) <= at_zero * (std::abs(edge) + std::abs(from_.x));
   if (touches && from_.direction != side) guard.zeros = guards_.front().zeros + 1;
   guards_.push_back(guard);
@@ -248,8 +248,8 @@ ExponentialSum PlainInterval::sum(const Guard& g) const {
 }
 
 /// An error of the guard over its slope at the root. An error of the force grows to one of the velocity, and that
-/// to one of the position, until the reversal of the oscillator. At the start there are those that the interval
-/// before has left.
+/// to one of the position, until the reversal of the oscillator. At the start there are the errors from the
+/// interval before.
 double PlainInterval::uncertainty(const Guard& g, const ExponentialSum& f, double s) const {
   const double growing = std::min(s, 1.0 / rate());
   const double velocity =
@@ -260,7 +260,8 @@ double PlainInterval::uncertainty(const Guard& g, const ExponentialSum& f, doubl
   const ExponentialSum::Jet jet = f.jet(static_cast<Real>(s));
   const auto slope = static_cast<double>(std::abs(jet[1]));
   if (s > 0.0 && slope > 0.0) return error / slope;
-  // A guard that begins with a zero of higher order falls by its error in the time of the first term that can.
+  // A guard that begins with a zero of higher order falls by its error in the time that its first sufficient term
+  // needs.
   const auto bend = static_cast<double>(std::abs(jet[2]));
   const auto twist = static_cast<double>(std::abs(jet[3]));
   return std::min({error / slope, std::sqrt(2.0 * error / bend), std::cbrt(6.0 * error / twist)});
@@ -272,7 +273,7 @@ std::vector<NextEvent> PlainInterval::next_events(double horizon) const {
   for (const Guard& guard : guards_) {
     sums.push_back(sum(guard));
     const Real level = sums.back().level(0);
-    // One that may begin at zero and rises from there holds.
+    // A guard that may begin at zero and rises from there holds.
     const bool holds = guard.zeros == 0 && level >= -4 && sums.back().jet(0)[1] > 0;
     if (level > 4 || holds) continue;
     events.push_back(guard.event);

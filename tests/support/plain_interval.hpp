@@ -1,7 +1,7 @@
 #pragma once
 /// The motion between two events in closed form, and the next event by the oracle's rigorous search: for an
-/// oscillator with plain friction under a harmonic drive. It reads the model's numbers and shares no code with the
-/// engines.
+/// oscillator with plain friction under a harmonic drive. It uses the numbers of the model and shares no code with
+/// the engines.
 
 #include <vector>
 
@@ -14,29 +14,29 @@
 
 namespace dualdamp::test {
 
-/// The mass at an event, and where it goes: -1, 0 (it rests) or 1.
+/// The mass at an event, and its direction after it: -1, 0 (it sticks) or 1.
 struct MassState {
   double t = 0.0;
   double x = 0.0;
   double v = 0.0;
   int direction = 0;
-  double v_error = 0.0;  ///< m/s, of v: left by the interval before
+  double v_error = 0.0;  ///< m/s, error of v from the interval before
 };
 
-/// What comes next.
+/// The next event.
 struct NextEvent {
   enum class What { reversal, release, spring, contact } what = What::reversal;
   int side = 0;  ///< of the release, or to which the spring lets go or the contact breaks away
   std::size_t contact = 0;
   double s = 0.0;          ///< after the start of the interval [s]
-  double uncertainty = 0;  ///< what rounding of state, places and drive moves it by [s]
+  double uncertainty = 0;  ///< its change by rounding of state, places and drive [s]
 };
 
-/// Level and rate at t of a drive with steps or straight lines from sample to sample, as that piece has them.
+/// Level and rate at t of a drive with steps or straight lines from sample to sample, in the piece of t.
 [[nodiscard]] std::pair<double, double> sampled_drive(const sim::SampledSignal& samples, std::size_t piece,
                                                       double t);
 
-/// What the event does to friction and direction, by the equations of the laws. A mass that has come to rest stays
+/// Applies the event to friction and direction, by the equations of the laws. A mass that has come to rest sticks
 /// while the pull is within the static level.
 sim::EventKind take_place(const sim::Model& model, const NextEvent& event, PlainFriction& friction,
                           MassState& mass);
@@ -45,14 +45,14 @@ class PlainInterval {
  public:
   PlainInterval(const sim::Model& model, const PlainFriction& friction, const MassState& from);
 
-  /// False beside critical damping and undamped resonance, where the closed form cancels.
+  /// False near critical damping and undamped resonance, where the terms of the closed form cancel.
   [[nodiscard]] bool is_regular() const;
-  /// The first event; all that come within rounding of it, any of which may be the first. Empty: none.
+  /// The first event, with all events within rounding of it, any of which may be the first. Empty: none.
   [[nodiscard]] std::vector<NextEvent> next_events(double horizon) const;
   [[nodiscard]] double position(double s) const;
-  /// All forces on the mass at v = 0 now; at rest without those that hold it [N].
+  /// All forces on the mass at v = 0 at the start; for a mass at rest without those that hold it [N].
   [[nodiscard]] double net_force() const;
-  /// A velocity below this is rounding [m/s]: of the forces, or of the parts that it is the sum of.
+  /// A velocity below this is rounding [m/s]: of the forces, or of the terms of its sum.
   [[nodiscard]] double velocity_error() const;
   /// Sum of the moduli of all forces [N].
   [[nodiscard]] double force_scale() const { return force_scale_; }

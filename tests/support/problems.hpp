@@ -1,5 +1,5 @@
 #pragma once
-/// What is said of an input that is refused.
+/// The problems of an input that is refused.
 
 #include <vector>
 
@@ -7,7 +7,7 @@
 
 namespace dualdamp::test {
 
-/// Nothing where `read` takes its input.
+/// Empty if `read` accepts its input.
 template <typename Read>
 std::vector<core::Diagnostic> problems_of(Read read) {
   try {

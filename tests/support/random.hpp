@@ -1,6 +1,6 @@
 #pragma once
-/// Random draws for tests: the same with every standard library. Draws within one statement come in the order the
-/// compiler chooses.
+/// Random draws for tests: the same with every standard library. The order of draws within one statement depends on
+/// the compiler.
 
 #include <cmath>
 #include <complex>
@@ -35,7 +35,7 @@ class Random {
   std::mt19937_64 bits_;
 };
 
-/// How many random cases to run: `name` of the environment, or else `standard`.
+/// Number of random cases: the variable `name` of the environment, otherwise `standard`.
 inline long case_count(const char* name, long standard) {
   const char* text = std::getenv(name);
   return text == nullptr ? standard : std::strtol(text, nullptr, 10);

@@ -15,7 +15,7 @@ using oracle::LongComplex;
 using oracle::Real;
 using Complex = std::complex<double>;
 
-/// Draws the elements as sim/linear_mode lays them out: own motion, constant, ramp, harmonics, decays, with chains
+/// Draws the elements in the form of sim/linear_mode: own motion, constant, ramp, harmonics, decays, with chains
 /// where exponents meet.
 class BasisDraw {
  public:
@@ -221,7 +221,7 @@ class GuardDraw {
  public:
   GuardDraw(Random& random, const GuardCase& c) : random_(random), c_(c) {}
 
-  /// `special` is where something is planted.
+  /// `special`: place where a special event is planted.
   GuardCase::Row run(double special) {
     for (;;) {
       GuardCase::Row row = coefficients();
@@ -233,7 +233,8 @@ class GuardDraw {
       // Twice: the first time coefficients may cancel.
       if (!Imposing(c_, row, conditions).solve() || !Imposing(c_, row, conditions).solve()) continue;
       clear_remnants(row);
-      // The zero's order is known only where the next derivative stands out of the rounding of the fastest element.
+      // The order of the zero is known only if the next derivative is larger than the rounding of the fastest
+      // element.
       if (reference(c_, row).level(0) < 100) continue;
       const double scale = random_.chance(0.5) ? 1.0 : random_.logarithmic(1e-9, 1e9);
       for (Complex& c : row.coefficients) c *= scale;
@@ -257,7 +258,7 @@ class GuardDraw {
     return row;
   }
 
-  /// What cancellation has left of a coefficient would only count where all else has decayed out of range.
+  /// The remainder of a cancelled coefficient would only count where all other terms have underflowed.
   static void clear_remnants(GuardCase::Row& row) {
     for (Complex& c : row.coefficients) {
       if (std::abs(c) < 1e-100) c = 0.0;
@@ -290,7 +291,7 @@ class GuardDraw {
   const GuardCase& c_;
 };
 
-/// How fast the fastest element grows that a guard may have.
+/// Largest rate of growth of an element of a guard.
 double growth(const GuardCase& c) {
   double fastest = 0.0;
   for (const GuardCase::Element& e : c.elements) {
@@ -299,7 +300,7 @@ double growth(const GuardCase& c) {
   return fastest;
 }
 
-/// A sticking mass: its own motion has no part in the guards, and may run away.
+/// A sticking mass: its free motion does not enter the guards and may grow without bound.
 void leave_own_motion_unused(GuardCase& c) {
   for (GuardCase::Element& e : c.elements) {
     const bool own =
@@ -332,7 +333,7 @@ GuardCase random_guards(Random& random) {
   if (grows && random.chance(0.3)) leave_own_motion_unused(c);
   const bool unused = grows && growth(c) == 0.0;
   c.horizon = random.logarithmic(0.3, unused ? 3000.0 : grows ? 300.0 : 60.0) / turning(c);
-  // Where something is planted; twice in a while at the start, or beside the horizon.
+  // Place where a special event is planted; sometimes at the start or near the horizon.
   double special = c.horizon * random.uniform(0.05, 0.95);
   if (random.chance(0.2)) special = c.horizon * random.logarithmic(1e-9, 1.0);
   if (random.chance(0.1)) {

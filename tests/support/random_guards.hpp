@@ -1,7 +1,7 @@
 #pragma once
-/// Guards drawn at random over every kind of basis that a mode of the engine can have, with near-double roots,
-/// tangencies, flatter contacts, known zeros at the start, crossings beside them and events at the horizon planted
-/// on purpose.
+/// Guards drawn at random over every kind of basis that a mode of the engine can have, with planted near-double
+/// roots, tangencies, tangencies of higher order, known zeros at the start, crossings near them and events at the
+/// horizon.
 
 #include <array>
 #include <complex>
@@ -46,9 +46,9 @@ struct GuardCase {
 };
 
 [[nodiscard]] GuardCase random_guards(Random& random);
-/// The guard as the oracle sees it.
+/// The guard as a sum of the oracle.
 [[nodiscard]] oracle::ExponentialSum reference(const GuardCase& c, const GuardCase::Row& guard);
-/// All its numbers, to reproduce it.
+/// All its numbers as text, to reproduce it.
 [[nodiscard]] std::string describe(const GuardCase& c);
 
 }  // namespace dualdamp::test

@@ -13,7 +13,7 @@ namespace dualdamp::test {
 
 namespace {
 
-/// Force levels are shares of the drive's: the mass overcomes them.
+/// Force levels are shares of the drive's force, so that the mass overcomes them.
 double drive_force(const Oscillation& o) { return o.model.oscillator.stiffness * o.model.excitation.amplitude; }
 
 template <class L>
@@ -43,7 +43,7 @@ void add_contact(Oscillation& o, LawKind kind, Random& random, const Ranges& ran
   o.plain.add_contact(kinetic, limit, stiffness, damping);
 }
 
-/// Two to thirty elements: half of the time spread evenly, or else each drawn.
+/// Two to thirty elements: in half of the cases spread evenly, otherwise each drawn.
 void add_iwan(Oscillation& o, Random& random, const Ranges& ranges) {
   const int count = 2 + random.pick(29);
   const double stiffness = o.model.oscillator.stiffness * random.logarithmic(0.3, 0.1 * ranges.stiffest);

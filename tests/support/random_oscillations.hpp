@@ -1,6 +1,6 @@
 #pragma once
-/// Oscillators drawn at random with friction that is likely to slide, stick and break away, each law twice: as the
-/// engine has it and as plain friction.
+/// Oscillators drawn at random with friction that is likely to slide, stick and break away. Each law is made twice:
+/// for the engine and as plain friction.
 
 #include <array>
 #include <string>
@@ -27,11 +27,11 @@ struct Oscillation {
   sim::Model model;
   PlainFriction plain;
 
-  /// All numbers of oscillator and drive, to reproduce it.
+  /// All numbers of oscillator and drive as text, to reproduce them.
   [[nodiscard]] std::string describe() const;
 };
 
-/// How far oscillators and laws range.
+/// Ranges of oscillators and laws.
 struct Ranges {
   std::array<double, 2> frequency_ratio = {0.05, 5.0};
   std::array<double, 2> damping_ratio = {1e-3, 3.0};

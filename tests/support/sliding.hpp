@@ -5,7 +5,7 @@
 
 namespace dualdamp::test {
 
-/// Goes on at this speed for this time, without a stop before; the host has the direction.
+/// Continues at this speed for this time, without a stop before; the host has the direction.
 inline void go_on(sim::LawHost& host, double speed, double duration) {
   const friction::Instant from = host.now();
   host.move_along(from.t + duration, [=](double t) {
@@ -13,7 +13,7 @@ inline void go_on(sim::LawHost& host, double speed, double duration) {
   });
 }
 
-/// Stops, then slides at this speed for this time; 0: rests.
+/// Stops, then slides at this speed for this time; 0: stays at rest.
 inline void slide(sim::LawHost& host, double speed, double duration) {
   using friction::Direction;
   host.change_direction(speed > 0.0 ? Direction::forward : speed < 0.0 ? Direction::backward : Direction::none);

@@ -1,5 +1,6 @@
 #pragma once
-/// Where the tree of sources lies; only one translation unit knows, so that the compiler cache serves every clone.
+/// The path of the source tree. Only one translation unit contains it, so that compiled files are equal in every
+/// clone.
 
 #include <filesystem>
 #include <string>

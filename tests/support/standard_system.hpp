@@ -26,8 +26,8 @@ struct SettledMotion {
   double friction_work = 0.0;  ///< J per period
 };
 
-/// By walking on until the transient has decayed to rounding, exp(-2 t) after 60 periods = exp(-75). The mass of
-/// the orbit does not rest.
+/// Integrates until the transient has decayed to rounding: exp(-2 t) after 60 periods is exp(-75). The mass must
+/// not stick on the orbit.
 inline SettledMotion settled_motion(const friction::Law& law) {
   const double period = std::numbers::pi / 5.0;
   const sim::Model model = standard_system(law);

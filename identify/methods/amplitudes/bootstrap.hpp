@@ -1,10 +1,10 @@
 #pragma once
 /// Bootstrap of an estimate from x-Y pairs: the estimate is made again from data drawn from the data.
 ///
-/// The block is the sweep: what drifts from sweep to sweep is common to its pairs, and single pairs drawn as if
-/// they were independent would hide it. Records of one sweep have their residuals drawn instead. Draw n of
-/// replicate i depends on i and n alone, so results repeat everywhere. Source: efron1993 (chapters 6, 9, 13). Cost:
-/// that of the replicates; 1,000 of a straight line through 50 pairs take a few milliseconds.
+/// Whole sweeps are drawn: a drift from sweep to sweep is common to the pairs of a sweep, and drawing single pairs
+/// would hide it. If there is one sweep, residuals are drawn instead. Draw n of replicate i depends on i and n
+/// alone, so results are the same on every machine. Source: efron1993 (chapters 6, 9, 13). Cost: that of the
+/// estimates; 1,000 of a straight line through 50 pairs take a few milliseconds.
 
 #include <Eigen/Core>
 #include <cstddef>
@@ -37,7 +37,7 @@ class Draws {
 /// Indices of the pairs of each sweep.
 [[nodiscard]] std::vector<std::vector<std::size_t>> sweep_blocks(const std::vector<Datum>& pairs);
 
-/// (zeta, x_f [m]) of one replicate; nothing where its data allow no estimate.
+/// (zeta, x_f [m]) of one replicate; nothing if its data allow no estimate.
 using Replicate = std::function<std::optional<Eigen::Vector2d>(Draws&)>;
 
 /// Makes the replicates and adds `bootstrap_zeta` and `bootstrap_F0` to the further parameters: mean, standard

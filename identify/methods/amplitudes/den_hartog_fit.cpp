@@ -43,8 +43,8 @@ class AmplitudeLaw {
   [[nodiscard]] Eigen::Index rows() const { return static_cast<Eigen::Index>(pairs_.size()); }
   [[nodiscard]] Eigen::Index size() const { return size_; }
 
-  /// Law less measurement; derivatives in all three directions whether fitted or not. False outside of the
-  /// law's range.
+  /// Law less measurement; derivatives in all three directions whether fitted or not. False outside the law's
+  /// range.
   bool evaluate(const Eigen::Vector3d& p, Eigen::VectorXd& residual, Eigen::MatrixX3d* jacobian) const {
     if (!(p[0] > 0.0 && p[0] < greatest_zeta)) return false;
     const double scale = std::exp(-p[2]);
@@ -77,7 +77,7 @@ class AmplitudeLaw {
     return true;
   }
 
-  /// Mean square of dx/dY: by how much errors of the input are seen in the output.
+  /// Mean square of dx/dY: factor from the variance of the input to that of the output.
   [[nodiscard]] double mean_square_gain(const Eigen::Vector3d& p) const {
     double sum = 0.0;
     for (const Datum& datum : pairs_) {
@@ -103,7 +103,7 @@ double sum_of_squares(const AmplitudeLaw& law, const Eigen::Vector3d& p) {
   return law.evaluate(p, residual, nullptr) ? residual.squaredNorm() : infinity;
 }
 
-/// The best of a grid in zeta (and wn), the friction by linear least squares with H neglected.
+/// The best point of a grid in zeta (and wn); its friction by linear least squares with H neglected.
 std::optional<Eigen::Vector3d> starting_point(const AmplitudeLaw& law) {
   std::optional<Eigen::Vector3d> best;
   double least = infinity;
@@ -158,7 +158,7 @@ std::optional<ExactFit> fit_model(const AmplitudeLaw& law) {
   return result;
 }
 
-/// A few Gauss-Newton steps from a point that is near: what replicates of a bootstrap need.
+/// A few Gauss-Newton steps from a near point, which suffice for the replicates of a bootstrap.
 std::optional<Eigen::Vector3d> refine(const AmplitudeLaw& law, Eigen::Vector3d p) {
   Eigen::VectorXd residual;
   Eigen::MatrixX3d jacobian;
@@ -237,7 +237,8 @@ void add_uncertainty(const AmplitudeLaw& law, const ExactFit& fit, double unit, 
   estimate.others.push_back(std::move(parameter));
 }
 
-/// Is the friction another one at larger amplitudes, and is the natural frequency another one?
+/// Tests whether friction changes with the amplitude, and whether the natural frequency differs from the stated
+/// one.
 void test_fit(const AmplitudeLaw& law, const ExactFit& fit, Estimate& estimate) {
   const Eigen::MatrixXd columns = fit.jacobian.leftCols(law.size());
   const Eigen::VectorXd residual = -fit.residual;  // measurement less law
@@ -259,7 +260,7 @@ void test_fit(const AmplitudeLaw& law, const ExactFit& fit, Estimate& estimate) 
         "): with three or more of them the natural frequency can be fitted");
 }
 
-/// Phases are not fitted; they speak of the instruments and of wn.
+/// Phases are not fitted; they show a lag of the sensors, or another wn.
 void judge_phases(const Record& record, const AmplitudeLaw& law, const ExactFit& fit, Estimate& estimate) {
   double sum = 0.0;
   int count = 0;
@@ -274,9 +275,9 @@ void judge_phases(const Record& record, const AmplitudeLaw& law, const ExactFit&
   }
   constexpr double largest = 0.03;  // rad
   if (count > 0 && std::abs(sum / count) > largest)
-    estimate.warnings.push_back("the measured phases are off those of the fitted motion by " +
+    estimate.warnings.push_back("the measured phases differ from those of the fitted motion by " +
                                 core::format_number(sum / count * 180.0 / std::numbers::pi, 3) +
-                                " degrees in the mean: a lag of the instruments, or another natural frequency");
+                                " degrees on average: a lag of the instruments, or another natural frequency");
 }
 
 Deviance deviance_of(const AmplitudeLaw& law, const ExactFit& fit, double unit, double variance) {
@@ -313,7 +314,7 @@ void bootstrap(const AmplitudeLaw& law, const ExactFit& fit, const ResonanceData
                 });
 }
 
-/// Why there is no fit; empty when there may be one.
+/// Why no fit is possible; empty otherwise.
 std::string fault_of(const AmplitudeLaw& law, const std::vector<Exclusion>& excluded) {
   if (law.size() == 3 && law.frequencies() < 3)
     return "the natural frequency cannot be told from fewer than three frequencies, and the record has " +

@@ -4,17 +4,17 @@
 ///   x_i = -G x_f + sqrt((Y_i/q)^2 - (H x_f)^2),   G, H, q of (zeta, w_i/wn)           Eqs (3)-(6)
 ///
 /// by least squares over zeta and x_f, with analytic derivatives; over wn too with `free_natural_frequency`.
-/// Nothing is neglected, so the frequencies need not be near resonance, and detuning is no error. From one
-/// frequency wn cannot be told in practice (zeta would be known tens of times worse), so a free wn is refused with
-/// fewer than three.
+/// Nothing is neglected, so the frequencies need not be near resonance, and detuning is no error. With one
+/// frequency wn cannot be found in practice (the error of zeta would be tens of times larger), so a free wn is
+/// refused with fewer than three frequencies.
 ///
-/// Holds for Coulomb and viscous friction, zeta < 0.95, without sticking, errors of x independent and alike. Phases
-/// are not fitted; where the record has them they are compared with those of the fitted motion. Uncertainty:
-/// covariance of least squares, n - 2 (n - 3) degrees of freedom, or from `sigma_x` and `sigma_Y`. Diagnostics:
-/// pairs that stick are left out by the exact test; an F test of a term quadratic in the output; with several
-/// frequencies and a known wn, an F test of another wn. Source: denhartog1931, hundal1979, liang2004identifying.
-/// Errors: `outcome`. Cost: some twenty evaluations, each 0.3 us a frequency and 20 ns a pair, and the solver's own
-/// 0.2 ms.
+/// Holds for Coulomb and viscous friction, zeta < 0.95, without sticking, errors of x independent and of equal
+/// size. Phases are not fitted; if the record has them, they are compared with those of the fitted motion.
+/// Uncertainty: covariance of least squares, n - 2 (n - 3) degrees of freedom, or from `sigma_x` and `sigma_Y`.
+/// Diagnostics: pairs that stick are left out by the exact test; an F test of a term quadratic in the output; with
+/// several frequencies and a known wn, an F test of another wn. Source: denhartog1931, hundal1979,
+/// liang2004identifying. Errors: `outcome`. Cost: some twenty evaluations, each 0.3 us a frequency and 20 ns a
+/// pair, and the solver's own 0.2 ms.
 
 #include "identify/method.hpp"
 

@@ -53,7 +53,7 @@ bool balance(const std::vector<EnergyTerms>& accounts, const KnownConstants& con
     return false;
   }
   set_estimate(estimate, *line, constants);
-  ForceLine scattered = *line;  // without what the method's own approximation leaves, which is no error of the data
+  ForceLine scattered = *line;  // less the error of the method's own approximation, which is no error of the data
   if (own && estimate.value.zeta > 0.0 && estimate.value.x_f >= 0.0) {
     const std::optional<ForceLine> of_own = force_line_of(own(estimate.value));
     if (of_own && of_own->residuals.size() == scattered.residuals.size()) {
@@ -77,8 +77,8 @@ bool balance(const std::vector<EnergyTerms>& accounts, const KnownConstants& con
 
 namespace {
 
-/// Periods that x would make in all its samples, reversing as often as between its first and last reversal. Only
-/// what turns back by more than `band` is one.
+/// Number of periods in all samples of x, by the rate of reversals between the first reversal and the last. A
+/// reversal counts only if x turns back by more than `band`.
 int periods_of(const std::vector<double>& x, double band) {
   std::vector<std::size_t> turns;
   double sense = 0.0;
@@ -98,8 +98,8 @@ int periods_of(const std::vector<double>& x, double band) {
   return std::max(static_cast<int>(static_cast<double>(x.size()) / (2.0 * half_period)), 1);
 }
 
-/// Histories in windows of about a period each, filtered with the first cut-off. Windows in
-/// which the mass sticks hold noise alone, and are left out.
+/// Balances of windows of about a period each, filtered with the first cut-off. Windows in which the mass sticks
+/// hold noise alone and are left out.
 std::vector<EnergyTerms> accounts_of_histories(const Record& record, const KnownConstants& constants,
                                                const FilterOptions& options, Estimate& estimate) {
   std::vector<EnergyTerms> accounts;
@@ -172,7 +172,7 @@ std::string lacks_energy(const Record& record) {
   return record.histories.empty() || lacks_phases(record).empty() ? lacks_phases(record) : "";
 }
 
-/// States, being averaged over many periods, come before histories.
+/// States are preferred to histories, because they are averaged over many periods.
 Estimate energy_balance(const Record& record, const KnownConstants& constants, const FilterOptions& options) {
   Estimate estimate;
   estimate.method = energy_balance_method.name;

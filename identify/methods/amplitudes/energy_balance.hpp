@@ -1,23 +1,23 @@
 #pragma once
-/// Energy balance: viscous and Coulomb friction from the work that the base does in a period.
+/// Energy balance: viscous and Coulomb friction from the work of the base in one period.
 ///
 ///   pi k Y X_1 sin(phi) = F0 path + c integral v^2 dt,   path = integral |dx| = 4 x
 ///
 /// with X_1 and phi the amplitude and lag of the fundamental of x, and x half of peak to trough. It is exact for
-/// Coulomb and viscous friction at any frequency, whatever the waveform of x, with stops or without, as long as the
-/// mass turns twice in a period; it needs neither resonance nor small damping nor the mass, and springs that are
-/// not linear do not matter. Each state is divided by its path, which leaves a straight line of force over speed,
-/// fitted by least squares over levels and frequencies.
+/// Coulomb and viscous friction at any frequency and for any waveform of x, with stops or without, if x has two
+/// turning points in a period. It needs neither resonance nor small damping nor the mass, and the spring need not
+/// be linear. Divided by the path, the states lie on a straight line of force over speed, which is fitted by least
+/// squares over levels and frequencies.
 ///
-/// Histories of y and x are read where the record has no two states with phases: each period is an account, with
-/// the work less the change of the stored energy, which needs the mass and allows any motion and any drive.
+/// If the record has no two states with phases, histories of y and x are read. Each period gives one balance: the
+/// work less the change of the stored energy. This needs the mass and allows any motion and any drive.
 ///
-/// Where the mean square speed of a state was not measured that of the fundamental is taken, w^2 X_1^2/2, and where
-/// X_1 was not, x. That biases c and F0 by one to two percent in opposite directions; by how much, the method tells
-/// by reading exact states at its own estimate. A phase error e changes the work by cot(phi) e: nothing at
-/// resonance. Uncertainty: from the scatter about the line with n - 2 degrees of freedom. Diagnostics: an F test of
-/// a quadratic term of the speed. Source: tomlinson1979, liang2006balancing. Errors: `outcome`. Cost: about 5 us
-/// for 50 states.
+/// If the mean square speed of a state was not measured, that of the fundamental is used, w^2 X_1^2/2; if X_1 was
+/// not measured, x is used. This biases c and F0 by one to two percent in opposite directions. The method computes
+/// the bias from exact states at its own estimate. A phase error e changes the work by the fraction cot(phi) e,
+/// which is 0 at resonance. Uncertainty: from the scatter about the line with n - 2 degrees of freedom.
+/// Diagnostics: an F test of a quadratic term of the speed. Source: tomlinson1979, liang2006balancing. Errors:
+/// `outcome`. Cost: about 5 us for 50 states.
 
 #include <functional>
 #include <vector>
@@ -26,7 +26,7 @@
 
 namespace dualdamp::identify {
 
-/// The account of one steady state or one record of it: over a period, or any time without change of stored energy.
+/// The energy balance of one steady state: over a period, or over any time without change of stored energy.
 struct EnergyTerms {
   double work = 0.0;          ///< done on the oscillator by base and force [J]
   double path = 0.0;          ///< integral |dx| [m]
@@ -34,22 +34,23 @@ struct EnergyTerms {
   int number = 0;             ///< of the state in the record
 };
 
-/// Of one period, from what was measured of a steady state; `pair.omega` and `pair.phase` are known.
+/// The balance of one period, from the measured quantities of a steady state; `pair.omega` and `pair.phase` are
+/// known.
 [[nodiscard]] EnergyTerms energy_of(const Pair& pair, double stiffness);
 
-/// What the accounts would be if the motion were the exact one of an estimate.
+/// The balances for the exact motion at an estimate.
 using OwnAccounts = std::function<std::vector<EnergyTerms>(const ParameterSet&)>;
 
-/// The line through accounts of any origin, with its uncertainty and its test, in `estimate`; false after it has
-/// been refused. Reasons not to use it are appended to `faults`. `own`, where accounts are approximate: what they
-/// would be at the estimate; its departure from a line is not held against the law.
+/// The line through these balances, with its uncertainty and its test, in `estimate`; false after the estimate has
+/// been refused. Reasons not to use it are appended to `faults`. `own`, for approximate balances: those of the
+/// exact motion at the estimate; their departure from a line does not count against the law.
 bool balance(const std::vector<EnergyTerms>& accounts, const KnownConstants& constants, Estimate& estimate,
              std::vector<std::string>& faults, const OwnAccounts& own = {});
 
 [[nodiscard]] Estimate energy_balance(const Record& record, const KnownConstants& constants,
                                       const FilterOptions& options = {});
 
-/// Two pairs with phases, or histories, are asked for.
+/// Why the record has neither two pairs with phases nor histories; empty when it has.
 [[nodiscard]] std::string lacks_energy(const Record& record);
 
 extern const MethodEntry energy_balance_method;

@@ -5,10 +5,10 @@
 ///   dzeta = [dY2 - dY1 - 2 zeta (dx2 - dx1)]/(2 (x2 - x1))                            Eq (16)
 ///   dx_f  = A dx1 + B dx2 + C dY1 + D dY2 + E dzeta                                   Eq (17)
 ///
-/// A ... E are the partial derivatives at fixed zeta and with respect to zeta. They nearly cancel, since an error
-/// that raises zeta lowers G; what an error really does to x_f is the total derivative, Eq (16) put into Eq (17).
-/// docs/theory.md gives its small-zeta form: an output error enters with the factor 2 zeta, an input error with
-/// pi/4 whatever zeta.
+/// A ... E are the partial derivatives at fixed zeta and with respect to zeta. They nearly cancel, because an error
+/// that raises zeta lowers G. The effect of an error on x_f is the total derivative, Eq (16) inserted into Eq (17).
+/// docs/theory.md gives its form for small zeta: an output error has the factor 2 zeta, an input error the factor
+/// pi/4 for any zeta.
 ///
 /// Source: liang2004identifying. Cost: below a microsecond. Errors: none; the preconditions are stated below.
 

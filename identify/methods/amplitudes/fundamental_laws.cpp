@@ -29,7 +29,7 @@ double dawson_series(double x) {
 
 double dawson(double x) {
   // A trapezoidal sum over odd multiples of h about the even one next to x (rybicki1989). Its error falls like
-  // exp(-(pi/(2 h))^2), 7e-18 for this step; terms beyond the last are as small.
+  // exp(-(pi/(2 h))^2), 7e-18 for this step; the terms that are left out are as small.
   constexpr double h = 0.25;
   constexpr int terms = 13;
   static const std::array<double, terms> weights = [] {
@@ -93,7 +93,7 @@ ValueAndSlope saturating_fundamental(double a) {
 namespace {
 
 using Fundamentals = FundamentalLaw::Fundamentals;
-/// Without the long double that Boost takes to round the last digit.
+/// Avoids the long double with which Boost rounds the last digit.
 using InDouble = boost::math::policies::policy<boost::math::policies::promote_double<false>>;
 
 Fundamentals of_power(double V, double /*X*/, double n) {
@@ -116,7 +116,7 @@ Fundamentals of_stribeck(double V, double /*X*/, double vs) {
   return {{coulomb_share, V, coulomb_share * D / u}, {0.0, V, slope}, {0.0, 0.0, -slope / vs}};
 }
 
-/// Coulomb and viscous friction and one term that grows as X^n or V^n, without a shape.
+/// Coulomb and viscous friction and one term that grows as X^n or V^n; no shape parameter.
 Fundamentals with_power(double V, double term, double n) {
   return {{coulomb_share, V, term}, {0.0, V, n * term}, {}};
 }

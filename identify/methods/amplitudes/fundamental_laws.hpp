@@ -1,11 +1,11 @@
 #pragma once
-/// Friction laws as an x-Y test sees them: by the fundamental Phi of their force on x = X cos(theta), V = w X.
+/// Friction laws by what an x-Y test measures: the fundamental Phi of their force on x = X cos(theta), V = w X.
 ///
 ///   Phi(V, X) = sum_j C_j phi_j(V, X; shape)
 ///
 /// Each law is linear in up to three coefficients and has at most one shape parameter. Speeds and amplitudes are
-/// over their largest values. Source of the fundamentals: closed forms of (4/pi) int_0^(pi/2) f(V sin t) sin t dt,
-/// and for a law of position (4/(pi X)) int_0^X F(s) ds.
+/// divided by their largest values. Source of the fundamentals: closed forms of (4/pi) int_0^(pi/2) f(V sin t) sin
+/// t dt, and for a law of position (4/(pi X)) int_0^X F(s) ds.
 
 #include <array>
 #include <numbers>
@@ -15,7 +15,7 @@
 
 namespace dualdamp::identify {
 
-/// Of Coulomb friction in its fundamental.
+/// Fundamental of a Coulomb friction of 1.
 inline constexpr double coulomb_share = 4.0 / std::numbers::pi;
 
 /// A coefficient [N . (s/m)^speed_power . m^-length_power] of a law.
@@ -27,7 +27,7 @@ struct LawCoefficient {
   bool signed_value = false;  ///< else it is not negative
 };
 
-/// A parameter that the fundamental is not linear in, searched from `low` to `high`.
+/// A parameter in which the fundamental is not linear, searched from `low` to `high`.
 struct LawShape {
   std::string_view name;
   std::string_view unit;
@@ -54,9 +54,9 @@ struct FundamentalLaw {
   Fundamentals (*fundamentals)(double V, double X, double shape) = nullptr;
   /// Forces at speed v > 0; nullptr for laws that are not of velocity.
   Terms (*forces)(double v, double shape) = nullptr;
-  /// At one frequency it is the same curve as a law before it in the list, or as fewer parameters.
+  /// At one frequency its curve equals that of an earlier law in the list, or of a law with fewer parameters.
   bool alias_at_one_frequency = false;
-  /// What distinguishes it from Coulomb and viscous friction is one parameter that vanishes for these.
+  /// It differs from Coulomb and viscous friction by one parameter, which is 0 for these.
   bool one_more = false;
 
   [[nodiscard]] std::size_t parameters() const { return coefficients.size() + (shape ? 1 : 0); }
@@ -73,8 +73,8 @@ struct ValueAndSlope {
   double slope = 0.0;
 };
 
-/// Fundamental of v/(1 + |v|/v0) at V = a v0 over v0, a > 0, and its derivative by a (to 1e-9 or better near a =
-/// 1).
+/// Fundamental of v/(1 + |v|/v0) at V = a v0, divided by v0, and its derivative by a; a > 0 (to 1e-9 or better near
+/// a = 1).
 [[nodiscard]] ValueAndSlope saturating_fundamental(double a);
 
 }  // namespace dualdamp::identify

@@ -35,7 +35,7 @@ namespace {
 
 constexpr Eigen::Index most_terms = 4;
 
-/// Speed amplitude and fundamental of the friction of one state; nothing where spring and inertia take more than
+/// Speed amplitude and fundamental of the friction of one state; nothing if spring and inertia need more force than
 /// the drive gives.
 std::optional<Datum> friction_point(const Pair& pair, const KnownConstants& constants) {
   const double X = fundamental(pair);
@@ -64,7 +64,7 @@ std::optional<ParameterSet> balanced_parameters(const std::vector<Pair>& states,
   return parameters(ForceParameters{constants.mass, line->c(), constants.stiffness, line->F0()});
 }
 
-/// Phi and f in monomials of V over its largest value.
+/// Phi and f as polynomials in V over its largest value.
 struct MonomialFit {
   double scale = 1.0;  ///< m/s
   Eigen::MatrixXd columns;
@@ -111,7 +111,7 @@ MonomialFit fit_monomials(const std::vector<Datum>& points, Eigen::Index terms) 
   return fit;
 }
 
-/// The estimate less what the method misreads there.
+/// The estimate less the error of the method there.
 ParameterSet corrected(const std::vector<Pair>& states, const ParameterSet& value,
                        const KnownConstants& constants) {
   const std::vector<Pair> exact = exact_states(states, value, constants);
@@ -122,7 +122,7 @@ ParameterSet corrected(const std::vector<Pair>& states, const ParameterSet& valu
              : value;
 }
 
-/// What harmonic balance leaves of the exact motion, which speaks for the law and not against it.
+/// Residuals of harmonic balance on the exact motion. They come from the method and do not count against the law.
 Eigen::VectorXd own_residuals(const std::vector<Pair>& states, const std::vector<Datum>& points,
                               const ParameterSet& estimated, const KnownConstants& constants, Eigen::Index terms) {
   const auto none = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(points.size()));
@@ -134,7 +134,7 @@ Eigen::VectorXd own_residuals(const std::vector<Pair>& states, const std::vector
   return fit_monomials(exact, terms).residuals;
 }
 
-/// Two terms, and more as long as the test of the next one fires. The first test is that of the estimate.
+/// Two terms, and one more as long as the test of the next one rejects. The first test is that of the estimate.
 MonomialFit fit_curve(const std::vector<Pair>& states, const std::vector<Datum>& points,
                       const KnownConstants& constants, Estimate& estimate) {
   MonomialFit fit = fit_monomials(points, 2);
@@ -166,7 +166,7 @@ void list_coefficients(const MonomialFit& fit, Estimate& estimate) {
   }
 }
 
-/// Of the parabola through each point and its neighbours; three points at least.
+/// Slope of the parabola through each point and its neighbours; at least three points.
 std::vector<double> parabolic_slopes(const std::vector<double>& V, const std::vector<double>& Phi) {
   const std::size_t n = V.size();
   const auto secant = [&](std::size_t i) { return (Phi[i + 1] - Phi[i]) / (V[i + 1] - V[i]); };
@@ -178,8 +178,8 @@ std::vector<double> parabolic_slopes(const std::vector<double>& V, const std::ve
   return slopes;
 }
 
-/// Phi through the measured points, pairs of equal speed averaged; below the slowest the fitted curve, led to the
-/// point.
+/// Phi through the measured points; points of equal speed are averaged. Below the slowest point it is the fitted
+/// curve with a linear correction that meets that point.
 class MeasuredFundamental {
  public:
   MeasuredFundamental(std::vector<Datum> points, const MonomialFit& fit) : fit_(fit) {
@@ -256,8 +256,8 @@ std::string few(std::size_t left, const Estimate& estimate) {
   return reason;
 }
 
-/// Leaves out states without a friction point and those that stick, until none does; nothing after `estimate` has
-/// been refused.
+/// Leaves out states without a friction point and those that stick, until no state sticks; nothing after `estimate`
+/// has been refused.
 std::optional<ForceLine> fit_sliding(std::vector<Pair>& states, const KnownConstants& constants,
                                      Estimate& estimate) {
   std::erase_if(states, [&](const Pair& state) {

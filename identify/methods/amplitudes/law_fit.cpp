@@ -32,7 +32,7 @@ std::optional<LawOutput> output_of(const FundamentalLaw& law, const Eigen::Vecto
     if (!(found.slope > 0.0)) return std::nullopt;
     const double step = 0.5 * (along * along + found.across * found.across - point.Y * point.Y) / found.slope;
     found.X = std::max(found.X - step, 0.2 * found.X);
-    if (std::abs(step) < 1e-8 * found.X) return found;  // and the error after it is of its square
+    if (std::abs(step) < 1e-8 * found.X) return found;  // the error after this step is of its square
   }
   return std::nullopt;
 }
@@ -58,7 +58,8 @@ bool evaluate(const FundamentalLaw& law, const std::vector<LawPoint>& points, co
   return true;
 }
 
-/// Linear least squares in the force for each of a grid of shapes, weighted as errors of x are by a straight law.
+/// Linear least squares in the force for each shape of a grid. The weights are those for errors of x under a law
+/// that is linear in x.
 Eigen::VectorXd starting_point(const FundamentalLaw& law, const std::vector<LawPoint>& points) {
   const auto count = static_cast<Eigen::Index>(points.size());
   const auto size = static_cast<Eigen::Index>(law.coefficients.size());
@@ -92,8 +93,8 @@ Eigen::VectorXd starting_point(const FundamentalLaw& law, const std::vector<LawP
   return best;
 }
 
-/// A speed of a shape is fitted by its inverse, in which the law is nearly linear: the data of Coulomb and viscous
-/// friction lead the speed itself to infinity, in a hundred steps. Its own inverse.
+/// A shape that is a speed is fitted by its inverse, in which the law is nearly linear: for data of Coulomb and
+/// viscous friction the speed itself would go to infinity in a hundred steps. The function is its own inverse.
 void invert_shape(const FundamentalLaw& law, Eigen::VectorXd& p) {
   if (law.shape && law.shape->is_speed) p[p.size() - 1] = 1.0 / p[p.size() - 1];
 }
@@ -115,7 +116,7 @@ std::optional<LawFit> fit_law(const FundamentalLaw& law, const std::vector<LawPo
     problem.low[size - 1] = inverse ? 1.0 / law.shape->high : law.shape->low;
     problem.high[size - 1] = inverse ? 1.0 / law.shape->low : law.shape->high;
   }
-  problem.tolerance = 1e-6;  // far below what tells laws apart
+  problem.tolerance = 1e-6;  // far below the differences between laws
   problem.evaluate = [&](const Eigen::VectorXd& q, Eigen::VectorXd& residual, Eigen::MatrixXd* jacobian) {
     Eigen::VectorXd p = q;
     invert_shape(law, p);
@@ -124,7 +125,7 @@ std::optional<LawFit> fit_law(const FundamentalLaw& law, const std::vector<LawPo
       jacobian->col(size - 1) *= -p[size - 1] * p[size - 1];
     return true;
   };
-  // A term of negative sign may leave no motion at all: begin nearer to none of it.
+  // With a term of negative sign there may be no motion at all: begin with a smaller term.
   Eigen::VectorXd residual;
   constexpr int halvings = 6;
   for (int i = 0; i < halvings && !evaluate(law, points, problem.start, residual, nullptr); ++i)

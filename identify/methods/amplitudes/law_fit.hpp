@@ -5,7 +5,7 @@
 ///
 /// in units that make all quantities of order one. The output that solves it is found by Newton's method.
 ///
-/// Errors: no fit where the law has no output for these inputs or the fit does not converge. Cost: about 1 us a
+/// Errors: no fit if the law has no output for these inputs or if the fit does not converge. Cost: about 1 us a
 /// pair, parameter and step.
 
 #include <Eigen/Core>
@@ -19,16 +19,16 @@ namespace dualdamp::identify {
 /// One pair with forces over k Y_max, lengths over x_max, speeds over V_max.
 struct LawPoint {
   double Y = 0.0;
-  double x = 0.0;        ///< relieved of what harmonic balance leaves of the exact law
+  double x = 0.0;        ///< less the error of harmonic balance
   double elastic = 0.0;  ///< (k - m w^2) x_max/(k Y_max)
   double speed = 0.0;    ///< w x_max/V_max
 };
 
-/// The output that a law gives, and what it took to find it.
+/// The output that a law gives, and quantities of its equation there.
 struct LawOutput {
   double X = 0.0;
   double across = 0.0;  ///< Phi
-  double slope = 0.0;   ///< of half of the square of the balance
+  double slope = 0.0;   ///< derivative of half the squared balance by the output
   FundamentalLaw::Fundamentals fundamentals;
 };
 
@@ -36,10 +36,10 @@ struct LawOutput {
 [[nodiscard]] double sum_of_terms(const FundamentalLaw& law, const Eigen::VectorXd& p,
                                   const FundamentalLaw::Terms& terms);
 
-/// The last of the parameters where the law has a shape; else 0.
+/// The last parameter if the law has a shape; otherwise 0.
 [[nodiscard]] double shape_of(const FundamentalLaw& law, const Eigen::VectorXd& p);
 
-/// By Newton's method from the measured output; nothing where the law has none.
+/// Found by Newton's method from the measured output; nothing if the law has no output.
 [[nodiscard]] std::optional<LawOutput> output_of(const FundamentalLaw& law, const Eigen::VectorXd& p,
                                                  const LawPoint& point);
 

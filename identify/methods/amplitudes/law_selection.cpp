@@ -25,7 +25,7 @@ namespace {
 
 using core::infinity;
 
-/// Differences of x below this fraction of its range are of no weight.
+/// Differences of x below this fraction of its range are ignored.
 constexpr double least_effect = 5e-4;
 
 /// The pairs and their scales.
@@ -39,7 +39,7 @@ struct Test {
   bool one_frequency = true;
 };
 
-/// Levels of input, those within 3 % of the range being one, at each frequency.
+/// Number of input levels, summed over the frequencies. Inputs within 3 % of their range are one level.
 std::size_t levels_of(const std::vector<Datum>& pairs) {
   std::vector<Datum> sorted = pairs;
   std::ranges::sort(sorted, {}, [](const Datum& datum) { return std::pair(datum.r, datum.Y); });
@@ -56,8 +56,8 @@ std::size_t levels_of(const std::vector<Datum>& pairs) {
   return count;
 }
 
-/// Independent pairs that the record is worth: N/(1 + (n - 1) rho) with the correlation rho of residuals within a
-/// sweep of n pairs (kish1965), from the analysis of variance.
+/// Effective number of independent pairs: N/(1 + (n - 1) rho) with the correlation rho of residuals within a sweep
+/// of n pairs (kish1965), from the analysis of variance.
 double effective_count(const std::vector<Datum>& pairs, const Eigen::VectorXd& residuals) {
   const std::vector<std::vector<std::size_t>> blocks = sweep_blocks(pairs);
   const auto count = static_cast<double>(pairs.size());
@@ -80,7 +80,7 @@ double effective_count(const std::vector<Datum>& pairs, const Eigen::VectorXd& r
   return count / (1.0 + (size - 1.0) * of_sweeps / (of_pairs + of_sweeps));
 }
 
-/// What the exact law adds to its harmonic balance at the fit of Coulomb and viscous friction.
+/// The scaled pairs. The error of harmonic balance at the fit of Coulomb and viscous friction is subtracted from x.
 std::optional<Test> make_test(const ResonanceData& data, const std::vector<int>& used, const ParameterSet& value) {
   Test test;
   for (const Datum& datum : data.pairs)
@@ -153,7 +153,8 @@ LawCandidate candidate_of(const LawFit& fit, const Test& test, double count) {
   return candidate;
 }
 
-/// Best first; Akaike weights (of BIC where AICc is infinite for one). True when AICc ranks.
+/// Sorts the candidates, best first, and sets their Akaike weights (from BIC if an AICc is infinite). True when
+/// AICc ranks.
 bool rank(std::vector<LawCandidate>& candidates) {
   const bool by_AICc =
       std::ranges::all_of(candidates, [](const LawCandidate& candidate) { return std::isfinite(candidate.AICc); });
@@ -170,8 +171,8 @@ bool rank(std::vector<LawCandidate>& candidates) {
   return by_AICc;
 }
 
-/// F test of the best law with one parameter more against Coulomb and viscous friction, its p value times the
-/// number of such laws that are not the same curve.
+/// F test of the best law with one more parameter against Coulomb and viscous friction. Its p value is multiplied
+/// by the number of such laws with different curves.
 std::optional<LackOfFit> widening_test(const std::vector<LawFit>& fits, const Test& test) {
   const LawFit* best = nullptr;
   double compared = 0.0;
@@ -245,7 +246,7 @@ std::vector<LawFit> fit_laws(const Test& test, std::size_t levels, Estimate& est
   std::vector<LawFit> fits;
   for (const FundamentalLaw& law : fundamental_laws()) {
     if (law.parameters() + 2 > levels && !fits.empty()) continue;
-    // Not to be told from a smaller c, whatever the data.
+    // Its curve equals that of a smaller c, for any data.
     if (test.one_frequency && law.name == "position_linear") continue;
     std::optional<LawFit> fit = fit_law(law, test.points);
     if (fit)

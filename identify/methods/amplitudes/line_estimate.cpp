@@ -50,7 +50,7 @@ std::optional<Line> line_of(const Moments& m, double lambda) {
   if (std::isfinite(lambda)) {
     const double d = m.S_xx - lambda * m.S_YY;
     const double root = std::sqrt(d * d + 4.0 * lambda * m.S_xY * m.S_xY);
-    // One quantity in the two forms of a quadratic's root, each where it does not cancel.
+    // A root of a quadratic in two forms; each is used where its terms do not cancel.
     slope = d > 0.0 ? (d + root) / (2.0 * m.S_xY) : 2.0 * lambda * m.S_xY / (root - d);
   }
   if (!std::isfinite(slope)) return std::nullopt;
@@ -121,7 +121,7 @@ Eigen::VectorXd residuals_of(const std::vector<Datum>& pairs, const Blocks& bloc
   return x - Y.dot(x) / Y.squaredNorm() * Y;
 }
 
-/// The input over the output, as the balance of forces has it.
+/// The input as a function of the output, as in the balance of forces.
 std::vector<Datum> turned(std::vector<Datum> pairs) {
   for (Datum& datum : pairs) std::swap(datum.Y, datum.x);
   return pairs;
@@ -139,14 +139,14 @@ std::optional<LackOfFit> friction_curvature_test(const std::vector<Datum>& pairs
   CurvatureColumns columns = curvature_columns(balance);
   take_out_means(columns.line.col(1), sweeps);
   take_out_means(columns.square, sweeps);
-  // The constant column stands for one of the heights, the others are spent beside the columns.
+  // The constant column is one of the heights; the other heights cost further degrees of freedom.
   return added_term_test(columns.line, residuals_of(balance, sweeps), columns.square, output_range(balance),
                          "quadratic friction F-test", static_cast<int>(sweeps.size()) - 1);
 }
 
 namespace {
 
-/// A line with what it was drawn from and what it says.
+/// A line with its pairs and its results.
 struct FittedLine {
   Moments moments;
   double lambda = 0.0;
@@ -159,7 +159,7 @@ struct FittedLine {
 
 /// The pairs that do not stick, in order of their numbers.
 std::vector<Datum> sliding_pairs(const LineRule& rule, const ResonanceData& data, Estimate& estimate) {
-  // Lines of all upper ends of the list in one pass, so that a gate of many rounds stays cheap.
+  // Moments of all upper ends of the list in one pass, so that many rounds of leaving out stay cheap.
   std::vector<std::optional<Line>> lines(data.pairs.size());
   Moments moments;
   for (std::size_t i = data.pairs.size(); i-- > 0;) {
@@ -244,7 +244,7 @@ std::vector<SubsetFit> subset_fits(const LineRule& rule, const ResonanceData& da
   return fits;
 }
 
-/// The weighted sum of squares over its least value, in variances of one datum.
+/// The weighted sum of squares above its smallest value, in units of the variance of one datum.
 Deviance deviance_of(const FittedLine& fit, const ResonanceData& data, double scatter) {
   const auto sum = [m = fit.moments, lambda = fit.lambda](double b, double a) {
     const double height = m.mean_x - a - b * m.mean_Y;
@@ -260,7 +260,7 @@ Deviance deviance_of(const FittedLine& fit, const ResonanceData& data, double sc
   };
 }
 
-/// Sweeps drawn whole; the sums of a sweep are all that is needed of it.
+/// Draws whole sweeps; only the sums of a sweep are needed.
 Replicate sweep_replicate(const LineRule& rule, const ResonanceData& data, std::vector<Moments> sweeps) {
   return [&rule, &data, sweeps = std::move(sweeps)](Draws& draws) -> std::optional<Eigen::Vector2d> {
     Moments moments;
@@ -272,10 +272,11 @@ Replicate sweep_replicate(const LineRule& rule, const ResonanceData& data, std::
   };
 }
 
-/// Each pair is taken to the line along the direction of its errors, and another pair's residual added to it there.
+/// Each pair is moved to the line along the direction of its errors, and the residual of a drawn pair is added
+/// there.
 Replicate residual_replicate(const FittedLine& fit, const ResonanceData& data, const std::vector<Datum>& used) {
   const double share = std::isfinite(fit.lambda) ? fit.line.slope / (fit.lambda + fit.line.slope * fit.line.slope)
-                                                 : 0.0;  // of a residual that is laid on the input
+                                                 : 0.0;  // share of a residual that is added to the input
   const double widen = std::sqrt(fit.moments.count / std::max(fit.freedom(), 1.0));
   return [&fit, &data, &used, share, widen](Draws& draws) -> std::optional<Eigen::Vector2d> {
     Moments moments;
@@ -344,7 +345,7 @@ Estimate estimate_by_line(const LineRule& rule, const Record& record, const Know
   if (options.profile && scatter)
     add_profiles(estimate, deviance_of(*fit, *data, scatter->variance), scatter->half_width, constants);
   if (options.bootstrap > 0) bootstrap(rule, *fit, *data, used, options.bootstrap, estimate);
-  // Behind the profiles and replicates, which speak of the method's own reading.
+  // After the profiles and replicates, which are those of the uncorrected estimate.
   judge_method(*data, exact, fit->friction, line_through, estimate, faults);
   conclude(estimate, faults,
            "rests on " + std::to_string(used.size()) + " of " + std::to_string(record.pairs->pairs.size()) +

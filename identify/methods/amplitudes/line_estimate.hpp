@@ -49,27 +49,27 @@ struct Scatter {
   double half_width = 0.0;
 };
 
-/// From the standard deviations in `options` where one is given, else from the residuals with `freedom` degrees of
-/// freedom; nothing when there are neither.
+/// From the standard deviations in `options` if one is given, otherwise from the residuals with `freedom` degrees
+/// of freedom; nothing without either.
 [[nodiscard]] std::optional<Scatter> scatter_of(double sum_of_squares, double freedom, double slope,
                                                 const KnownDeviations& options, double unit);
 
-/// The quadratic columns of the test for curvature: 1, u, and u^2 apart, u the input over the range of inputs.
+/// Columns of the test for curvature: 1 and u, and separately u^2, where u is the input over the range of inputs.
 struct CurvatureColumns {
   Eigen::MatrixXd line;
   Eigen::VectorXd square;
 };
 [[nodiscard]] CurvatureColumns curvature_columns(const std::vector<Datum>& pairs);
 
-/// Greatest less least output.
+/// Largest output less smallest output.
 [[nodiscard]] double output_range(const std::vector<Datum>& pairs);
 
-/// Does a friction quadratic in x describe the pairs better than Coulomb and viscous friction do? At resonance the
-/// balance of the fundamental is k Y = Phi(x): a term in x^2 is added to the line of Y over x, with a height of its
-/// own for each of `sweeps` (indices of `pairs`), and tested by F. Y is first relieved of what the exact law
-/// (`exact`, in the order of `pairs`; may be empty) departs from such a line, which speaks for the law and not
-/// against it. The errors of x stand in the regressors: as long as they are small beside the range of x the test
-/// keeps its level (docs/theory.md, section 4).
+/// Tests whether a friction term quadratic in x describes the pairs better than Coulomb and viscous friction alone.
+/// At resonance the balance of the fundamental is k Y = Phi(x): a term in x^2 is added to the line of Y over x,
+/// with a height of its own for each of `sweeps` (indices of `pairs`), and tested by F. First the departure of the
+/// exact law (`exact`, in the order of `pairs`; may be empty) from such a line is subtracted from Y, because it
+/// does not count against the law. The errors of x are errors of the regressors: if they are small beside the range
+/// of x, the test keeps its level (docs/theory.md, section 4).
 [[nodiscard]] std::optional<LackOfFit> friction_curvature_test(const std::vector<Datum>& pairs,
                                                                const std::vector<Datum>& exact,
                                                                const std::vector<std::vector<std::size_t>>& sweeps);
@@ -80,7 +80,7 @@ struct LineRule {
   std::function<double(const Moments&)> lambda;
 };
 
-/// Prepares the record, leaves out what sticks, draws the line, reports it, and tests it.
+/// Prepares the record, leaves out pairs that stick, fits the line, reports it, and tests it.
 [[nodiscard]] Estimate estimate_by_line(const LineRule& rule, const Record& record, const KnownConstants& constants,
                                         const LineOptions& options);
 

@@ -58,14 +58,15 @@ PartFit imaginary_part(const std::vector<Pair>& states, double stiffness) {
   return fit_states(states, [stiffness](const Pair& state) { return imaginary_row(state, stiffness); });
 }
 
-/// What an error of x, as long in the direction of x as across it, makes of the imaginary part less its fit, per
-/// metre: across it turns the real part in, along it changes both sides and leaves c w/X.
+/// Error of the residual of the imaginary part for an error of the phasor of x, per metre, of equal size along x
+/// and across it. Across x it rotates the real part into the imaginary part. Along x it changes both sides of the
+/// equation, and c w/X remains.
 double error_gain(const Pair& state, double c, double stiffness) {
   const double real = dynamic_stiffness(state, stiffness) * std::cos(state.phase);
   return std::hypot(real, c * state.omega) / fundamental(state);
 }
 
-/// The same fit with states weighted by their errors: what remains are residuals alike.
+/// The same fit with the states weighted by their errors, so that the residuals have equal variances.
 PartFit weighted_part(const std::vector<Pair>& states, const std::vector<Pair>& weights, double c,
                       double stiffness) {
   std::size_t i = 0;
@@ -89,8 +90,8 @@ std::optional<ParameterSet> receptance_parameters(const std::vector<Pair>& state
   return parameters(ForceParameters{constants.mass, fit.coefficients[0], constants.stiffness, fit.coefficients[1]});
 }
 
-/// Residuals of the weighted fit less those that harmonic balance leaves of the exact motion at the estimate, which
-/// speak for the law and not against it.
+/// Residuals of the weighted fit less those of harmonic balance on the exact motion at the estimate, which do not
+/// count against the law.
 Eigen::VectorXd weighted_residuals(const std::vector<Pair>& states, const ParameterSet& value,
                                    const KnownConstants& constants) {
   Eigen::VectorXd residuals = weighted_part(states, states, value.c, constants.stiffness).residuals;
@@ -101,7 +102,8 @@ Eigen::VectorXd weighted_residuals(const std::vector<Pair>& states, const Parame
   return residuals;
 }
 
-/// The covariance is that of an unweighted fit to data of unequal errors; their size is told by the weighted one.
+/// The covariance is that of an unweighted fit to data of unequal errors; the size of the errors follows from the
+/// weighted fit.
 void set_estimate(const std::vector<Pair>& states, const PartFit& fit, const KnownConstants& constants,
                   Estimate& estimate) {
   const double c = fit.coefficients[0];
@@ -122,7 +124,7 @@ void set_estimate(const std::vector<Pair>& states, const PartFit& fit, const Kno
   set_estimate(estimate, force, covariance, quantile95(fit.freedom()));
 }
 
-/// Stiffness and mass as the motion shows them; harmonic balance alone puts them off by some percent.
+/// Stiffness and mass by the real part; harmonic balance alone makes errors of some percent in them.
 void list_real_part(const std::vector<Pair>& states, const KnownConstants& constants, Estimate& estimate) {
   const PartFit fit = real_part(states, constants.stiffness);
   const double k = fit.coefficients[0];
@@ -131,7 +133,7 @@ void list_real_part(const std::vector<Pair>& states, const KnownConstants& const
     estimate.warnings.emplace_back("the real part of the inverse receptance shows no stiffness and mass");
     return;
   }
-  // What the harmonics leave in the real part is more than noise does, so no interval is claimed.
+  // In the real part the error by harmonics is larger than noise, so there is no interval.
   estimate.others.push_back({"stiffness", "N/m", k, std::nullopt, std::nullopt});
   estimate.others.push_back({"natural_frequency", "rad/s", std::sqrt(k / m), std::nullopt, std::nullopt});
   constexpr double largest = 0.1;
@@ -163,7 +165,7 @@ std::optional<Limacon> limacon_of(const std::vector<Pair>& states, const KnownCo
                  c * std::sqrt(variance) / line->line.slope};
 }
 
-/// The limacon of one input amplitude. Its own bias is large where phases vary little, so it is compared with that
+/// The limacon of one input amplitude. Its bias is large if phases vary little, so it is compared with the limacon
 /// of the exact motion at the estimate.
 void list_limacon(const std::vector<Pair>& states, const KnownConstants& constants, Estimate& estimate) {
   const auto [least, greatest] = std::ranges::minmax_element(states, {}, &Pair::Y);

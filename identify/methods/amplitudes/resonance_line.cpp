@@ -18,7 +18,7 @@ namespace {
 /// Amplitudes closer than this fraction are equal: their difference is rounding.
 constexpr double equal_fraction = 64.0 * std::numeric_limits<double>::epsilon();
 
-/// Frequencies outside this range of w/wn are not near resonance in any sense.
+/// Frequencies outside this range of w/wn are far from resonance.
 constexpr double least_ratio = 0.5;
 constexpr double greatest_ratio = 2.0;
 
@@ -30,12 +30,12 @@ std::string exclusion_reason(const Pair& pair) {
   return {};
 }
 
-/// Both roots apart: k/m may leave the range of double precision.
+/// Each root is taken separately, because k/m may leave the range of double precision.
 double frequency_ratio(double frequency, const KnownConstants& constants) {
   return frequency * std::sqrt(constants.mass) / std::sqrt(constants.stiffness);
 }
 
-/// Index of the label; most pairs carry that of the pair before them.
+/// Index of the label; most pairs have the label of the pair before them.
 int sweep_index(const std::string& label, std::vector<std::string>& labels) {
   if (labels.empty() || labels.back() != label) {
     const auto found = std::ranges::find(labels, label);
@@ -194,11 +194,12 @@ void judge_method(const ResonanceData& data, const std::vector<Datum>& exact, co
   double largest_input = 0.0;
   for (const Datum& datum : exact) largest_input = std::max(largest_input, datum.Y);
   const double zeta_error = misread->zeta / friction.zeta - 1.0;
-  // Against a friction below a thousandth of the input a percentage says nothing.
+  // A percentage of a friction below a thousandth of the input means nothing.
   const double x_f_error = x_f > 1e-3 * largest_input ? misread->x_f / x_f - 1.0 : 0.0;
   const double worst = std::max(std::abs(zeta_error), std::abs(x_f_error));
   if (worst < 0.01) return;
-  const std::string text = "at " + frequency_text(data) + " the method would misread its own estimate, zeta by " +
+  const std::string text = "at " + frequency_text(data) +
+                           " the method is not exact: from exact data with this estimate it reads zeta wrong by " +
                            percent(zeta_error) + " and F0 by " + percent(x_f_error) +
                            ", because it neglects H and takes q for 2 zeta" +
                            (data.G.approximate ? " and G from Eq (15)" : "");

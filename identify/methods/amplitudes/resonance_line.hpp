@@ -1,13 +1,13 @@
 #pragma once
-/// What the resonance methods share: pairs, the line through them, the friction behind the line, the gate that
-/// keeps sticking pairs out, and the diagnostics.
+/// Common parts of the resonance methods: pairs, the line through them, the friction that follows from the line,
+/// the search that leaves out sticking pairs, and the diagnostics.
 ///
 ///   x = a + b Y,   zeta = 1/(2 b),   x_f = -a/G(zeta)                                 Eqs (9)-(15)
 ///
-/// which neglects H and takes q = 2 zeta and G at w = wn, all of them what holds at resonance. (G at the true
-/// frequency of a detuned test would not match the q that is taken: at zeta = 0.12 and 2 % detuning x_f would be
-/// off by 5 % instead of 0.7 %.) Lengths inside are in units of `ResonanceData::unit`, a power of two near the
-/// largest output, so that no scale of the record matters. Source: liang2004identifying.
+/// which neglects H and uses q = 2 zeta and G at w = wn, as at resonance. (G at the true frequency of a detuned
+/// test would not match this q: at zeta = 0.12 and 2 % detuning the error of x_f would be 5 % instead of 0.7 %.)
+/// Lengths inside are in units of `ResonanceData::unit`, a power of two near the largest output, so that results do
+/// not depend on the scale of the record. Source: liang2004identifying.
 
 #include <functional>
 #include <optional>
@@ -33,7 +33,7 @@ struct Datum {
 struct ResonanceData {
   std::vector<Datum> pairs;
   double unit = 1.0;  ///< m
-  double r = 1.0;     ///< w/wn of the first pair; of all of them where one frequency is asked for
+  double r = 1.0;     ///< w/wn of the first pair; of all of them if one frequency is required
   ResonanceG G;       ///< at w = wn
   KnownConstants constants;
   std::vector<std::string> sweeps;  ///< labels
@@ -63,13 +63,13 @@ struct LineFriction {
 /// Nothing for a line that does not rise, or for numbers beyond double precision.
 [[nodiscard]] std::optional<LineFriction> friction_of(const Line& line, const ResonanceG& G);
 
-/// The line a method draws through the pairs from index `first` on; nothing when it cannot.
+/// The line that a method fits to the pairs from index `first` on; nothing when it cannot.
 using LineFrom = std::function<std::optional<Line>(std::size_t first)>;
 
-/// Leaves out the pairs that stick at the estimate, until the estimate of those left finds none: the test is
-/// x > S(zeta, r) x_f (sim/analytic/den_hartog.hpp), and since it asks for x alone, what is left out is always the
-/// lower end of `data.pairs`. A pair once out stays out, so the search ends. Returns the index of the first pair
-/// left. Pairs left out are added to `estimate.excluded`.
+/// Leaves out the pairs that stick at the estimate, until no pair sticks at the estimate from the remaining ones.
+/// The test is x > S(zeta, r) x_f (sim/analytic/den_hartog.hpp). It depends on x alone, so the pairs left out are
+/// always the lower end of `data.pairs`. A pair that was left out does not return, so the search ends. Returns the
+/// index of the first pair left. Pairs left out are added to `estimate.excluded`.
 [[nodiscard]] std::size_t first_sliding_pair(const ResonanceData& data, const LineFrom& line_from,
                                              Estimate& estimate);
 
@@ -83,9 +83,9 @@ using LineFrom = std::function<std::optional<Line>(std::size_t first)>;
 [[nodiscard]] std::vector<Datum> exact_pairs(const ResonanceData& data, const std::vector<Datum>& used,
                                              const LineFriction& friction);
 
-/// How far the method would misread its own estimate: `exact` outputs for the same inputs give a line, and that
-/// another estimate. Above 1 % of either parameter it is a warning, above 10 % a fault. That covers the detuning, a
-/// damping ratio that is not small, and the approximation of G in one figure.
+/// Error of the method at its own estimate: the line through the `exact` outputs for the same inputs gives another
+/// estimate. A difference above 1 % of either parameter is a warning, above 10 % a fault. The difference contains
+/// the effects of detuning, of a damping ratio that is not small, and of the approximation of G.
 void judge_method(const ResonanceData& data, const std::vector<Datum>& exact, const LineFriction& friction,
                   const std::function<std::optional<Line>(const std::vector<Datum>&)>& line_through,
                   Estimate& estimate, std::vector<std::string>& faults);

@@ -21,8 +21,7 @@ std::optional<Line> line_through(const std::vector<Datum>& two) {
   return Line{slope, (two[0].x * two[1].Y - two[1].x * two[0].Y) / dY};
 }
 
-/// For every first index: the pairs of least and greatest input from there on (the lower number where inputs are
-/// equal).
+/// For every first index: the pairs of smallest and largest input from there on (of equal inputs the lower number).
 class Outermost {
  public:
   explicit Outermost(const std::vector<Datum>& pairs)
@@ -68,7 +67,7 @@ std::vector<Datum> named_pairs(const ResonanceData& data, const TwoPointOptions&
   return named;
 }
 
-/// Two pairs cannot contradict a straight line; the others that slide can.
+/// Two pairs always lie on a straight line; the other sliding pairs may not.
 void judge_others(const std::vector<Datum>& sliding, const std::vector<Datum>& two, const Line& line,
                   Estimate& estimate, std::vector<std::string>& faults) {
   const auto off = [&line](const Datum& datum) {

@@ -85,7 +85,7 @@ std::optional<LineFriction> friction_of(const ParallelLines& lines, const Resona
   return friction_of(Line{lines.slope, lines.mean_intercept()}, G);
 }
 
-/// Takes the pairs out that stick at the friction of their own sweep, until none does.
+/// Leaves out the pairs that stick at the friction of their own sweep, until no pair sticks.
 std::vector<Datum> sliding_pairs(const ResonanceData& data, Estimate& estimate) {
   std::vector<Datum> left = data.pairs;
   while (!left.empty()) {
@@ -109,7 +109,7 @@ std::vector<Datum> sliding_pairs(const ResonanceData& data, Estimate& estimate) 
   return left;
 }
 
-/// Lines that rise each with a slope of its own, against parallel ones.
+/// Lines with separate slopes, tested against parallel lines.
 void judge_slopes(const std::vector<Sweep>& sweeps, const ParallelLines& lines,
                   std::vector<std::string>& warnings) {
   double separate = 0.0;  // sum of squares about lines of their own
@@ -125,7 +125,7 @@ void judge_slopes(const std::vector<Sweep>& sweeps, const ParallelLines& lines,
   if (spent < 1.0 || freedom < 1.0) return;
   const double gain = lines.sum_of_squares - separate;
   const double range = lines.slope * std::sqrt(lines.S_YY);
-  if (!(gain > 1e-6 * range * range)) return;  // of no weight, as with noiseless data
+  if (!(gain > 1e-6 * range * range)) return;  // too small to count, as for noiseless data
   const double F = gain / spent / std::max(separate / freedom, 1e-24 * range * range);
   const double p = f_test_p_value(F, spent, freedom);
   constexpr double level = 0.05;
@@ -153,7 +153,7 @@ void add_uncertainty(const ParallelLines& lines, const std::vector<Sweep>& sweep
   if (!scatter) return;
   const auto count = static_cast<double>(sweeps.size());
   double mean_Y = 0.0;
-  double between = 0.0;  // variance of the heights of the lines, their slope taken as known
+  double between = 0.0;  // variance of the heights of the lines, with their slope as known
   const double mean = lines.mean_intercept();
   for (std::size_t j = 0; j < sweeps.size(); ++j) {
     mean_Y += sweeps[j].moments.mean_Y / count;
@@ -180,7 +180,7 @@ void add_uncertainty(const ParallelLines& lines, const std::vector<Sweep>& sweep
   estimate.interval95->F0 = around(estimate.value.F0, estimate.std->F0);
 }
 
-/// Each sweep with the friction of its own, and how far these differ.
+/// Lists the friction of each sweep, and how far these differ.
 void list_sweeps(const std::vector<Sweep>& sweeps, const ParallelLines& lines, const LineFriction& friction,
                  const ResonanceData& data, Estimate& estimate) {
   double square = 0.0;
@@ -237,7 +237,7 @@ Estimate resonance_within_sweep(const Record& record, const KnownConstants& cons
   const std::optional<ParallelLines> lines = parallel_lines(sweeps);
   const std::optional<LineFriction> friction = lines ? friction_of(*lines, data->G) : std::nullopt;
   if (sweeps.size() < 2 || !friction) {
-    refuse(estimate, sweeps.size() < 2 ? "of the sweeps one alone is left"
+    refuse(estimate, sweeps.size() < 2 ? "only one sweep is left"
                                        : "within the sweeps the output amplitude does not grow with the input");
     return estimate;
   }
@@ -247,7 +247,7 @@ Estimate resonance_within_sweep(const Record& record, const KnownConstants& cons
 
   std::vector<std::string> faults;
   judge_signs(estimate, 1e-9 * used.front().Y * data->unit, faults);
-  // The exact law with one friction for all: its departure from a line is that of each sweep.
+  // The exact law with one friction for all sweeps: its departure from a line serves for each sweep.
   const std::vector<Datum> exact = exact_pairs(*data, used, *friction);
   test_sweep_curvature(used, exact, estimate);
   judge_slopes(sweeps, *lines, estimate.warnings);

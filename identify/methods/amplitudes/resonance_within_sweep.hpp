@@ -4,9 +4,9 @@
 ///   x_ij = a_j + b Y_ij,   b = sum_j sum_i (Y_ij - mean_j Y)(x_ij - mean_j x)/sum_j sum_i (Y_ij - mean_j Y)^2
 ///   zeta = 1/(2 b),   x_f,j = -a_j/G(zeta)
 ///
-/// The paper's sweeps lie on parallel lines: its friction force drifted from one to the next. Parallel lines take
-/// the drift out of zeta, where a single line takes it for scatter. The friction reported is the mean over the
-/// sweeps.
+/// The paper's sweeps lie on parallel lines, because its friction force drifted from one sweep to the next. With
+/// parallel lines the drift does not affect zeta; with a single line it counts as scatter. The friction reported is
+/// the mean over the sweeps.
 ///
 /// Holds for small zeta near w = wn, without sticking, with errors in x alone and a friction that stays the same
 /// within a sweep; at least two sweeps of two pairs. Uncertainty: b from the scatter about the parallel lines, of
@@ -32,7 +32,7 @@ struct WithinSweepOptions : ResonanceOptions {
 [[nodiscard]] Estimate resonance_within_sweep(const Record& record, const KnownConstants& constants,
                                               const WithinSweepOptions& options = {});
 
-/// Two sweeps with two pairs each are asked for.
+/// Why the record has no two sweeps of two pairs each; empty when it has.
 [[nodiscard]] std::string lacks_sweeps(const Record& record);
 
 extern const MethodEntry resonance_within_sweep_method;

@@ -109,7 +109,7 @@ std::vector<Pair> exact_states(const std::vector<Pair>& states, const ParameterS
     if (!std::isnan(pair.phase)) pair.phase = state->phase;
     if (!std::isnan(pair.fundamental)) pair.fundamental = state->fundamental;
     if (!std::isnan(pair.mean_square_speed)) {
-      // What friction leaves of the base's work over a period, the damper takes.
+      // The work of the base in a period less that of friction is the work of the damper.
       const double work = pi * constants.stiffness * pair.Y * state->fundamental * std::sin(state->phase);
       pair.mean_square_speed = (work - 4.0 * value.F0 * pair.x) / value.c * pair.omega / (2.0 * pi);
     }
@@ -139,12 +139,12 @@ void judge_own_reading(const std::vector<Pair>& states, const KnownConstants& co
   double largest_input = 0.0;
   for (const Pair& pair : exact) largest_input = std::max(largest_input, pair.Y);
   const double c_error = own->c / value.c - 1.0;
-  // Against a friction below a thousandth of the input a percentage says nothing.
+  // A percentage of a friction below a thousandth of the input means nothing.
   const double F0_error = value.x_f > 1e-3 * largest_input ? own->F0 / value.F0 - 1.0 : 0.0;
   const double worst = std::max(std::abs(c_error), std::abs(F0_error));
   if (worst < 0.01) return;
-  const std::string text = "the method would misread its own estimate, zeta by " + percent(c_error) +
-                           " and F0 by " + percent(F0_error) + ", " + because;
+  const std::string text = "the method is not exact: from exact data with this estimate it reads zeta wrong by " +
+                           percent(c_error) + " and F0 by " + percent(F0_error) + ", " + because;
   if (worst > 0.1)
     faults.push_back(text);
   else

@@ -1,6 +1,6 @@
 #pragma once
-/// What the methods share that read steady states with phases or at several frequencies: the states made ready, a
-/// straight line of force over speed, and the reading of one's own estimate.
+/// Common parts of the methods that read steady states with phases or at several frequencies: preparation of the
+/// states, a straight line of force over speed, and the error of a method at its own estimate.
 
 #include <Eigen/Core>
 #include <functional>
@@ -14,30 +14,31 @@
 
 namespace dualdamp::identify {
 
-/// Two pairs with phases are asked for.
+/// Why the record has no two pairs with phases; empty when it has.
 [[nodiscard]] std::string lacks_phases(const Record& record);
 
 /// Amplitude of the fundamental of x; the amplitude read where no harmonics were measured.
 [[nodiscard]] double fundamental(const Pair& pair);
 
 /// The pairs with positive finite amplitudes in the order of the record, each with its frequency and number; with
-/// `phases` those alone whose phase was measured and says that the base drives the mass. What is left out is named
-/// in `estimate`. Nothing after it has been refused: no pairs, no stiffness, a frequency that is not known.
+/// `phases` only those whose phase was measured and by whose phase the base drives the mass. Pairs left out are
+/// listed in `estimate`. Nothing after the estimate has been refused: no pairs, no stiffness, a frequency that is
+/// not known.
 [[nodiscard]] std::optional<std::vector<Pair>> take_states(const Record& record, const KnownConstants& constants,
                                                            bool phases, Estimate& estimate);
 
-/// Takes out the states that stick at (zeta, x_f) of `value`; false when there are none. Needs the mass.
+/// Leaves out the states that stick at (zeta, x_f) of `value`; false when there are none. Needs the mass.
 bool drop_sticking(std::vector<Pair>& states, const ParameterSet& value, const KnownConstants& constants,
                    Estimate& estimate);
 
-/// The states as the exact law has them at `value`, with the quantities that were measured and no others. States
-/// for which there is no motion without a stop are missing. Needs the mass and c > 0.
+/// The states as the exact law has them at `value`, with only those quantities that were measured. States for which
+/// there is no motion without a stop are left out. Needs the mass and c > 0.
 [[nodiscard]] std::vector<Pair> exact_states(const std::vector<Pair>& states, const ParameterSet& value,
                                              const KnownConstants& constants);
 
-/// What a method makes of the exact states at its own estimate: above 1 % of either parameter a warning, above 10 %
-/// a fault, `because` of what it neglects. Nothing is said where the mass is not known or the estimate is no
-/// friction.
+/// Error of a method on the exact states at its own estimate: a difference above 1 % of either parameter is a
+/// warning, above 10 % a fault; `because` names the cause. Nothing happens if the mass is not known or the estimate
+/// is not a friction.
 void judge_own_reading(const std::vector<Pair>& states, const KnownConstants& constants,
                        const std::function<std::optional<ParameterSet>(const std::vector<Pair>&)>& read,
                        const std::string& because, Estimate& estimate, std::vector<std::string>& faults);

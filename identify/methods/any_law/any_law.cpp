@@ -34,7 +34,7 @@ Readings readings_of(const Record& record, const KnownConstants& constants, cons
   return decay_readings(record, constants, options.sigma_x);
 }
 
-/// Both ends and the value between them.
+/// Sets both ends of an interval, and moves the value between them.
 void place(double& value, std::array<double, 2>& into, const Interval& hull, double scale) {
   into = {hull[0] * scale, hull[1] * scale};
   value = std::clamp(value, into[0], into[1]);
@@ -62,19 +62,20 @@ void tell(const LawIntervals& laws, bool stated, Estimate& estimate) {
   std::vector<std::string> bounded;
   for (const LawAnswer& law : laws.laws) {
     constexpr double near = 0.99;
-    // A law that is rejected at the user's bound might hold beyond it.
+    // A law that is rejected at the user's bound might be allowed beyond it.
     if ((stated || !law.rejected) && law.severity != 0.0 && std::abs(law.severity) > near * std::abs(law.largest))
       bounded.push_back(law.name);
   }
   if (!bounded.empty())
     estimate.warnings.push_back(
-        "the range may go on beyond the last severity of laws that fit best there: " + core::joined(bounded, ", ") +
+        "the range may be wider: these laws fit best at the largest severity that was tried: " +
+        core::joined(bounded, ", ") +
         (stated ? "; without 'largest_severity' they are followed on where they can be" : ""));
 }
 
-/// Plain friction with the constants as stated. Where one of these is moved by little the fit begins here, and not
-/// anew: it would end in another valley, and the two differ by more than the constant does. The noise weighs both:
-/// else what the constants move is lost in that of the weights.
+/// Plain friction with the stated constants. The fit with a constant moved a little begins here: a new search might
+/// end in another minimum, which differs by more than the effect of the constant. Both fits have the same weights:
+/// otherwise the effect of the constants would be lost in that of the weights.
 struct StatedFit {
   ChannelNoise noise;
   Eigen::VectorXd unknowns;
@@ -89,14 +90,14 @@ std::optional<StatedFit> stated_fit(const ReadingModel& model, const AnyLawOptio
   return StatedFit{plain->noise, plain->fit.unknowns, model.F0_unit(), model.c_unit()};
 }
 
-/// The best fit next to it of readings with moved constants.
+/// The best fit next to `stated` of readings with a moved constant.
 std::optional<SeverityFit> fit_beside(const StatedFit& stated, const ReadingModel& model) {
   LawStart start{.unknowns = stated.unknowns};
   start.unknowns[0] *= stated.F0_unit / model.F0_unit();
   start.unknowns[1] *= stated.c_unit / model.c_unit();
   const std::unique_ptr<NearbyOrbits> near = model.no_orbits(stated.noise.deviations);
   std::optional<SeverityFit> fit;
-  // A fit ends within a tenth of a standard deviation; from there the next is as good as exact.
+  // A fit ends within a tenth of a standard deviation; another one from there is practically exact.
   constexpr int rounds = 3;
   for (int i = 0; i < rounds; ++i) {
     fit = fit_law(model, {}, stated.noise, start, *near);
@@ -106,7 +107,7 @@ std::optional<SeverityFit> fit_beside(const StatedFit& stated, const ReadingMode
   return fit;
 }
 
-/// The readings that any_law compares; nothing where the record has none, which refuses the estimate.
+/// The readings that any_law compares. If the record has none: nothing, and the estimate is refused.
 std::unique_ptr<const ReadingModel> readings_for(Estimate& estimate, const Record& record,
                                                  const KnownConstants& constants, const AnyLawOptions& options) {
   Readings readings = readings_of(record, constants, options);
@@ -117,8 +118,8 @@ std::unique_ptr<const ReadingModel> readings_for(Estimate& estimate, const Recor
   return std::get<std::unique_ptr<const ReadingModel>>(std::move(readings));
 }
 
-/// Plain friction by the readings of any_law, without an error: what is added to it is all that it has. The first
-/// reading, with the constants as stated, gives `stated`.
+/// Plain friction fitted to the readings of any_law, with standard errors of zero: only those of the constants are
+/// added later. The first call, with the stated constants, sets `stated`.
 Estimate plain_estimate(const Record& record, const KnownConstants& constants, const AnyLawOptions& options,
                         std::optional<StatedFit>& stated) {
   Estimate estimate;
@@ -138,7 +139,7 @@ Estimate plain_estimate(const Record& record, const KnownConstants& constants, c
   return estimate;
 }
 
-/// The largest of them, relative.
+/// The largest relative uncertainty.
 double largest_of(const ConstantUncertainties& u, const KnownConstants& constants) {
   double largest = std::max({u.gain_y, u.gain_x, u.gain_v, u.gain_a, u.gain_force});
   for (const auto& [deviation, value] :
@@ -147,7 +148,7 @@ double largest_of(const ConstantUncertainties& u, const KnownConstants& constant
   return largest;
 }
 
-/// A cause of standard deviation `by` beside those within the interval. Forces and dampings are not negative.
+/// Widens an interval by an independent error of standard deviation `by`. Forces and dampings are not negative.
 void widen(Interval& ends, double about, double by) {
   const double value = std::clamp(about, ends[0], ends[1]);
   const double extra = quantile95(std::numeric_limits<double>::infinity()) * by;
@@ -190,7 +191,7 @@ Estimate any_law(const Record& record, const KnownConstants& constants, const An
 
 Estimate moved_by_constants(const Record& record, const KnownConstants& constants,
                             const ConstantUncertainties& uncertainties, const AnyLawOptions& options) {
-  // A spring or a mass that is off by much has no motion like the record's: the change is that of a small step.
+  // A spring or a mass that is far off has no motion like the record's: a small step is made and scaled.
   constexpr double small = 2e-3;
   const double times = std::max(largest_of(uncertainties, constants) / small, 1.0);
   ConstantUncertainties step = uncertainties;

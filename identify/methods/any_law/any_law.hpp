@@ -1,13 +1,12 @@
 #pragma once
-/// zeta and F0 when nobody knows the friction law: ranges over all laws that the record allows.
+/// zeta and F0 when the friction law is unknown: ranges over all laws that the record allows.
 ///
 /// Steady states, with or without phases, or the extremes of a free vibration are fitted under every law of the
 /// library, each over its severity (law_intervals.hpp). The 95 % interval of the estimate is the hull; its value is
-/// the mean of the average over laws, moved into the hull where it lies outside. What remains assumed: one law of
-/// the library, or one that acts on the readings like it, its severity below `largest_severity` where that is
-/// stated; that the sensors are right; and the constants within the priors of docs/methods/any_law.md. Uncertainty:
-/// estimated from what a smooth curve leaves of the residuals, or from `sigma_x` and `sigma_Y`. Errors: `outcome`.
-/// Cost: seconds.
+/// the mean of the average over laws, moved into the hull if it lies outside. Assumptions: friction is one law of
+/// the library, or acts on the readings like one, with a severity below `largest_severity` if that is stated; the
+/// sensors are right; the constants lie within the priors of docs/methods/any_law.md. Uncertainty: estimated from
+/// what a smooth curve leaves of the residuals, or from `sigma_x` and `sigma_Y`. Errors: `outcome`. Cost: seconds.
 
 #include <string>
 #include <vector>
@@ -24,8 +23,8 @@ inline constexpr Option largest_severity_option{
     .kind = OptionKind::number,
     .unit = "1",
     .range = {.low = 0.0, .high = 1.0, .low_open = true},
-    .otherwise = "0.3, and further where a law fits best there",
-    .meaning = "severity up to which any_law follows each law; it bounds the departure from Coulomb's law"};
+    .otherwise = "0.3, or more if a law fits best there",
+    .meaning = "largest severity to which any_law follows each law; it bounds the departure from Coulomb's law"};
 inline constexpr Option severity_deviation_option{
     .name = "severity_deviation",
     .kind = OptionKind::number,
@@ -40,7 +39,9 @@ inline constexpr Option law_error_option{
     .unit = "1",
     .range = {.low = 0.0, .high = 1.0},
     .otherwise = "0.25",
-    .meaning = "what a law of any_law leaves of a departure like it, over what the departure does to the readings"};
+    .meaning =
+        "error of a law of any_law for a departure similar to it, as a share of the departure's effect on the "
+        "readings"};
 
 /// Names of the laws that the library can hold.
 [[nodiscard]] std::vector<std::string> library_names();
@@ -49,7 +50,7 @@ inline constexpr Option without_option{.name = "without",
                                        .kind = OptionKind::names,
                                        .most_items = 64,
                                        .otherwise = "all laws",
-                                       .meaning = "laws that stay out of the library of any_law",
+                                       .meaning = "laws that are left out of the library of any_law",
                                        .words = library_names};
 
 struct AnyLawOptions : KnownDeviations {
@@ -67,19 +68,20 @@ struct AnyLawOptions : KnownDeviations {
   }
 };
 
-/// What of them the library and its intervals go by.
+/// The options of the library and of its intervals.
 [[nodiscard]] LawIntervalOptions interval_options(const AnyLawOptions& options);
 
 [[nodiscard]] Estimate any_law(const Record& record, const KnownConstants& constants,
                                const AnyLawOptions& options = {});
 
-/// What uncertain constants do to zeta, c, x_f and F0: `std` of the result, of plain friction, which the same
-/// readings give within milliseconds where any_law takes seconds. `warnings` name the constants that are not in it.
+/// Standard deviations of zeta, c, x_f and F0 by uncertain constants: `std` of the result. They are those of
+/// Coulomb and viscous friction, fitted to the same readings in milliseconds where any_law takes seconds.
+/// `warnings` name the constants whose uncertainty is not contained.
 [[nodiscard]] Estimate moved_by_constants(const Record& record, const KnownConstants& constants,
                                           const ConstantUncertainties& uncertainties,
                                           const AnyLawOptions& options = {});
 
-/// Adds deviations `by` such causes to the ranges.
+/// Adds the standard deviations `by` such causes to the ranges.
 void widen(const ParameterSet& by, LawIntervals& laws);
 void widen(const ParameterSet& by, Estimate& estimate);
 

@@ -15,16 +15,16 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-/// Error of steps over the noise of the readings, and its bounds. Errors add up over the swings.
+/// Tolerance of steps over the relative noise of the readings, and its bounds. Errors add up over the swings.
 constexpr double step_error_over_noise = 1e-4;
 constexpr double finest_step_error = 1e-8;
 constexpr double coarsest_step_error = 1e-6;
-/// Of differences, relative to the unknown's unit.
+/// Step of differences, relative to the unknown's unit.
 constexpr double decay_difference_step = 2e-3;
 constexpr double release_deviation = 1.0;
 constexpr double offset_deviation = 0.2;
 
-/// Decays need no neighbours.
+/// A decay is computed without neighbours.
 struct NoOrbits final : NearbyOrbits {
   double accuracy = finest_step_error;
 };
@@ -136,8 +136,8 @@ std::variant<std::unique_ptr<const ReadingModel>, std::string> decay_readings(co
   const Estimate plain = free_decay(record, constants, {.sigma_x = sigma_x});
   if (!plain.outcome.ok()) return plain.outcome.reason;
   if (!is_friction(plain))
-    return "plain Coulomb and viscous friction fits with a negative force or damping: there is no motion to begin "
-           "with";
+    return "Coulomb and viscous friction fit this decay only with a negative force or damping, from which no law can "
+           "start";
   std::vector<double> used;
   for (const int number : plain.used) used.push_back(record.decay->extremes[static_cast<std::size_t>(number - 1)]);
   constexpr std::size_t fewest = 6;

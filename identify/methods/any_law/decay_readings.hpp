@@ -1,9 +1,9 @@
 #pragma once
-/// The extremes of a free vibration as readings, by the engines in time: a release from rest under any law. Beside
-/// F0 and c the release and the sensor's offset are free.
+/// The extremes of a free vibration as readings: the engines compute a release from rest under any law. The release
+/// and the sensor's offset are free beside F0 and c.
 ///
-/// The law's internal state is that of the release: bristles and contacts are relaxed. Extremes after which the
-/// mass should have come to rest are those that free_decay leaves out.
+/// At the release, bristles and contacts are relaxed. Extremes that free_decay leaves out, because the mass should
+/// have come to rest before, are left out here, too.
 ///
 /// Cost: one decay for each derivative; 0.1 ms under laws of the exact engine, some milliseconds under others.
 
@@ -15,12 +15,12 @@
 
 namespace dualdamp::identify {
 
-/// The model, or why there is none: there is no decay with six extremes, or its plain friction is not positive.
+/// The model, or why there is none: there are fewer than six usable extremes, or plain friction is not positive.
 [[nodiscard]] std::variant<std::unique_ptr<const ReadingModel>, std::string> decay_readings(
     const Record& record, const KnownConstants& constants, double sigma_x);
 
-/// Extremes that are to be measured on the rig of another record, after a release at `release` [m]. `deviation` [m]
-/// of an extreme. The readings themselves mean nothing.
+/// Extremes that are planned on the rig of another record, after a release at `release` [m]. `deviation`: of an
+/// extreme [m]. The readings themselves have no meaning.
 [[nodiscard]] std::unique_ptr<const ReadingModel> planned_decay(const ReadingModel& record, double release,
                                                                 int count, const KnownConstants& constants,
                                                                 double deviation);

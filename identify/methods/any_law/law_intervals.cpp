@@ -19,7 +19,7 @@ using Eigen::VectorXd;
 constexpr double level = 0.05;
 using core::infinity;
 
-/// One law over its severity, densely.
+/// One law over its severity, at many points.
 struct Profile {
   const LawFits* law = nullptr;
   std::vector<SeverityPoint> points{};
@@ -52,7 +52,7 @@ double quantile(const std::vector<Component>& mixture, double share) {
   return std::midpoint(low, high);
 }
 
-/// Likelihood of chi2 less the least of the law, with the deviation known or estimated (Student).
+/// Likelihood at chi2 = least chi2 of the law + `above`, with the deviation known or estimated (Student).
 double likelihood(double above, double scale, double freedom) {
   if (std::isinf(freedom)) return std::exp(-0.5 * above / scale);
   return std::pow(1.0 + above / scale / freedom, -0.5 * (freedom + 1.0));
@@ -85,8 +85,8 @@ class Summary {
     return std::max(rows - own, 1.0);
   }
 
-  /// What a law errs by counts where it is like the departure: it leaves at most half of what plain friction
-  /// leaves. Another one is judged by the noise alone, as plain friction is.
+  /// chi2 for the test of a law. The error of the laws counts only for a law that is like the departure: its chi2
+  /// is at most half that of plain friction. Any other law is judged by the noise alone, as plain friction is.
   [[nodiscard]] double misfit_of(const Profile& profile) const {
     constexpr double like = 0.5;
     if (profile.law->law.departure == nullptr) return plain_.own_chi2;
@@ -139,8 +139,8 @@ class Summary {
     return answer;
   }
 
-  /// Laws that are not rejected count alike: how much better one of two wrong laws fits says nothing of which errs
-  /// less in zeta and F0.
+  /// Laws that are not rejected have the same weight: if two laws are wrong, the one that fits better need not have
+  /// the smaller error in zeta and F0.
   void weigh(LawIntervals& result) const {
     const auto allowed = std::ranges::count_if(result.laws, [](const LawAnswer& law) { return !law.rejected; });
     std::vector<Component> zeta;
@@ -173,7 +173,7 @@ class Summary {
     }
   }
 
-  /// Of each node of a law: prior times likelihood, in all 1.
+  /// Prior times likelihood of each node of a law; the sum is 1.
   [[nodiscard]] std::vector<double> posterior_of(const Profile& profile) const {
     std::vector<double> shares = prior_of(profile);
     double sum = 0.0;
@@ -187,9 +187,8 @@ class Summary {
     return shares;
   }
 
-  /// Of each node: the normal density of its severity, by the trapezoidal rule, in all 1. A law that had to be
-  /// followed beyond the severities that are expected of it has that expectation against it: its prior is as wide
-  /// as it departs.
+  /// Prior of each node: the normal density of its severity, by the trapezoidal rule; the sum is 1. If a law fits
+  /// best beyond the expected severities, its prior is as wide as the severity of that fit.
   static std::vector<double> prior_of(const Profile& profile) {
     const std::vector<SeverityPoint>& nodes = profile.points;
     std::vector<double> prior(nodes.size(), 1.0);

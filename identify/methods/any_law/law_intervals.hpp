@@ -1,17 +1,18 @@
 #pragma once
-/// What a record says about zeta and F0 when nobody knows the friction law: every law of the library is fitted,
-/// over its severity, and two ranges are drawn.
+/// zeta and F0 of a record when the friction law is unknown: every law of the library is fitted over its severity,
+/// and two ranges follow.
 ///
 ///   hull      the union of the 95 % regions of all laws that the record does not reject at 5 %
-///   average   the 2.5 and 97.5 % points of the mixture of the same laws, which count alike; within a law its
-///             severities count by their likelihood and a prior of standard deviation `severity_deviation` about
-///             zero
+///   average   the 2.5 and 97.5 % points of the mixture of the same laws, all with the same weight; within a law,
+///             severities are weighted by their likelihood and by a prior of standard deviation
+///             `severity_deviation` about zero
 ///
-/// No law is the rig's: laws err by `law_error` of what the departure does to the readings, beside the noise. Plain
-/// friction does not err, nor does a law that leaves more than half of what plain friction leaves.
+/// No law is exactly that of the rig: beside the noise, each has an error of `law_error` times the effect of the
+/// departure on the readings. Plain friction has no such error, nor has a law whose chi2 is more than half that of
+/// plain friction.
 /// zeta and F0 of a law are those of the Coulomb + viscous friction that it departs from (identify/rigs/rigs.hpp):
-/// what remains as its severity goes to zero. When every law is rejected the noise is raised until the best one is
-/// not, and `inflation` says by how much (birge1932). Source: brynjarsdottir2014, pasquier2015. Docs:
+/// what remains as its severity goes to zero. If every law is rejected, the noise is raised until the best one is
+/// not, and `inflation` states the factor (birge1932). Source: brynjarsdottir2014, pasquier2015. Docs:
 /// docs/methods/any_law.md. Cost: one record of eight states with phases takes seconds; laws are shared out to all
 /// cores.
 
@@ -28,13 +29,13 @@
 
 namespace dualdamp::identify {
 
-/// What one law makes of the record.
+/// The result of one law for the record.
 struct LawAnswer {
   std::string name;
   double p_value = 0.0;
   bool rejected = false;
   double severity = 0.0;  ///< of the best fit
-  double largest = 0.0;   ///< severity up to which it was sought on that side; signed
+  double largest = 0.0;   ///< last severity that was fitted on the side of the best fit; signed
   ParameterSet value;     ///< of the best fit
   Interval zeta_interval95{};
   Interval F0_interval95{};
@@ -52,15 +53,15 @@ struct LawIntervals {
   /// Laws that the record does not reject and cannot tell apart: a test of level 5 % between their best fits has a
   /// power below 1/6.
   std::vector<std::vector<std::string>> aliases;
-  /// Which law ends the hull below and above.
+  /// The laws at the lower and the upper end of the hull.
   std::array<std::string, 2> zeta_ends, F0_ends;
-  std::vector<std::string> unsolved;  ///< laws without a steady state at these unknowns
+  std::vector<std::string> unsolved;  ///< laws for which no steady state was found
 };
 
 /// The fits behind the intervals.
 struct LawStudy {
   PlainFit plain;
-  std::vector<LawFits> laws{};  ///< plain friction first; those that were solved
+  std::vector<LawFits> laws{};  ///< that were solved; plain friction first
   LawIntervals intervals{};
 };
 

@@ -15,7 +15,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// Friction and damping keep to a share of what plain friction has: below it a law is another one.
+/// Least F0 and c in a fit, over their units.
 constexpr double least_share = 0.02;
 
 VectorXd weights_of(const ReadingModel& model, const ChannelNoise& noise) {
@@ -43,13 +43,13 @@ MatrixXd with_priors(const ReadingModel& model, const MatrixXd& weighted) {
   return all;
 }
 
-/// Gauss and Newton with Broyden's corrections of the derivatives: taken anew only where they mislead.
+/// Gauss-Newton with Broyden's corrections. Derivatives are computed anew only where the corrected ones mislead.
 class Search {
  public:
   Search(const ReadingModel& model, const LawAt& law, const ChannelNoise& noise, NearbyOrbits& near)
       : model_(model), law_(law), weights_(weights_of(model, noise)), near_(near) {}
 
-  /// `slopes`: derivatives of a similar law, to begin with; empty: none are known.
+  /// `slopes`: derivatives of a similar law to begin with; empty: none are known.
   [[nodiscard]] bool minimize(const VectorXd& start, const MatrixXd& slopes) {
     constexpr int most_steps = 10;
     constexpr double settled = 0.1;     // standard deviations: what is left is linear
@@ -76,7 +76,7 @@ class Search {
     return true;
   }
 
-  /// Takes the derivatives where the search has ended.
+  /// Computes the derivatives at the last evaluation.
   [[nodiscard]] bool differentiate() {
     const std::optional<MatrixXd> slopes = model_.derivatives(law_, seen_, *raw_, near_);
     if (!slopes) return false;
@@ -103,14 +103,14 @@ class Search {
     return true;
   }
 
-  /// A step that is too short to be worth an evaluation.
+  /// Makes a step that is too short to be worth an evaluation.
   void accept_unseen(const VectorXd& step) {
     if ((p_ + step).head(2).minCoeff() < least_share) return;
     p_ += step;
     residuals_ -= jacobian_ * step;
   }
 
-  /// Broyden's correction; how far the step went from what was expected, over its length.
+  /// Broyden's correction. Returns the error of the expected change of the residuals, over the change.
   double learn(const VectorXd& before, const VectorXd& step) {
     const VectorXd expected = jacobian_ * step;
     const VectorXd apart = before - expected - residuals_;
@@ -146,7 +146,7 @@ class Search {
   VectorXd weights_;
   NearbyOrbits& near_;
   VectorXd p_;
-  VectorXd seen_;                ///< unknowns of the last evaluation that counts, within a step of p_
+  VectorXd seen_;                ///< unknowns of the last accepted evaluation, within a step of p_
   std::optional<VectorXd> raw_;  ///< residuals there, in the units of the readings
   VectorXd residuals_;
   MatrixXd jacobian_;
@@ -157,7 +157,7 @@ bool find_covariance(SeverityFit& fit) {
   const MatrixXd information = fit.slopes.transpose() * fit.slopes;
   const Eigen::LDLT<MatrixXd> factor(information);
   fit.covariance = factor.solve(MatrixXd::Identity(information.rows(), information.cols()));
-  constexpr double determined = 100.0;  // units of F0 and c: a range beyond it would be all numbers
+  constexpr double determined = 100.0;  // units of F0 and c: with a larger error the readings determine nothing
   return fit.covariance.allFinite() && fit.covariance.diagonal().minCoeff() > 0.0 && std::isfinite(fit.chi2) &&
          fit.covariance.diagonal().head(2).maxCoeff() < determined * determined;
 }
@@ -192,7 +192,7 @@ ChannelNoise noise_of(const ReadingModel& model, const ChannelNoise& noise, cons
   return found;
 }
 
-/// Unknowns at a severity, continued from those of the last two fits.
+/// Unknowns at a severity, continued linearly from those of the last two fits.
 VectorXd continued(const std::vector<SeverityFit>& fits, double severity) {
   const SeverityFit& last = fits.back();
   if (fits.size() < 3) return last.unknowns;
@@ -203,14 +203,14 @@ VectorXd continued(const std::vector<SeverityFit>& fits, double severity) {
   return unknowns;
 }
 
-/// Whether a law has to be followed beyond the severities that are expected of it: it fits best at the last of
-/// them, and far better than plain friction. An end of its region there would be that of the search.
+/// Whether a law has to be followed on beyond the expected severities: it fits best at the last of them, and far
+/// better than plain friction. Otherwise its region would end only because the search ends.
 bool is_open(const std::vector<SeverityFit>& fits, double least) {
   constexpr double far = 10.0;
   return fits.back().chi2 <= least && fits.front().chi2 - least > far;
 }
 
-/// The last but one fit takes the derivatives between those of its neighbours, which took their own.
+/// The last but one fit gets derivatives interpolated between those of its neighbours, which computed their own.
 void share_slopes(std::vector<SeverityFit>& fits) {
   const SeverityFit& right = fits.back();
   const SeverityFit& left = fits[fits.size() - 3];
@@ -221,7 +221,7 @@ void share_slopes(std::vector<SeverityFit>& fits) {
   if (find_covariance(shared)) middle = std::move(shared);
 }
 
-/// Goes on at growing severities until no region reaches further, or to the last one that the law has.
+/// Adds fits at growing severities until no region reaches further, or up to `furthest`.
 void follow(const ReadingModel& model, const rigs::Rig& departure, const ChannelNoise& noise, double furthest,
             NearbyOrbits& near, std::vector<SeverityFit>& fits) {
   constexpr double growth = 1.5;
@@ -303,7 +303,7 @@ std::vector<SeverityFit> law_profile(const ReadingModel& model, const rigs::Rig&
   const std::unique_ptr<NearbyOrbits> near = model.no_orbits(noise.deviations);
   double least = plain.chi2;
   for (int i = 1; i <= count; ++i) {
-    // Deflections act on the motion by their root as much as in proportion: the mild severities stand closer.
+    // Deflections act on the motion partly by their root: mild severities need to be closer together.
     const double severity = largest * std::pow(static_cast<double>(i) / count, 1.5);
     const bool own_slopes = i % 2 == 1;
     const LawStart start{continued(fits, severity), fits.back().slopes, own_slopes};

@@ -4,8 +4,8 @@
 ///   chi2(s) = min over F0, c and the nuisances of sum (reading - prediction)^2/sigma^2 + sum
 ///   (nuisance/deviation)^2
 ///
-/// Between the severities the values are interpolated, so that the 95 % region of zeta and F0 over all severities
-/// is that of the profile likelihood: severity s adds the interval theta(s) +- sqrt((D - chi2(s) + chi2_min) V(s)).
+/// Between the severities the values are interpolated. The 95 % region of zeta and F0 over all severities is that
+/// of the profile likelihood: severity s adds the interval theta(s) +- sqrt((D - chi2(s) + chi2_min) V(s)).
 
 #include <Eigen/Core>
 #include <string>
@@ -35,34 +35,35 @@ struct SeverityFit {
 struct LawStart {
   Eigen::VectorXd unknowns;
   Eigen::MatrixXd slopes{};  ///< of a similar law; empty: none are known
-  /// Whether derivatives are taken where the fit ends; else they are those that the search has learnt on its way.
+  /// Whether derivatives are computed where the fit ends. Otherwise they are those of the search, as corrected by
+  /// its steps.
   bool own_slopes = true;
 };
 
-/// The best fit of a law at one severity from `start` on; nothing where it has no steady states there.
+/// The best fit of a law at one severity, from `start`. Nothing if the law has no steady states there.
 [[nodiscard]] std::optional<SeverityFit> fit_law(const ReadingModel& model, const LawAt& law,
                                                  const ChannelNoise& noise, const LawStart& start,
                                                  NearbyOrbits& near);
 
-/// The noise of the readings, where it is not known: what a smooth curve leaves of the residuals of Coulomb +
-/// viscous friction. `plain`: that fit; it is repeated until its weights are those of the noise. Nothing where it
-/// has none.
+/// The fit of Coulomb and viscous friction, and the noise of the readings. Noise that is not known is what a smooth
+/// curve leaves of the residuals of this fit, which is repeated until its weights are those of the noise.
 struct PlainFit {
-  ChannelNoise noise;  ///< and what laws err by
+  ChannelNoise noise;  ///< with the error of the laws, once `with_law_error` has added it
   SeverityFit fit;
   std::vector<double> own_deviations;  ///< of the noise alone
-  double own_chi2 = 0.0;               ///< by the noise alone: plain friction does not err, it holds or not
+  double own_chi2 = 0.0;               ///< by the noise alone: plain friction has no error of a law
 };
 [[nodiscard]] std::optional<PlainFit> plain_fit(const ReadingModel& model);
 
-/// Adds to the noise what laws that are not exact leave of the readings: `share` of what plain friction leaves
-/// beyond the noise, channel by channel, as a standard deviation. The fit of plain friction with it, or nothing.
+/// Adds the error of the laws to the noise: `share` of what plain friction leaves of the readings beyond the noise,
+/// channel by channel, as a standard deviation. Returns the fit of plain friction with these deviations, or
+/// nothing.
 [[nodiscard]] std::optional<PlainFit> with_law_error(const ReadingModel& model, PlainFit plain, double share);
 
-/// Fits over the severities of one departure, the mildest first; `plain` stands for severity zero. Ends where a law
-/// explains the readings so much worse than a milder one that no region reaches it. Negative `largest`: the other
-/// sign. A law that fits best at `largest`, and plain friction far worse, is followed on to `furthest` of the same
-/// sign; zero: it is not.
+/// Fits over the severities of one departure, the mildest first; `plain` is the fit at severity zero. Ends early
+/// once a severity fits so much worse than a milder one that no region reaches it. Negative `largest`: severities
+/// of the other sign. If the law fits best at `largest`, and far better than plain friction, it is followed on to
+/// `furthest`, of the same sign; zero: it is not followed on.
 [[nodiscard]] std::vector<SeverityFit> law_profile(const ReadingModel& model, const rigs::Rig& departure,
                                                    double largest, const ChannelNoise& noise,
                                                    const SeverityFit& plain, double furthest = 0.0);

@@ -15,13 +15,13 @@ namespace dualdamp::identify {
 
 namespace {
 
-/// Departures that mean something for a severity of either sign.
+/// Departures that have a meaning for severities of either sign.
 constexpr std::array two_sided = {"cubic_spring", "detuning", "film_beside_damper", "position_slope",
                                   "viscous_power"};
 
-/// A film takes half of the viscous force and thins with speed; a negative severity is a drag with the square of
-/// speed beside the damper. c is that of low speeds, as under `viscous_saturating`; to the first order in the
-/// severity both give c v (1 - s |v|/V).
+/// Positive severity: a film takes half of the viscous force and thins with speed. Negative severity: a drag with
+/// the square of speed beside the damper. c is that of low speeds, as under `viscous_saturating`. To the first
+/// order in the severity both give c v (1 - s |v|/V).
 sim::Model film_beside_damper(const rigs::RigBase& base, rigs::RigValues p) {
   sim::Model model = rigs::with_coulomb(base);
   const double V = base.reference.speed();
@@ -34,7 +34,7 @@ sim::Model film_beside_damper(const rigs::RigBase& base, rigs::RigValues p) {
                         {{"coefficient", share * base.c()}, {"saturation_velocity", share * V / p[0]}});
 }
 
-/// Half of the friction acts at once, the other half behind free play.
+/// Half of the friction acts directly, the other half behind free play.
 sim::Model partial_play(const rigs::RigBase& base, rigs::RigValues p) {
   constexpr double share = 0.5;
   rigs::RigBase rigid = base;
@@ -51,7 +51,7 @@ sim::Model wide_stribeck(const rigs::RigBase& base, rigs::RigValues p) {
                          {"stribeck_velocity", base.reference.speed()}});
 }
 
-/// Laws that a record may have and that the stress test does not play.
+/// Laws of the library that are not in the stress test.
 const std::vector<rigs::Rig>& further_laws() {
   static const std::vector<rigs::Rig> list = {
       {.name = "film_beside_damper",
@@ -82,14 +82,14 @@ const std::vector<rigs::Rig>& further_laws() {
   return list;
 }
 
-/// Two have no F0. `rate_state` takes four tenths of the time of all others together. A second mode takes as long
-/// as a bristle law, and at one frequency its inertia acts on the readings as another stiffness does, for which
-/// `detuning` stands.
+/// Departures that are not in the library. `rough_way` and `warming` have no F0. `rate_state` takes four tenths of
+/// the time of all others together. A second mode takes as long as a bristle law, and at one frequency its inertia
+/// acts on the readings as another stiffness does, which `detuning` covers.
 constexpr std::array no_laws = {"rate_state", "rough_way", "second_mode", "warming"};
 /// The other sign of a law that is two-sided here.
 constexpr std::array twins = {"detuned_below", "quadratic_drag", "softening_spring", "viscous_power_below"};
 
-/// To which severity a two-sided law may be followed on its negative side.
+/// Severity to which a two-sided law may be followed on its negative side.
 double furthest_below(const rigs::Rig& departure) {
   if (departure.name == "viscous_power") return -rigs::find_departure("viscous_power_below")->largest;
   return -departure.largest;
@@ -100,7 +100,7 @@ bool names(const List& list, std::string_view name) {
   return std::ranges::find(list, name) != std::end(list);
 }
 
-/// All that the library can hold. What a laboratory does not know of itself is no law.
+/// All laws that the library can hold. Errors of the laboratory (`mislead`) are not laws.
 const std::vector<rigs::Rig>& all_laws() {
   static const std::vector<rigs::Rig> list = [] {
     std::vector<rigs::Rig> all = rigs::departures();
@@ -142,12 +142,12 @@ std::vector<LibraryLaw> law_library(const ReadingModel& model, const LawInterval
                    .largest = std::min(options.largest_severity, departure.largest),
                    .deviation = options.severity_deviation,
                    .both_signs = names(two_sided, departure.name)};
-    // Where the readings tell of spring and frequency these are free under every law.
+    // If the readings determine spring and frequency, these are free under every law instead.
     const bool of_spring = departure.name == "detuning" || departure.name == "cubic_spring";
     if (of_spring && !model.nuisances().empty()) continue;
     if (departure.name == "detuning") law.largest = 0.01, law.deviation = 0.005;
     if (departure.name == "cubic_spring") law.largest = 0.1, law.deviation = 0.05;
-    // A spring and a frequency that are further off are for the ledger to find.
+    // A larger error of spring or frequency is found by the ledger.
     if (options.further && !of_spring) {
       law.furthest = departure.largest;
       law.furthest_below = furthest_below(departure);

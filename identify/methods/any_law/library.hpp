@@ -1,6 +1,6 @@
 #pragma once
 /// The library of friction laws that any_law fits: the departures of identify/rigs/ with the severities that a real
-/// rig may have, and what each makes of a record.
+/// rig may have, and the fits of each law to a record.
 
 #include <string>
 #include <vector>
@@ -12,9 +12,9 @@ namespace dualdamp::identify {
 
 struct LawIntervalOptions {
   double largest_severity = 0.3;
-  bool further = true;              ///< whether a law that fits best there is followed beyond it
+  bool further = true;              ///< whether a law that fits best there is followed on
   double severity_deviation = 0.1;  ///< of the prior of a severity, about zero
-  /// Of what a departure does to the readings: the share that laws like it leave, as a standard deviation.
+  /// Error of a law like the departure, over the effect of the departure on the readings; a standard deviation.
   double law_error = 0.25;
   /// Departures that stay out of the library.
   std::vector<std::string> without{};
@@ -22,9 +22,9 @@ struct LawIntervalOptions {
 
 struct LibraryLaw {
   const rigs::Rig* departure = nullptr;  ///< nullptr: Coulomb + viscous friction
-  double largest = 0.0;                  ///< severity up to which it is sought
-  double furthest = 0.0;                 ///< to which it is followed where it fits best at `largest`
-  double furthest_below = 0.0;           ///< the same of negative severities, negative; zero: it is not
+  double largest = 0.0;                  ///< severity up to which it is fitted
+  double furthest = 0.0;                 ///< severity to which it is followed on if it fits best at `largest`
+  double furthest_below = 0.0;           ///< the same for negative severities, negative; zero: not followed on
   double deviation = 0.0;                ///< of the prior of its severity
   bool both_signs = false;
 
@@ -33,11 +33,11 @@ struct LibraryLaw {
   }
 };
 
-/// The laws for readings of this kind, sorted by name, without plain friction. Friction that varies along the way
-/// at random is no law, and friction that warms has no F0 but that of its history: they are not among them.
+/// The laws for readings of this kind, sorted by name, without plain friction. Friction that varies at random along
+/// the way and friction that warms are not among them: they have no F0 but that of their history.
 [[nodiscard]] std::vector<LibraryLaw> law_library(const ReadingModel& model, const LawIntervalOptions& options);
 
-/// One law over its severity, negative ones first. A law without steady states has no fit but that of severity
+/// Fits of one law over its severity, negative ones first. A law without steady states has only the fit of severity
 /// zero.
 struct LawFits {
   LibraryLaw law{};
@@ -47,7 +47,7 @@ struct LawFits {
   [[nodiscard]] const SeverityFit& best() const;
 };
 
-/// Plain friction first, then the library; on all cores.
+/// Fits of plain friction first, then of the library; computed on all cores.
 [[nodiscard]] std::vector<LawFits> fit_library(const ReadingModel& model, const LawIntervalOptions& options,
                                                const PlainFit& plain);
 

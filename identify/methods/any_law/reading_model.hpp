@@ -1,8 +1,8 @@
 #pragma once
-/// What a record's readings are under any friction law: the forward model behind the interval over laws.
+/// The forward model behind the ranges over laws: what a record's readings would be under any friction law.
 ///
 /// The law is a departure of `identify/rigs/` at a severity s, or Coulomb + viscous friction. Unknowns are numbers
-/// of order one: F0 and c over those where the search begins, and what else the record cannot exclude.
+/// of order one: F0 and c over their values where the search begins, and the nuisances.
 
 #include <Eigen/Core>
 #include <algorithm>
@@ -27,19 +27,19 @@ struct LawAt {
   double severity = 0.0;
 };
 
-/// Something beside F0 and c that is free in every fit.
+/// An unknown beside F0 and c that is free in every fit.
 struct Nuisance {
   std::string name;
   double deviation = 0.0;  ///< standard deviation of its prior, about zero; 0: none, the record decides
 };
 
-/// Orbits of the last prediction, next to which those of a similar one are found quickly.
+/// Orbits of the last prediction. Orbits of a similar prediction are found quickly next to them.
 struct NearbyOrbits {
   virtual ~NearbyOrbits() = default;
 };
 
-/// Whether plain friction is a motion to begin with: neither F0 nor c negative by more than its error, nor both
-/// nothing.
+/// Whether the search can begin at this plain friction: neither F0 nor c is negative by more than its error, and
+/// not both are zero.
 [[nodiscard]] inline bool is_friction(const Estimate& plain) {
   const auto may_be = [&](double ParameterSet::* value, std::array<double, 2> ParameterIntervals::* interval) {
     return plain.value.*value > 0.0 || (plain.interval95 && ((*plain.interval95).*interval)[1] > 0.0);
@@ -60,17 +60,17 @@ class ReadingModel {
   [[nodiscard]] double F0_unit() const { return F0_unit_; }
   [[nodiscard]] double c_unit() const { return c_unit_; }
 
-  /// The motion that severities are measured by.
+  /// The motion that severities refer to.
   [[nodiscard]] const rigs::ReferenceMotion& reference() const { return reference_; }
 
   [[nodiscard]] const Eigen::VectorXd& readings() const { return readings_; }
-  /// The channel of each reading: readings of one channel have one standard deviation.
+  /// The channel of each reading. Readings of one channel have the same standard deviation.
   [[nodiscard]] const std::vector<int>& channels() const { return channels_; }
-  /// Known standard deviation of each channel; 0: from the record.
+  /// Known standard deviation of each channel; 0: to be estimated from the record.
   [[nodiscard]] const std::vector<double>& known_deviations() const { return known_deviations_; }
-  /// Columns that span what a smooth departure does to the readings: what they leave is noise.
+  /// Columns that span the effect of a smooth departure on the readings. What they leave of the readings is noise.
   [[nodiscard]] const Eigen::MatrixXd& smooth_curve() const { return smooth_curve_; }
-  /// Deviations below it are not believed.
+  /// Least deviation that is used; a smaller estimate is raised to it.
   [[nodiscard]] double least_deviation(int channel) const {
     return least_deviations_[static_cast<std::size_t>(channel)];
   }
@@ -81,27 +81,28 @@ class ReadingModel {
       if (least_deviations_[i] > 0.0) least = std::min(least, deviations[i] / least_deviations_[i]);
     return least_relative_deviation * least;
   }
-  /// Whether a base drives the mass: else departures of the drive mean nothing.
+  /// Whether a base drives the mass. Otherwise departures of the drive are left out.
   [[nodiscard]] bool is_driven() const { return driven_; }
   [[nodiscard]] const std::vector<int>& numbers() const { return numbers_; }  ///< of the data used
   [[nodiscard]] const std::string& data() const { return data_; }             ///< "8 steady states with phases"
 
-  /// To begin with. Predictions next to them err by little beside the readings' `deviations`, one for each channel.
+  /// No orbits yet, for the first prediction. `deviations`: of each channel; predictions are accurate beside them.
   [[nodiscard]] virtual std::unique_ptr<NearbyOrbits> no_orbits(const std::vector<double>& deviations) const = 0;
-  /// Readings less their predictions; nothing where the law has none there.
+  /// Readings less their predictions. Nothing if the law has no such motion there.
   [[nodiscard]] virtual std::optional<Eigen::VectorXd> residuals(const LawAt& law, const Eigen::VectorXd& unknowns,
                                                                  NearbyOrbits& near) const = 0;
-  /// Derivatives of the predictions by the unknowns, next to the last residuals, which were those at `unknowns`.
+  /// Derivatives of the predictions by the unknowns. `residuals`: the last ones, at these `unknowns`.
   [[nodiscard]] virtual std::optional<Eigen::MatrixXd> derivatives(const LawAt& law,
                                                                    const Eigen::VectorXd& unknowns,
                                                                    const Eigen::VectorXd& residuals,
                                                                    NearbyOrbits& near) const = 0;
 
  protected:
-  /// Units of F0 and c, and where the search begins: those of plain friction, which moves at `speed`. Either may be
-  /// next to nothing: its unit is then a share of the other's force, and the search begins with little of it.
+  /// Sets the units of F0 and c, and where the search begins: at plain friction, in a motion of peak speed `speed`.
+  /// If one of the two is next to nothing, its unit is a share of the other's force and the search begins with a
+  /// little of it.
   void begin_with(const ParameterSet& plain, double speed) {
-    constexpr double quarter_turn = 0.25 * std::numbers::pi;  // a Coulomb force over the viscous one of equal work
+    constexpr double quarter_turn = 0.25 * std::numbers::pi;  // Coulomb force over the viscous force of equal work
     constexpr double least_unit = 0.05;
     constexpr double little = 0.1;
     const double forces = std::max(plain.F0, 0.0) + quarter_turn * std::max(plain.c, 0.0) * speed;
@@ -112,7 +113,7 @@ class ReadingModel {
     start_[1] = std::max(plain.c / c_unit_, little);
   }
 
-  /// No reading is believed to a smaller share of its size, no phase to a smaller angle [rad].
+  /// Least deviation of a reading over the size of its channel; least deviation of a phase [rad].
   static constexpr double least_relative_deviation = 1e-4;
 
   std::vector<Nuisance> nuisances_;

@@ -15,7 +15,7 @@ namespace {
 
 using Curve = std::function<double(double)>;
 
-/// Through values at some severities, the severities increasing.
+/// Curve through values at increasing severities.
 Curve through(std::vector<double> at, std::vector<double> values) {
   constexpr std::size_t fewest = 4;
   if (at.size() >= fewest) {

@@ -1,6 +1,6 @@
 #pragma once
-/// What a law makes of zeta's c and of F0, over its severity: fits at some severities, interpolated between them,
-/// and the region that they span.
+/// c and F0 under one law, over its severity: fits at some severities, interpolated between them, and the region
+/// that they span.
 
 #include <array>
 #include <vector>
@@ -23,12 +23,13 @@ struct SeverityPoint {
   double log_volume = 0.0;  ///< half the logarithm of the determinant of the unknowns' covariance
 };
 
-/// Fits by increasing severity, and points interpolated between them (makima from four fits on, else linear). chi2
-/// follows from interpolated residuals, so that it is a sum of squares between the fits, too.
+/// The points of the fits, in the order of increasing severity, and points interpolated between them (makima from
+/// four fits on, else linear). chi2 follows from interpolated residuals, so that it is a sum of squares between the
+/// fits, too.
 [[nodiscard]] std::vector<SeverityPoint> severity_curve(const ReadingModel& model,
                                                         const std::vector<SeverityFit>& fits);
 
-/// The least chi2 of the points.
+/// The point of least chi2.
 [[nodiscard]] const SeverityPoint& best_of(const std::vector<SeverityPoint>& points);
 
 /// Ends of the region chi2 <= least chi2 + reach of the profile likelihood; not below zero.

@@ -19,24 +19,24 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-/// Tolerance of steps and of the closure of orbits over the noise of the readings, and its bounds: amplitudes and
-/// phases of 95 orbits in 100 err by 20 tolerances or less, and by a fiftieth of the noise.
+/// Tolerance of steps and of the closure of orbits over the relative noise of the readings, and its bounds.
+/// Amplitudes and phases of 95 orbits in 100 err by at most 20 tolerances, a fiftieth of the noise.
 constexpr double closure_over_noise = 1.0 / 1000.0;
 constexpr double finest_closure = 1e-8;
 constexpr double coarsest_closure = 1e-5;
-/// A motion that has not settled by then is no steady state that a laboratory waits for.
+/// Forcing periods. A laboratory does not wait longer for a steady state.
 constexpr int patience = 300;
-/// Of differences, relative to F0 and c.
+/// Step of differences, relative to F0 and c.
 constexpr double difference_step = 4e-3;
 
 constexpr const char* no_plain_motion =
-    "plain Coulomb and viscous friction fits with a negative force or damping: there is no motion to begin with";
+    "Coulomb and viscous friction fit these data only with a negative force or damping, from which no law can start";
 
 constexpr double stiffness_deviation = 0.05;
 constexpr double hardening_deviation = 0.1;
 constexpr Index stiffness_unknown = 2;
 
-/// Corrections from a neighbour, more of which are dearer than a new monodromy matrix.
+/// Newton corrections from a neighbour. More of them cost more than a new monodromy matrix.
 constexpr int most_corrections = 4;
 
 struct SteadyOrbits final : NearbyOrbits {
@@ -44,13 +44,13 @@ struct SteadyOrbits final : NearbyOrbits {
   std::vector<std::optional<sim::KnownOrbit>> orbits;
 };
 
-/// Lag of x's fundamental behind the base's [rad], by the trapezoidal rule. It takes the harmonics next to `count`
-/// for the fundamental: under Coulomb friction they are below 1e-6 of x.
+/// Phase lag of x [rad], by the trapezoidal rule with `count` samples a period. Harmonics of order `count` - 1 and
+/// `count` + 1 are counted as the fundamental: under Coulomb friction they are below 1e-6 of x.
 double phase_of(const sim::Model& model, const sim::SteadyState& state) {
   constexpr int count = 64;
   const std::vector<sim::Sample> samples = sim::one_period(model, state, count * state.period_ratio);
   std::complex<double> sum = 0.0;
-  // The sample at the end of the period is that at its begin.
+  // The sample at the end of the period equals that at its beginning.
   for (std::size_t i = 0; i < std::min(samples.size(), static_cast<std::size_t>(count * state.period_ratio)); ++i)
     sum += samples[i].x * std::polar(1.0, -2.0 * std::numbers::pi * static_cast<double>(i) / count);
   return model.excitation.phase - std::arg(sum);
@@ -109,7 +109,7 @@ class SteadyReadings final : public ReadingModel {
       const std::size_t twin = twins_[i];
       if (twin == i) {
         const sim::Model model = model_of(law, p, states_[i], accuracy);
-        if (!sim::validate(model).empty()) return std::nullopt;  // a search may try a spring that pushes
+        if (!sim::validate(model).empty()) return std::nullopt;  // a search may try a negative stiffness
         const sim::SteadyState state = found(model, orbits[i]);
         if (!state.outcome.ok()) return std::nullopt;
         remember(model, state, orbits[i]);
@@ -157,7 +157,7 @@ class SteadyReadings final : public ReadingModel {
   [[nodiscard]] Index amplitudes() const { return static_cast<Index>(states_.size()); }
   [[nodiscard]] bool has_phase(const Pair& state) const { return phases_ > 0 && !std::isnan(state.phase); }
 
-  /// Stiffness of a cubic spring for the fundamental, over k3 X^2.
+  /// Stiffness by the cubic spring for the fundamental, over k3 X^2.
   [[nodiscard]] double share_of_hardening(const Pair& state) const {
     const double in_phase = std::isnan(state.phase) ? 0.0 : std::cos(state.phase);
     const double square = state.x * state.x + state.Y * state.Y - 2.0 * state.x * state.Y * in_phase;
@@ -168,7 +168,7 @@ class SteadyReadings final : public ReadingModel {
     return {{"stiffness", stiffness_deviation}, {"cubic stiffness", hardening_deviation}};
   }
 
-  /// A state that was taken several times moves in one way: the first one of its kind stands for all.
+  /// A state that was measured several times is computed once: `twins_` refers to the first one.
   void find_twins() {
     for (std::size_t i = 0; i < states_.size(); ++i) {
       const auto here = states_.begin() + static_cast<std::ptrdiff_t>(i);
@@ -193,7 +193,7 @@ class SteadyReadings final : public ReadingModel {
     readings_.resize(count);
     channels_.assign(static_cast<std::size_t>(count), 0);
     const Index columns = several_ ? 6 : 3;
-    // What yields before it slides turns the phase most where the motion is small.
+    // A contact that yields before it slides turns the phase most where the motion is small: 1/x.
     constexpr Index enough = 6;
     const Index phase_columns = phases_ < enough ? columns : columns + 1;
     smooth_curve_.setZero(count, phases_ > 0 ? columns + phase_columns : columns);
@@ -215,7 +215,7 @@ class SteadyReadings final : public ReadingModel {
       if (phase_columns > columns) smooth_curve_(phase_row, 2 * columns) = 1.0 / x;
       ++phase_row;
     }
-    // An error of Y looks like one of x, by the slope of x over Y.
+    // An error of Y acts as one of x, by the slope of x over Y.
     double slope = 0.0;
     for (const Pair& state : states_) slope += state.x / state.Y / static_cast<double>(states_.size());
     known_deviations_ = {std::hypot(known.sigma_x, slope * known.sigma_Y), 0.0};
@@ -230,7 +230,7 @@ class SteadyReadings final : public ReadingModel {
     truth.model.oscillator.mass = constants_.mass;
     truth.model.oscillator.stiffness = k;
     truth.model.oscillator.damping = p[1] * c_unit_;
-    // The base moves as it does: another stiffness changes the force that it makes.
+    // The motion of the base is given: another stiffness changes its force on the mass.
     truth.model.excitation = {
         .type = sim::ExcitationType::base_harmonic, .amplitude = state.Y, .frequency = state.omega};
     truth.F0 = p[0] * F0_unit_;
@@ -249,7 +249,7 @@ class SteadyReadings final : public ReadingModel {
       near = sim::known_orbit(model, state);
   }
 
-  /// Amplitudes are all that its account need hold.
+  /// Only amplitudes are needed, so no full account is computed.
   [[nodiscard]] static sim::SteadyState found(const sim::Model& model, const std::optional<sim::KnownOrbit>& near) {
     const sim::SteadyStateOptions options{
         .tolerance = model.solver.tolerance, .max_periods = patience, .full_account = false};

@@ -1,9 +1,10 @@
 #pragma once
-/// Steady states as readings: amplitudes, and phases where they were measured, each by the engines in time.
+/// Steady states as readings: amplitudes, and phases if they were measured, computed by the engines in time.
 ///
-/// Beside F0 and c the stiffness k (1 + d) and a cubic term k3 are free where phases or several frequencies tell of
-/// them. They act as the stiffness k (1 + d + 3/4 (k3 X^2/k) (z/X)^2) of a state whose spring stretches by z, which
-/// leaves out the third harmonic of the spring's force. A second-order effect: k3 keeps to a tenth of k/X^2.
+/// If there are phases or several frequencies, the stiffness k (1 + d) and a cubic term k3 are free beside F0 and
+/// c. They act as the stiffness k (1 + d + 3/4 (k3 X^2/k) (z/X)^2) of a state whose spring stretches by z. This
+/// leaves out the third harmonic of the spring's force, an effect of second order: the prior of k3 is a tenth of
+/// k/X^2.
 ///
 /// Cost: four orbits a state for a derivative; 0.05 ms each under laws of the exact engine, 2 ms under others.
 
@@ -22,9 +23,9 @@ namespace dualdamp::identify {
 [[nodiscard]] std::variant<std::unique_ptr<const ReadingModel>, std::string> steady_readings(
     const Record& record, const KnownConstants& constants, const KnownDeviations& known);
 
-/// States that are to be measured on the rig of another record, with stiffness and cubic stiffness free: `states`
-/// with about the amplitudes and, where they are to be read, phases that are expected. `deviations` [m, rad] of the
-/// readings. The readings themselves mean nothing.
+/// States that are planned on the rig of another record, with stiffness and cubic stiffness free. `states`: with
+/// about the expected amplitudes and, if phases are to be read, the expected phases. `deviations`: of the readings
+/// [m, rad]. The readings themselves have no meaning.
 [[nodiscard]] std::unique_ptr<const ReadingModel> planned_states(const ReadingModel& record,
                                                                  std::vector<Pair> states,
                                                                  const KnownConstants& constants,

@@ -1,5 +1,5 @@
 #pragma once
-/// The extremes of a free vibration made ready for the decrement methods.
+/// Preparation of the extremes of a free vibration for the decrement methods.
 
 #include <cstddef>
 #include <optional>
@@ -11,16 +11,18 @@
 
 namespace dualdamp::identify {
 
-/// The extremes of a record in units of a power of two near the largest, so that no scale matters.
+/// The extremes of a record, in units of a power of two near the largest, so that results do not depend on the
+/// scale.
 struct Extremes {
   std::vector<double> values;
   double unit = 1.0;  ///< m
 };
 
-/// Leaves out everything from index `count` on.
+/// Leaves out all extremes from index `count` on.
 void cut(Extremes& extremes, std::size_t count, const std::string& reason, Estimate& estimate);
 
-/// Reads the extremes and cuts them where they cease to alternate; nothing after `estimate` has been refused.
+/// Reads the extremes and leaves out those after the last that alternates; nothing after `estimate` has been
+/// refused.
 [[nodiscard]] std::optional<Extremes> take_extremes(const Record& record, const KnownConstants& constants,
                                                     Estimate& estimate);
 

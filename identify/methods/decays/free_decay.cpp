@@ -24,19 +24,19 @@ namespace {
 
 using std::numbers::pi;
 
-/// Decay ratios searched: damping ratios from 0.86 down to -0.13, a swing growing by half.
+/// Range of R that is searched: damping ratios from 0.86 down to -0.13, where a swing grows by half.
 constexpr double least_R = 0.005;
 constexpr double greatest_R = 1.5;
 constexpr int search_cells = 300;
 
-/// Windows of four extremes listed at most.
+/// Largest number of windows of four extremes that are listed.
 constexpr int most_windows = 32;
 
 double alternating(Eigen::Index i) { return i % 2 == 0 ? 1.0 : -1.0; }
 
 /// The model for a given R is linear in c = (X_0, D = X_0 - X_1, o):
 ///   e_i = s_i (X_0 - p_i D) + o,   p_i = 1 + R + ... + R^(i-1),   s_i = (-1)^i
-/// Written with p_i instead of R^i its columns stay apart for R = 1, Coulomb friction alone.
+/// With p_i instead of R^i the columns stay independent at R = 1, which is Coulomb friction alone.
 class DecayModel {
  public:
   DecayModel(std::span<const double> extremes, bool zero_offset)
@@ -58,7 +58,7 @@ class DecayModel {
     fit.R = R;
     fit.coefficients = linear_least_squares(columns, e_);
     fit.residual = e_ - columns * fit.coefficients;
-    // The coefficients are at their minimum, so only the explicit dependence on R counts.
+    // The coefficients minimise the sum of squares, so only its explicit dependence on R counts.
     fit.slope = -fit.residual.dot(dp * -fit.coefficients[1]);
     return fit;
   }
@@ -73,8 +73,8 @@ class DecayModel {
     return all;
   }
 
-  /// The cube of the fitted amplitudes, with their signs: what friction that varies with amplitude adds. The square
-  /// will not do, for near R = 1 a change of R already adds it.
+  /// The cube of the fitted amplitudes, with their signs: the effect of friction that varies with amplitude. The
+  /// square cannot be used, because near R = 1 it is the effect of a change of R.
   [[nodiscard]] Eigen::VectorXd cubic_term(const Fit& fit) const {
     const Eigen::VectorXd offset = Eigen::VectorXd::Constant(e_.size(), unknowns_ == 3 ? fit.coefficients[2] : 0.0);
     return (e_ - fit.residual - offset).array().cube();
@@ -101,14 +101,14 @@ class DecayModel {
   Eigen::Index unknowns_;
 };
 
-/// R from as many extremes as there are unknowns: from the differences that friction and offset drop out of.
+/// R from as many extremes as unknowns, from differences in which friction and offset cancel.
 double exact_R(std::span<const double> e, bool zero_offset) {
   if (zero_offset) return -(e[1] + e[2]) / (e[0] + e[1]);
   return -(e[3] - e[1]) / (e[2] - e[0]);
 }
 
-/// The least-squares R: the best cell of a search over the whole range, then the zero of the slope inside it.
-/// Nothing when the best cell lies at an end of the range.
+/// The least-squares R: the best cell of a search over the whole range, then the zero of the slope within it.
+/// Nothing when the best cell is at an end of the range.
 std::optional<double> least_squares_R(const DecayModel& model) {
   const auto ratio = [](int i) { return least_R + (greatest_R - least_R) * i / search_cells; };
   int best = 0;
@@ -144,7 +144,7 @@ double zeta_slope(double R) {
   return -1.0 / (pi * R * std::pow(1.0 + L * L, 1.5));
 }
 
-/// A decay fit with what follows from it, lengths in the unit of the extremes.
+/// A fit of a decay and its results, with lengths in the unit of the extremes.
 struct Solution {
   DecayModel::Fit fit;
   double zeta = 0.0;
@@ -188,7 +188,8 @@ std::optional<Eigen::Matrix2d> unit_covariance(const DecayModel& model, const So
   return Eigen::Matrix2d(half.transpose() * half);
 }
 
-/// Fits, leaves out extremes that come after the mass has stopped at the estimate, and fits again until none does.
+/// Fits, leaves out the extremes after the mass has stopped for good at the estimate, and fits again until there
+/// are none.
 std::optional<Solution> solve_moving(Extremes& extremes, bool zero_offset, const KnownConstants& constants,
                                      Estimate& estimate) {
   while (enough(extremes, zero_offset ? 3 : 4, estimate)) {
@@ -214,7 +215,8 @@ std::optional<Solution> solve_moving(Extremes& extremes, bool zero_offset, const
   return std::nullopt;
 }
 
-/// The half swing lasts pi/(wn sqrt(1 - zeta^2)); extremes may be missing where an interval is much longer.
+/// The half swing lasts pi/(wn sqrt(1 - zeta^2)). If the time between two extremes is much longer, extremes may be
+/// missing.
 void judge_times(const DecayRecord& record, const Estimate& estimate, const KnownConstants& constants,
                  std::vector<std::string>& faults, std::vector<std::string>& warnings) {
   const std::size_t count = estimate.used.size();
@@ -235,7 +237,7 @@ void judge_times(const DecayRecord& record, const Estimate& estimate, const Know
       return;
     }
   }
-  // The first and the last may belong to a release by hand and to a mass that rests.
+  // The first may belong to a release by hand, the last to a mass that no longer moves.
   const double swing = upper_median(std::move(swings));
   if (std::abs(swing / expected - 1.0) > 0.02) {
     warnings.push_back("half swings last " + core::format_number(swing, 4) +

@@ -7,12 +7,12 @@
 /// so four extremes give one exact estimate,
 ///   R = -(e_3 - e_1)/(e_2 - e_0),   x_f = |u_0 - 2 u_1 + u_2|/(4 (1 + R)),   u_i = e_(i+1) + R e_i.
 /// More extremes: least squares by variable projection. For a given R the model is linear in X_0, X_0 - X_1 and o,
-/// so what remains is a search for one number. (Regressing X_(i+1) on X_i would put errors into the regressor.)
-/// With `zero_offset` the extremes are magnitudes about zero, given with alternating signs, and three suffice.
+/// so the search is for R alone. (In a regression of X_(i+1) on X_i the regressor would have errors.) With
+/// `zero_offset` the extremes are about zero, with alternating signs, and three suffice.
 ///
-/// Holds for a linear spring and zeta < 1 while the mass moves: an extreme after one with X_i <= x_f is left out.
-/// Checked: the extremes alternate; the half swing lasts pi/(wn sqrt(1 - zeta^2)), when times are given; an F test
-/// of a cubic term, from six extremes on; estimates from each four successive extremes are listed. Uncertainty:
+/// Holds for a linear spring and zeta < 1 while the mass moves: extremes after one with X_i <= x_f are left out.
+/// Checked: the extremes alternate; the half swing lasts pi/(wn sqrt(1 - zeta^2)), if times are given; an F test of
+/// a cubic term, from six extremes on. Estimates from each four successive extremes are listed. Uncertainty:
 /// least-squares covariance with n - 4 degrees of freedom (n - 3 with `zero_offset`), or from `sigma_x`. Source:
 /// feeny1996decrement, liang1998decrement. Errors: `outcome`. Cost: 300 linear fits of three unknowns.
 

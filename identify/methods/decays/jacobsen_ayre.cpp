@@ -20,14 +20,14 @@ struct Friction {
   double x_f = 0.0;
 };
 
-/// X holds magnitudes, three or more.
+/// X: magnitudes, at least three.
 Friction rule_of_thumb(const std::vector<double>& X) {
   const std::size_t n = X.size();
   return {std::log(X[0] / X[2]) / (2.0 * pi), (X[n - 3] - X[n - 1]) / 4.0};
 }
 
-/// Where each number is free of what the other adds to it; nothing when the large swings are not larger than the
-/// small ones, and the two equations are one.
+/// The numbers without the bias that each makes in the other; nothing when the large swings are not larger than the
+/// small ones, because the two equations are then the same.
 std::optional<Friction> corrected(const Friction& crude, const std::vector<double>& X) {
   const double to_zeta = 2.0 / (pi * X[1]);           // of x_f
   const double to_x_f = 0.5 * pi * X[X.size() - 2];   // of zeta
@@ -49,7 +49,7 @@ Eigen::Matrix2d covariance(const std::vector<double>& X, double deviation) {
   return deviation * deviation * jacobian * jacobian.transpose();
 }
 
-/// The bias of the rule, as far as the corrected numbers tell it.
+/// The bias of the rule, computed from the corrected numbers.
 void judge_bias(const Friction& crude, const std::optional<Friction>& better, Estimate& estimate,
                 std::vector<std::string>& faults) {
   if (!better || !(better->zeta > 0.0) || !(better->x_f > 0.0)) {

@@ -15,7 +15,7 @@ namespace dualdamp::identify {
 
 namespace {
 
-/// What the columns of the regression are; mass and stiffness only where they are unknown.
+/// The columns of the regression; mass and stiffness only if they are unknown.
 struct Columns {
   std::optional<Eigen::Index> mass, stiffness;
   Eigen::Index damping = 0, friction = 0, offset = 0;
@@ -118,7 +118,7 @@ std::vector<FurtherParameter> further_parameters(const ParameterReading& reading
   return list;
 }
 
-/// What is left of the forces after inertia, spring and offset, over speed, and the fitted friction.
+/// The forces less inertia, spring and offset, over speed, and the fitted friction.
 EstimateCurve friction_curve(const MotionRows& rows, const CorrelatedFit& fit, const Columns& columns) {
   EstimateCurve curve{"friction_velocity", {{"v", "m/s", {}}, {"F", "N", {}}, {"fitted", "N", {}}}};
   for (Eigen::Index i = 0; i < rows.speed.size(); ++i) {
@@ -131,8 +131,8 @@ EstimateCurve friction_curve(const MotionRows& rows, const CorrelatedFit& fit, c
   return curve;
 }
 
-/// Columns that nearly depend on each other make the fit trust the small difference between them, which is where
-/// the errors of a sensor go.
+/// If columns nearly depend on each other, the fit rests on their small difference, which consists mostly of errors
+/// of the sensors.
 void judge_condition(const CorrelatedFit& fit, Estimate& estimate) {
   constexpr double nearly_dependent = 20.0;
   if (fit.condition < nearly_dependent || fit.deviation == 0.0) return;
@@ -141,7 +141,8 @@ void judge_condition(const CorrelatedFit& fit, Estimate& estimate) {
                               "): give the mass, or measure at two levels or frequencies");
 }
 
-/// Real friction is never quite straight over speed: a bend of no weight is said and does not spoil the estimate.
+/// Real friction is never quite a straight line over speed: a small curvature is a warning, and the estimate stays
+/// usable.
 void judge_curvature(Estimate& estimate) {
   if (!estimate.lack_of_fit) return;
   LackOfFit& test = *estimate.lack_of_fit;

@@ -23,14 +23,14 @@ struct Belief {
   Eigen::Matrix4d P = Eigen::Matrix4d::Zero();
 };
 
-/// What the filter knows beforehand.
+/// Constants of the filter.
 struct Setting {
   double mass = 1.0;
   double stiffness = 1.0;
   double width = 1.0;  ///< of the smoothed sign [m/s]
   double noise = 1.0;  ///< of x [m]
-  int steps = 1;       ///< of integration a sample, where the sign turns
-  int few_steps = 1;   ///< where it is saturated
+  int steps = 1;       ///< of integration in a sample, near a change of the sign
+  int few_steps = 1;   ///< where the sign is saturated
 };
 
 /// Rates of state and covariance under the drive k y + f.
@@ -40,7 +40,7 @@ Belief rates(const Belief& at, double drive, const Setting& setting) {
   const double slope = (1.0 - sign * sign) / setting.width;
   Belief rate;
   rate.state << v, (drive - setting.stiffness * x - c * v - F0 * sign) / setting.mass, 0.0, 0.0;
-  // Of A P only the first two rows are not zero.
+  // Only the first two rows of A P are not zero.
   Eigen::Matrix4d AP = Eigen::Matrix4d::Zero();
   AP.row(0) = at.P.row(1);
   AP.row(1) = Eigen::RowVector4d(-setting.stiffness, -c - F0 * slope, -sign, -v) * at.P / setting.mass;
@@ -52,7 +52,7 @@ Belief moved(const Belief& from, const Belief& rate, double by) {
   return {from.state + by * rate.state, from.P + by * rate.P};
 }
 
-/// Steps over a sample interval: many only where the velocity may come near the turn of the sign.
+/// Steps over a sample interval: many only if the velocity may come near zero.
 int steps_over(const Belief& at, double from, double to, double interval, const Setting& setting) {
   constexpr double saturated = 8.0;  // widths: 1 - tanh^2 is 5e-7 there
   constexpr double margin = 1.5;
@@ -78,10 +78,10 @@ Belief predict(Belief belief, double from, double to, double interval, const Set
   return belief;
 }
 
-/// What the filter leaves after all samples of a record.
+/// Results of the filter after all samples of a record.
 struct FilterRun {
   Belief end;
-  double surprise = 0.0;  ///< mean square of the innovations over what P expects, in the second half
+  double surprise = 0.0;  ///< mean square of the innovations over that expected from P, in the second half
   double miss = 0.0;      ///< rms innovation there [m]
   bool finite = true;
   EstimateCurve curve{"friction_over_time", {{"t", "s", {}}, {"c", "N.s/m", {}}, {"F0", "N", {}}}};
@@ -124,7 +124,7 @@ FilterRun run_filter(const History& history, const Belief& start, const Setting&
   return run;
 }
 
-/// Scales of the motion, from which the filter starts knowing next to nothing.
+/// Scales of the motion, from which the wide initial covariance follows.
 struct Scales {
   double length = 0.0;  ///< half of peak to trough [m]
   double speed = 0.0;   ///< m/s
@@ -140,7 +140,8 @@ Scales scales_of(const History& history, const KalmanOptions& options) {
       history.v.empty() ? five_point_average(central_difference(history.x, history.sample_rate)) : history.v;
   for (const double speed : v) scales.speed = std::max(scales.speed, std::abs(speed));
   scales.v0 = v[2];
-  // The smoothed sign is a worse model than good samples deserve: a filter that trusts them more diverges.
+  // The smoothed sign is less accurate than good samples. With their true noise the filter would diverge, so it
+  // assumes more.
   constexpr double least = 1e-3;
   scales.noise = std::max(options.sigma_x > 0.0 ? options.sigma_x : noise_level(history.x), least * scales.length);
   return scales;
@@ -149,7 +150,7 @@ Scales scales_of(const History& history, const KalmanOptions& options) {
 Setting setting_for(const Scales& scales, double width, const History& history, const KnownConstants& constants) {
   Setting setting{constants.mass, constants.stiffness, width, scales.noise};
   const double slowest = std::sqrt(constants.stiffness / constants.mass);
-  // The steepest rate is that of the smoothed sign, for a friction of a quarter of the spring's force.
+  // The largest rate is that of the smoothed sign, for a friction of a quarter of the spring's force.
   const double steepest = 0.25 * constants.stiffness * scales.length / (constants.mass * width) + slowest;
   const auto steps_for = [&](double rate) {
     constexpr double of_a_step = 0.25;
@@ -177,7 +178,8 @@ std::string fault_of_run(const FilterRun& run, const Scales& scales) {
   return {};
 }
 
-/// (m, c, k, F0), mass and stiffness being constants; errors by what the innovations are beside what P expects.
+/// (m, c, k, F0), where mass and stiffness are constants; the errors are those of P, scaled by the size of the
+/// innovations.
 ParameterReading reading_of(const FilterRun& run, const KnownConstants& constants) {
   const Eigen::Vector4d& end = run.end.state;
   const auto error = [&](Eigen::Index i) { return std::sqrt(run.surprise * run.end.P(i, i)); };

@@ -4,15 +4,14 @@
 ///   v' = [k (y - x) + f - c v - F0 tanh(v/e)]/m,   F0' = c' = 0,   measured: x
 ///   P' = A P + P A^T between samples;  K = P h/(h^T P h + s^2), state += K (x_i - x), P -= K h^T P at a sample
 ///
-/// The sign of the velocity must be smooth for A to exist: its width e (`sign_width`, default 0.003 of the
-/// largest speed) biases the estimate, and too wide a one makes the filter diverge. P knows nothing of that:
+/// The sign of the velocity must be smooth for A to exist. Its width e (`sign_width`, default 0.003 of the largest
+/// speed) biases the estimate, and with a too large width the filter diverges. P does not contain this error, so
 /// intervals come from the parametric bootstrap (`identify/uncertainty/parametric_bootstrap.hpp`). Checked: the
-/// estimate with twice the width
-/// (`subsets`); the innovations against what P expects; divergence is refused. s: noise of x, from `sigma_x` or the
-/// record itself.
+/// estimate with twice the width (`subsets`); the innovations against the size that P expects; a filter that
+/// diverges is refused. s: noise of x, from `sigma_x` or estimated from the record.
 ///
 /// Curve: friction_over_time. Source: after Stanway (liang2004identifying, reference 12; the text was not at hand),
-/// detchmendy1966. Errors: `outcome`. Cost: 2 us a step, some steps a sample.
+/// detchmendy1966. Errors: `outcome`. Cost: 2 us a step, several steps a sample.
 
 #include "identify/method.hpp"
 #include "identify/records/signals.hpp"

@@ -31,7 +31,7 @@ ForwardTest::ForwardTest(const NumberedHistory& item)
   constexpr std::size_t samples = 8;
   const std::vector<double> begin(history->x.begin(), history->x.begin() + samples);
   x0 = begin[0];
-  // Noise moves the extremes of eight samples three deviations apart, hardly ever six.
+  // Noise alone separates the extremes of eight samples by about three deviations, and very rarely by six.
   starts_at_rest = range_of(begin) <= 6.0 * noise_level(begin) + 1e-12 * range_of(history->x);
   if (!history->v.empty())
     v0 = history->v[0];
@@ -99,8 +99,8 @@ namespace {
 
 bool is_free(const ForwardTest& test) { return test.history->y.empty() && test.history->force.empty(); }
 
-/// What the extremes of a free vibration say: a long decay has many local minima of the fit, and this lies in the
-/// valley of the least.
+/// Starting point from the extremes of a free vibration. The fit of a long decay has many local minima; this point
+/// is near the lowest.
 std::optional<ForceParameters> from_extremes(const ForwardTest& test, ForceParameters known,
                                              const KnownConstants& constants) {
   Record record;
@@ -118,8 +118,8 @@ std::optional<ForceParameters> from_extremes(const ForwardTest& test, ForceParam
   return ForceParameters{known.m, std::max(0.0, estimate.value.c), known.k, std::max(0.0, estimate.value.F0)};
 }
 
-/// Where to start: the regression of forces when it gives something, else a guess; `all`: what the fit may begin
-/// with.
+/// Starting points: the regression of forces if it gives an estimate, otherwise a guess. `all`: all points at which
+/// the fit may begin.
 std::vector<ForceParameters> starts(const Record& record, const std::vector<ForwardTest>& tests,
                                     const KnownConstants& constants, const RegressionOptions& options) {
   Record used;
@@ -141,7 +141,7 @@ std::vector<ForceParameters> starts(const Record& record, const std::vector<Forw
   return list;
 }
 
-/// The best start of all, by the squares it leaves.
+/// The starting point with the smallest sum of squares.
 Eigen::VectorXd best_start(const std::vector<ForceParameters>& list, const std::vector<ForwardTest>& tests,
                            const ForwardLayout& layout, const ForwardResiduals& residuals) {
   Eigen::VectorXd best = layout.pack(list.front(), tests);
@@ -156,8 +156,8 @@ Eigen::VectorXd best_start(const std::vector<ForceParameters>& list, const std::
   return best;
 }
 
-/// Free vibrations cut off where they have fallen below `share` of their largest deflection for good; nothing where
-/// that cuts off little. What comes after ends in a rest, whose place jumps with the parameters.
+/// Free vibrations, cut off where they stay below `share` of their largest deflection; nothing if that cuts off
+/// little. After that the mass comes to rest, at a place that jumps with the parameters.
 std::optional<Record> large_motion(const std::vector<ForwardTest>& tests, double share) {
   Record record;
   bool shorter = false;
@@ -178,7 +178,7 @@ std::optional<Record> large_motion(const std::vector<ForwardTest>& tests, double
   return shorter ? std::optional(std::move(record)) : std::nullopt;
 }
 
-/// Why there is nothing to fit; empty when there is.
+/// Why there is nothing to fit; empty otherwise.
 std::string fault_of_tests(const std::vector<ForwardTest>& tests, const KnownConstants& constants) {
   constexpr std::size_t most_samples = 300'000;  // each step of the fit goes through all of them
   std::size_t samples = 0;
@@ -220,7 +220,7 @@ void ForwardFit::search(const Record& record, const KnownConstants& constants, c
   constexpr double far = 1e3;  // in units of the scales
   problem.low = Eigen::VectorXd::Constant(layout_->count(), -far);
   problem.high = Eigen::VectorXd::Constant(layout_->count(), far);
-  problem.low[1] = 0.0;  // friction that drives is none
+  problem.low[1] = 0.0;  // friction must not be negative
   problem.evaluate = [this](const Eigen::VectorXd& p, Eigen::VectorXd& r, Eigen::MatrixXd* jacobian) {
     return residuals_->evaluate(p, r, jacobian);
   };

@@ -1,10 +1,10 @@
 #pragma once
-/// The fit of a simulated motion to measured displacements: parameters, residuals and where to begin. What
-/// output_error estimates with, and what the ledger of assumptions is tested beside.
+/// The fit of a simulated motion to measured displacements: parameters, residuals and starting points. output_error
+/// and the joint model of histories use it.
 ///
 ///   min sum [x_i - x(t_i; c, F0, x(0), v(0))]^2,   m x'' + c x' + k x + F0 sgn x' = k y + f
 ///
-/// Mass and stiffness are fitted where they are not known. Cost: tens of runs of the forward model
+/// Mass and stiffness are fitted if they are not known. Cost: tens of runs of the forward model
 /// (sampled_oscillator.hpp).
 
 #include <Eigen/Core>
@@ -64,7 +64,7 @@ class ForwardLayout {
     return {f.m, f.c, f.k, f.F0, p[first_[t]] * length_, test.starts_at_rest ? 0.0 : p[first_[t] + 1] * speed_};
   }
 
-  /// What test t is differentiated by, with the column and the scale of each.
+  /// The parameters on which test t depends, with the column and the scale of each.
   struct Column {
     SampledOscillator::By by;
     Eigen::Index column;
@@ -121,7 +121,7 @@ class ForwardResiduals {
   Eigen::Index count_ = 0;
 };
 
-/// A fit with all it refers to.
+/// A fit with the data it refers to.
 class ForwardFit {
  public:
   /// `problem` says why there is no fit; empty when there is one. Histories that cannot be used, and those in which
@@ -138,8 +138,8 @@ class ForwardFit {
   [[nodiscard]] const ForwardResiduals& residuals() const { return *residuals_; }
   [[nodiscard]] const LeastSquaresFit& found() const { return found_; }
 
-  /// Where another fit of the same tests begins, at full length or with a constant known; their initial states are
-  /// set.
+  /// Starting point for another fit of the same tests, of full length or with a constant known; sets their initial
+  /// states.
   [[nodiscard]] Eigen::VectorXd as_start(const ForwardLayout& layout, std::vector<ForwardTest>& tests) const;
 
  private:

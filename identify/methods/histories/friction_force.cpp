@@ -67,7 +67,7 @@ void add_curves(const std::vector<FrictionSamples>& histories, double c, Estimat
 /// Sums over the swings of the motion.
 struct Swings {
   double S_xx = 0.0, S_xF = 0.0;  ///< of force over displacement after a reversal
-  double samples = 0.0;           ///< that went into them, beyond two unknowns for each
+  double samples = 0.0;           ///< samples in these sums, less two unknowns for each swing
   double resolved = 0.0;          ///< swings with three samples or more
   double speed = 0.0;             ///< sum of transition speeds
   double transitions = 0.0;
@@ -79,17 +79,18 @@ struct Swings {
   [[nodiscard]] bool contact_shows() const {
     return count >= 2.0 && resolved >= 0.5 * count && S_xF > 0.0 && samples > 0.0;
   }
-  /// Transition velocity [m/s]; 0 where the contact does not show.
+  /// Transition velocity [m/s]; 0 if the contact is not visible.
   [[nodiscard]] double mean_speed() const {
     return contact_shows() && transitions >= 0.5 * count ? speed / transitions : 0.0;
   }
 };
 
-/// After a reversal the dry part changes by 2 F0: what a contact of stiffness K does on 2 F0/K of displacement.
+/// After a reversal the part of the force without c v changes by 2 F0, for a contact of stiffness K over a
+/// displacement of 2 F0/K.
 void add_reversal(const FrictionSamples& samples, const std::vector<double>& dry, std::size_t reversal,
                   std::size_t next, double F0, Swings& swings) {
-  constexpr double straight = 0.8;   // of that change, beyond which the contact begins to slip
-  constexpr double complete = 0.98;  // the level of sliding is known no better
+  constexpr double straight = 0.8;   // share of that change after which the contact begins to slip
+  constexpr double complete = 0.98;  // share at which the change is complete; the level in slip is not known better
   const std::vector<double>& x = samples.motion.x;
   double n = 0.0, mean_x = 0.0, mean_F = 0.0, S_xx = 0.0, S_xF = 0.0;
   std::size_t i = reversal;
@@ -149,17 +150,18 @@ Swings swings_of(const std::vector<FrictionSamples>& histories, const Correlated
   return swings;
 }
 
-/// Contact stiffness, transition velocity and the loop's area, as far as the sample rate shows them.
+/// Contact stiffness, transition velocity and the area of the loop, as far as the sample rate resolves them.
 void report_contact(const Swings& swings, double F0, Estimate& estimate) {
   if (swings.count < 2.0 || !(F0 > 0.0)) return;
   estimate.others.push_back({"loop_area", "J", 2.0 * swings.work / swings.count, std::nullopt, std::nullopt});
   if (!swings.contact_shows()) {
     estimate.warnings.emplace_back(
-        "the force swings within two samples: the contact is stiffer than this sample rate shows");
+        "the force goes from one limit to the other within two samples: the contact is stiffer than this sample rate "
+        "can show");
     return;
   }
   const double slope = swings.S_xF / swings.S_xx;
-  // The filters that the acceleration needs make the contact softer than it is, by more than noise tells.
+  // The filters of the acceleration make the contact appear softer than it is, by more than its standard error.
   estimate.others.push_back({"contact_stiffness", "N/m", slope, std::nullopt, std::nullopt});
   const double speed = swings.mean_speed();
   if (!(speed > 0.0)) return;
@@ -202,7 +204,7 @@ SlidingLine sliding_line(const std::vector<FrictionSamples>& histories, const Re
     return line;
   };
   SlidingLine line = line_beyond(least_speed_for(histories, options));
-  // A compliant contact slides only beyond its transition velocity: what is slower is none of the line's.
+  // A compliant contact slides only beyond its transition velocity: slower samples do not belong to the line.
   constexpr double beyond = 1.2;
   for (int pass = 0; pass < 3 && line.fit && options.least_speed == 0.0; ++pass) {
     const double transition = beyond * line.swings.mean_speed();
@@ -214,7 +216,7 @@ SlidingLine sliding_line(const std::vector<FrictionSamples>& histories, const Re
   return line;
 }
 
-/// (m, c, k, F0, offset), mass and stiffness being constants.
+/// (m, c, k, F0, offset), where mass and stiffness are constants.
 ParameterReading reading_of(const CorrelatedFit& fit, const KnownConstants& constants) {
   const auto error = [&](Eigen::Index i) { return std::sqrt(fit.covariance(i, i)); };
   ParameterReading reading{Eigen::VectorXd(5), Eigen::VectorXd(5)};

@@ -1,5 +1,5 @@
 #pragma once
-/// The friction force that the other forces leave,  k (y - x) + f - m a,  at the samples of a history.
+/// The friction force from the balance of the other forces,  k (y - x) + f - m a,  at the samples of a history.
 
 #include <optional>
 #include <vector>
@@ -9,16 +9,16 @@
 
 namespace dualdamp::identify {
 
-/// One history: signals as `motion_of` gives them, and the friction force, viscous and dry together.
+/// One history: signals as `motion_of` gives them, and the friction force, viscous and Coulomb friction together.
 struct FrictionSamples {
   int number = 0;
   Motion motion;
   std::vector<double> force;  ///< N
 };
 
-/// Velocity that was not measured beside an acceleration that was: central difference and five-point average, as
-/// in the paper; else `motion_of` with the first cut-off. Empty: the estimate has been refused, for mass and
-/// stiffness (0: none) must be known.
+/// If the acceleration was measured and the velocity was not, the velocity is the central difference and five-point
+/// average of the paper; otherwise it is that of `motion_of` with the first cut-off. Empty: the estimate has been
+/// refused, for mass and stiffness (0: none) must be known.
 [[nodiscard]] std::vector<FrictionSamples> friction_samples(const Record& record, const KnownConstants& constants,
                                                             const RegressionOptions& options, Estimate& estimate);
 

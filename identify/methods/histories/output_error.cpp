@@ -34,7 +34,7 @@ void judge_residuals(const Eigen::VectorXd& residuals, Estimate& estimate) {
       " of the amplitude lasts from sample to sample, so the law, a constant or the drive is wrong");
 }
 
-/// Covariance of (m, c, k, F0) out of that of the fit.
+/// Covariance of (m, c, k, F0) from that of the fit.
 Eigen::Matrix4d force_covariance(const ForwardLayout& layout, const Eigen::MatrixXd& covariance) {
   const auto place = [](By by) { return by == By::mass ? 0 : by == By::damping ? 1 : by == By::stiffness ? 2 : 3; };
   Eigen::Matrix4d of_force = Eigen::Matrix4d::Zero();
@@ -47,7 +47,8 @@ Eigen::Matrix4d force_covariance(const ForwardLayout& layout, const Eigen::Matri
   return of_force;
 }
 
-/// What one step of Gauss and Newton makes of other residuals at the estimate: so little does noise move the fit.
+/// Estimate from other residuals by one step of Gauss and Newton, which suffices because noise moves the fit only a
+/// little.
 std::optional<ParameterReading> reading_of(const ForwardLayout& layout, const LeastSquaresFit& found,
                                            const Eigen::VectorXd& residuals,
                                            const std::vector<Eigen::Index>& blocks) {
@@ -84,7 +85,7 @@ std::optional<BootstrapSpread> spread_of(const std::vector<ForwardTest>& tests, 
       synthetic_records_for(static_cast<std::size_t>(residuals.count())));
 }
 
-/// What a force v|v| would add to the residuals; empty where the motion with it cannot be computed.
+/// Change of the residuals by a force v|v|; empty if the motion with it cannot be computed.
 Eigen::VectorXd drag_term(std::vector<ForwardTest>& tests, const ForwardLayout& layout,
                           const ForwardResiduals& residuals, const Eigen::VectorXd& p) {
   const std::vector<SampledOscillator::Force> drag = {
@@ -105,7 +106,7 @@ void report(std::vector<ForwardTest>& tests, const ForwardLayout& layout, const 
   estimate.value = parameters(force);
   const std::optional<ParameterReading> own = reading_of(layout, found, found.residuals, residuals.blocks());
   if (!own) {
-    faults.emplace_back("the motion does not tell the parameters apart");
+    faults.emplace_back("the parameters cannot be told apart in this motion");
     return;
   }
   const std::optional<BootstrapSpread> spread = spread_of(tests, layout, residuals, found, *own);

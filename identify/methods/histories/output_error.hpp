@@ -5,15 +5,15 @@
 ///
 /// x(t) is the motion under the measured base motion and force (`identify/models/sampled_oscillator.hpp`), through
 /// reversals and sticks, with exact derivatives; Levenberg-Marquardt. Nothing is differentiated, so noise in x does
-/// not bias the fit; that of y and force moves the simulated mass. Several histories share all but their initial
-/// states.
+/// not bias the fit; noise of y and force moves the simulated mass. Several histories have common parameters, but
+/// separate initial states.
 ///
-/// Checked: a term v|v|; residuals that are alike from sample to sample, which noise is not: the law, the constants
-/// or the drive are wrong then. Uncertainty: from the parametric bootstrap
-/// (`identify/uncertainty/parametric_bootstrap.hpp`), each by one step of Gauss and Newton; such residuals widen
-/// it. Holds for a linear spring and one level of friction, static and kinetic. On exact data exact to some 1e-11,
-/// where y changes little within a sample interval. Source: ljung1999, leine2004. Errors: `outcome`. Cost: 70
-/// simulations; 0.3 s for 10,000 samples.
+/// Checked: a term v|v|; residuals that are correlated from sample to sample, unlike noise: then the law, the
+/// constants or the drive are wrong. Uncertainty: from the parametric bootstrap
+/// (`identify/uncertainty/parametric_bootstrap.hpp`), each record by one step of Gauss and Newton; correlated
+/// residuals widen the intervals. Holds for a linear spring and equal static and kinetic friction. For exact data
+/// the error is about 1e-11, if y changes little within a sample interval. Source: ljung1999, leine2004. Errors:
+/// `outcome`. Cost: 70 simulations; 0.3 s for 10,000 samples.
 
 #include "identify/method.hpp"
 #include "identify/records/signals.hpp"

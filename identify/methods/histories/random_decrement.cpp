@@ -16,17 +16,17 @@ namespace dualdamp::identify {
 namespace {
 
 constexpr int bands = 6;
-constexpr int extremes_used = 4;  ///< of a signature: one and a half periods, before noise takes over
+constexpr int extremes_used = 4;  ///< of a signature: one and a half periods; later noise dominates
 
-/// An extreme of the response: where, and how far out.
+/// An extreme of the response: its place and its magnitude.
 struct Start {
   std::size_t at = 0;
   double amplitude = 0.0;
   double sign = 1.0;
 };
 
-/// Turning points on the outer side: x[i] is farther out than its neighbours. Nothing is asked of what follows, for
-/// that would select stretches by their future.
+/// Outer turning points: |x[i]| is larger than at the neighbours. There is no condition on later samples, because
+/// it would select stretches by their future.
 std::vector<Start> starts_of(const std::vector<double>& x, std::size_t period) {
   std::vector<Start> starts;
   for (std::size_t i = 1; i + 2 * period < x.size(); ++i) {
@@ -37,7 +37,7 @@ std::vector<Start> starts_of(const std::vector<double>& x, std::size_t period) {
   return starts;
 }
 
-/// Mean of the stretches, each turned so that it begins on the positive side.
+/// Mean of the stretches; those that begin on the negative side change their sign.
 std::vector<double> signature_of(const std::vector<double>& x, const std::vector<Start>& starts, std::size_t begin,
                                  std::size_t end, std::size_t length) {
   std::vector<double> mean(length);
@@ -53,7 +53,7 @@ struct Decrement {
   double amplitude = 0.0;
 };
 
-/// From the logarithms of its first extremes; nothing when they do not shrink.
+/// From the logarithms of the first extremes of a signature; nothing when they do not decrease.
 std::optional<Decrement> decrement_of(const std::vector<double>& signature, std::size_t period) {
   double sum_log = 0.0, sum_index_log = 0.0;
   for (int e = 0; e < extremes_used; ++e) {
@@ -103,7 +103,7 @@ Estimate random_decrement(const Record& record, const KnownConstants& constants)
   const auto period = static_cast<std::size_t>(std::lround(2.0 * std::numbers::pi / W * history->sample_rate));
   std::vector<Start> starts;
   if (period >= 12) starts = starts_of(history->x, period);
-  constexpr std::size_t fewest = 100;  // a band: the random part of the mean is then a tenth
+  constexpr std::size_t fewest = 100;  // stretches in a band: the random part of the mean is then a tenth
   if (starts.size() < bands * fewest) {
     refuse(estimate, "at least 600 extremes, twelve samples a period or finer, are needed, and there are " +
                          std::to_string(starts.size()));

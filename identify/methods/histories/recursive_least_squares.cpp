@@ -17,8 +17,8 @@ namespace dualdamp::identify {
 
 namespace {
 
-/// The recursion in its information form, P^-1 <- lambda P^-1 + psi psi^T, in units that make both columns of order
-/// one: the form with P itself subtracts numbers of the size of its start and keeps only some of their digits.
+/// The recursion in its information form, P^-1 <- lambda P^-1 + psi psi^T, in units in which both columns are of
+/// order one. The form with P itself would subtract numbers of the size of the initial P and lose digits.
 class Recursion {
  public:
   Recursion(double forgetting, double speed) : forgetting_(forgetting), speed_(speed) {
@@ -45,7 +45,7 @@ class Recursion {
   Eigen::Vector2d moment_ = Eigen::Vector2d::Zero();
 };
 
-/// The samples that count, as rows.
+/// The samples that are used, as rows.
 struct TimedRows {
   Eigen::MatrixXd columns;
   Eigen::VectorXd target;
@@ -93,7 +93,7 @@ Recursion recursion_over(const TimedRows& rows, double forgetting, double speed,
   return recursion;
 }
 
-/// Covariance of (c, F0): that of least squares over the samples that are remembered.
+/// Covariance of (c, F0): that of least squares over the samples in the memory.
 Eigen::Matrix2d covariance_of(const CorrelatedFit& fit, double forgetting) {
   const auto samples = static_cast<double>(fit.residuals.size());
   // Exponential weights are worth (1 + l)/(1 - l) equal ones.
@@ -101,7 +101,7 @@ Eigen::Matrix2d covariance_of(const CorrelatedFit& fit, double forgetting) {
   return fit.covariance * std::max(1.0, samples / remembered);
 }
 
-/// Friction in both halves of the record.
+/// Compares the friction of both halves of the record.
 void compare_halves(const TimedRows& rows, Estimate& estimate) {
   const Eigen::Index half = rows.target.size() / 2;
   const auto first = fit_correlated(rows.columns.topRows(half), rows.target.head(half), {});
@@ -116,11 +116,11 @@ void compare_halves(const TimedRows& rows, Estimate& estimate) {
       " from the first half of the record to the second: a forgetting factor below 1 follows it");
 }
 
-/// What the recursion makes of a record.
+/// Results of the recursion for a record.
 struct RecursiveFit {
   TimedRows rows;
   std::optional<CorrelatedFit> fit;
-  ParameterReading reading;  ///< (m, c, k, F0), mass and stiffness being constants
+  ParameterReading reading;  ///< (m, c, k, F0), where mass and stiffness are constants
   EstimateCurve curve{"friction_over_time", {{"t", "s", {}}, {"c", "N.s/m", {}}, {"F0", "N", {}}}};
 };
 
@@ -139,16 +139,16 @@ RecursiveFit fit_recursively(const std::vector<FrictionSamples>& histories, cons
   return result;
 }
 
-/// Why the record does not tell viscous and Coulomb friction; empty where it does.
+/// Why the record does not separate viscous from Coulomb friction; empty when it does.
 std::string fault_of(const RecursiveFit& result) {
   if (!result.fit)
     return "viscous and Coulomb friction cannot be told apart: too few samples beyond the least speed, or "
            "one speed only";
-  // Filters may turn a few samples at the ends.
+  // Filters may reverse the velocity of a few samples at the ends.
   constexpr double few = 0.05;
   if (1.0 - std::abs(result.rows.columns.col(1).mean()) < 2.0 * few)
-    return "the motion goes in one direction only, where a Coulomb force and a zero of the force that is off are "
-           "one and the same";
+    return "the motion goes in one direction only, where a Coulomb force and an offset of the force sensor cannot be "
+           "told apart";
   return {};
 }
 

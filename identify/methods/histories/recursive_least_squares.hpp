@@ -1,12 +1,12 @@
 #pragma once
-/// Recursive least squares on the equation of motion: friction as it goes, over time.
+/// Recursive least squares on the equation of motion: friction over time.
 ///
 ///   z = k (y - x) + f - m a,   psi = (v, sgn v),   theta = (c, F0)
 ///   K = P psi/(l + psi^T P psi),   theta += K (z - psi^T theta),   P = (P - K psi^T P)/l
 ///
 /// A forgetting factor l < 1 follows a slow drift, with a memory of 1/(1 - l) samples; l = 1 is least squares of
-/// all samples so far. Samples with |v| < `least_speed` freeze the estimate. The other reading of the method, by
-/// the error of the output, is that of `output_error`.
+/// all samples so far. Samples with |v| < `least_speed` do not change the estimate. The other interpretation of the
+/// method, by the error of the output, is `output_error`.
 ///
 /// Curve: friction_over_time. Checked: with l = 1, whether both halves of the record agree. Uncertainty: from
 /// the parametric bootstrap (`identify/uncertainty/parametric_bootstrap.hpp`). Source: after yao

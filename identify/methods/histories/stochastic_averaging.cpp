@@ -27,7 +27,7 @@ std::array<double, 7> moments(const Eigen::Vector2d& p) {
   const double end = (-alpha + std::sqrt(alpha * alpha + 4.0 * beta * far)) / (2.0 * beta);
   constexpr int cells = 600;
   std::array<double, 7> sums{};
-  for (int i = 1; i < cells; ++i) {  // the integrand vanishes at both ends: the trapezoidal rule is sharp
+  for (int i = 1; i < cells; ++i) {  // the integrand is 0 at both ends: the trapezoidal rule is accurate
     const double A = end * i / cells;
     double weight = A * std::exp(-alpha * A - beta * A * A);
     for (double& sum : sums) {
@@ -48,7 +48,7 @@ Eigen::Matrix2d information(const std::array<double, 7>& m) {
 }
 
 /// (alpha, beta) whose means of A and A^2 are those given, A in units of its rms; Newton's method on a convex
-/// function. Nothing when beta runs to zero: no viscous friction then.
+/// function. Nothing when beta tends to zero, without viscous friction.
 std::optional<Eigen::Vector2d> match(double mean, double square) {
   Eigen::Vector2d p(0.0, 1.0 / square);
   for (int step = 0; step < 100; ++step) {
@@ -90,7 +90,7 @@ Blocks blocks_of(const std::vector<double>& amplitude) {
   return blocks;
 }
 
-/// Mean work of y and force on the mass a unit of time, twice over m.
+/// D: twice the mean power of y and force on the mass, over m.
 double intensity_from_work(const History& history, const KnownConstants& constants) {
   const auto drive = [&](std::size_t i) {
     return (history.y.empty() ? 0.0 : constants.stiffness * history.y[i]) +
@@ -103,7 +103,7 @@ double intensity_from_work(const History& history, const KnownConstants& constan
   return 2.0 * work * history.sample_rate / (static_cast<double>(n - 1) * constants.mass);
 }
 
-/// Increments of the velocity over `stride` samples, beyond what the spring does. Differences of x are means of v,
+/// Increments of the velocity over `stride` samples, less those by the spring. Differences of x are means of v,
 /// whose increments have two thirds of the variance.
 double intensity_from_increments(const History& history, const KnownConstants& constants, std::size_t stride) {
   const double dt = static_cast<double>(stride) / history.sample_rate;
@@ -136,7 +136,7 @@ bool driven(const History& history) {
 
 /// The third moment of A against that of p, as a t test over the blocks.
 LackOfFit third_moment_test(const Blocks& blocks, const std::array<double, 7>& m) {
-  // What the third moment does when the first two vary, alpha and beta following them.
+  // Derivatives of the third moment with respect to the first two, through alpha and beta.
   const Eigen::RowVector2d by_parameters(-(m[4] - m[1] * m[3]), -(m[5] - m[2] * m[3]));
   const Eigen::RowVector2d by_moments = -by_parameters * information(m).inverse();
   const Eigen::RowVector3d test_of(-by_moments[0], -by_moments[1], 1.0);
@@ -167,18 +167,18 @@ void judge(double visible, Estimate& estimate, std::vector<std::string>& faults,
     warnings.emplace_back("averaging is for small damping: at this one the estimates are some per cent off");
 }
 
-/// What the method makes of one history, or why nothing.
+/// Results of the method for one history, or why there are none.
 struct Averages {
   std::string fault;
-  bool by_work = false;  ///< the drive was recorded, and gives D
+  bool by_work = false;  ///< D follows from the recorded drive
   double D = 0.0;        ///< m^2/s^3
   double unit = 0.0;     ///< rms of A [m], in units of which the blocks are
   Blocks blocks;
   std::array<double, 7> m{};
-  ParameterReading reading;  ///< (m, c, k, F0), mass and stiffness being constants; errors from the blocks
+  ParameterReading reading;  ///< (m, c, k, F0), where mass and stiffness are constants; errors from the blocks
 };
 
-/// In units of its rms, which it sets.
+/// Amplitudes in units of their rms, which is stored in `unit`.
 std::vector<double> amplitude_of(const History& history, double W, double& unit) {
   const Motion motion = motion_of(history, 0.0);
   std::vector<double> amplitude(motion.x.size());
@@ -221,7 +221,7 @@ Averages averages_of(const History& history, const KnownConstants& constants) {
   return averages;
 }
 
-/// From other random responses of a mass with the estimated friction.
+/// Spread of the estimates from other random responses of a mass with the estimated friction.
 std::optional<BootstrapSpread> spread_of(const History& history, const Averages& averages,
                                          const KnownConstants& constants) {
   Eigen::VectorXd truth = averages.reading.parameters.cwiseMax(0.0);

@@ -60,17 +60,17 @@ class HeaderReader {
     return !fields.is_unclosed;
   }
 
-  /// As a spreadsheet writes it that had taken each row for one text.
+  /// Refuses rows that are one quoted field each. A spreadsheet writes them if it had read each row as one text.
   bool is_quoted_whole() {
     const bool whole = headings_.size() == 1 && trimmed(line_.text).starts_with('"') &&
                        headings_.front().text.find_first_of(",;\t") != std::string::npos;
     if (whole)
-      complain(1, "the whole row stands in quotes and is one field", "quotes around single fields, or none",
+      complain(1, "the whole row is in quotes and is one field", "quotes around single fields, or none",
                excerpt(line_.text));
     return whole;
   }
 
-  /// Columns without names have numbers.
+  /// Without a header, the caller names columns by their numbers.
   bool read_first_row() {
     Lines lines = layout_.lines;
     if (lines.at_end()) {
@@ -81,14 +81,14 @@ class HeaderReader {
     for (std::size_t i = 0; i < count; ++i) headings_.push_back({std::to_string(i + 1), std::to_string(i + 1), {}});
     if (!options_.columns.empty()) return true;
     problems_.add({{options_.name, 0, 0, {}},
-                   "without a header nothing tells which column is which",
+                   "without a header the columns have no names",
                    "the numbers of the columns, such as --column t=1 --column x=2",
                    std::to_string(count) + " columns",
                    {}});
     return false;
   }
 
-  /// A unit in the heading, and another one below it.
+  /// Refuses a unit in the heading that differs from the one in the row of units.
   void refuse_other_unit(const Heading& heading, const std::string& below) {
     Heading named = heading;
     const KnownColumn* const known = named_column(named);
@@ -114,7 +114,7 @@ class HeaderReader {
     }
   }
 
-  /// The heading's number among all, or of those with this text.
+  /// The heading that the caller names by its number or by its text.
   [[nodiscard]] std::vector<std::size_t> find(const std::string& called) const {
     std::vector<std::size_t> found;
     for (std::size_t i = 0; i < headings_.size(); ++i)
@@ -133,7 +133,7 @@ class HeaderReader {
     return excerpt(text);
   }
 
-  /// The column that the caller knows by what the file calls it.
+  /// The column for which the caller states this heading.
   void rename(const KnownColumn& known, const std::string& called) {
     const std::vector<std::size_t> found = find(called);
     if (is_taken(known)) {
@@ -169,7 +169,7 @@ class HeaderReader {
                "'name' or 'name [unit]'", excerpt(heading.text));
       field.known = known;
     } else if (is_taken(*known)) {
-      complain(heading.column, "column " + std::string(known->name) + " stands there twice",
+      complain(heading.column, "column " + std::string(known->name) + " appears twice",
                "one column " + std::string(known->name) + "; --column " + std::string(known->name) +
                    "=NUMBER chooses one",
                excerpt(heading.text));
@@ -184,7 +184,7 @@ class HeaderReader {
 
   void take(Heading& heading, const KnownColumn& known, CsvField& field) {
     field.known = &known;
-    if (heading.unit.empty()) {  // x_mm, if that is what the caller calls it
+    if (heading.unit.empty()) {  // x_mm, if the caller names the column so
       Heading same = heading;
       if (named_column(same) == &known) heading.unit = same.unit;
     }
@@ -203,11 +203,11 @@ class HeaderReader {
       return field.known != nullptr && (field.known->is_signal || field.known->name == "Y");
     });
     const bool pairs_without_x = is_taken(*known_column("Y")) && !is_taken(*known_column("x"));
-    if (!options_.only.empty()) return;                           // the caller says what it misses
-    if ((any && !pairs_without_x) || !problems_.empty()) return;  // a fault of a heading may be why it is missing
+    if (!options_.only.empty()) return;                           // the caller reports missing columns
+    if ((any && !pairs_without_x) || !problems_.empty()) return;  // the missing column may have a faulty heading
     const std::string other = ". Columns of other names: --column x=NAME";
     if (is_transposed())
-      complain(1, "rows and columns are exchanged: the names stand in the first field of each row",
+      complain(1, "rows and columns are exchanged: the names are in the first field of each row",
                "the names of the columns in one row and a row for each sample", excerpt(line_.text));
     else if (layout_.is_headless && line_.number > 0)
       complain(1, "there is no column x: the first row holds numbers instead of the names of the columns",
@@ -224,7 +224,7 @@ class HeaderReader {
                                                          [](const Heading& h) { return is_like_number(h.text); });
   }
 
-  /// A column of one letter in the other case.
+  /// A column with the other case of its one letter.
   [[nodiscard]] std::string suggestion() const {
     for (const Heading& heading : headings_)
       if (heading.name == "X") return "--column x=" + heading.text;

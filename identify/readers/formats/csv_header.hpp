@@ -1,5 +1,5 @@
 #pragma once
-/// The header of a CSV file: which field of every row is which column, and in which unit.
+/// The header of a CSV file: the column and the unit of each field of a row.
 
 #include <string>
 #include <vector>
@@ -12,11 +12,11 @@
 
 namespace dualdamp::identify {
 
-/// What a field of every row is for.
+/// The use of one field of every row.
 struct CsvField {
   const KnownColumn* known = nullptr;  ///< nullptr: ignored
   double factor = 1.0;
-  bool may_be_missing = false;  ///< at the end of a row: a remark, or a separator too many
+  bool may_be_missing = false;  ///< at the end of a row: a remark, or one separator too many
 };
 
 struct CsvHeader {
@@ -24,7 +24,7 @@ struct CsvHeader {
   ColumnUnits units;
 };
 
-/// Faults go to `problems`.
+/// Faults are added to `problems`.
 [[nodiscard]] CsvHeader read_csv_header(const Layout& layout, const ReadOptions& options, Problems& problems,
                                         std::vector<std::string>& warnings);
 

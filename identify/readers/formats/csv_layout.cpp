@@ -12,11 +12,11 @@ namespace dualdamp::identify {
 
 namespace {
 
-/// Lines looked at for the header.
+/// Number of lines that are searched for the header, without comments and blank lines.
 constexpr std::size_t most_lines = 200;
-/// The same with comments and blank lines.
+/// The same, with comments and blank lines.
 constexpr int most_blank_lines = 10'000;
-/// Lines between a header and its rows: units, descriptions.
+/// Largest number of lines between a header and its rows: units, descriptions.
 constexpr std::size_t most_between = 3;
 
 constexpr std::array<char, 4> separators = {'\t', ';', ',', ' '};
@@ -35,7 +35,7 @@ using Words = std::vector<std::string>;
 
 bool holds_numbers(const Words& fields) { return std::ranges::any_of(fields, is_like_number); }
 
-/// Without the empty fields at the end that a separator there makes.
+/// Number of fields, without the empty ones that come from separators at the end of the line.
 std::size_t count_of(const Words& fields) {
   std::size_t count = fields.size();
   while (count > 1 && fields[count - 1].empty()) --count;
@@ -61,7 +61,7 @@ class Search {
  private:
   struct Candidate {
     SourceLine line;
-    Lines before;        ///< at this line
+    Lines before;        ///< positioned at this line
     SourceLine comment;  ///< the last comment above it
   };
 
@@ -73,9 +73,9 @@ class Search {
       const Lines before = lines;
       line = lines.next();
       if (line.number == 1 && line.text.size() == 5 && line.text.starts_with("sep=")) {
-        stated_separator_ = line.text.back();  // Excel's own
+        stated_separator_ = line.text.back();  // `sep=;`, as Excel writes it
       } else if (trimmed(line.text).starts_with("***End_of_Header***")) {
-        lines_.clear();  // LabVIEW: what stands above is no table
+        lines_.clear();  // end of the LabVIEW header: the lines above are no table
       } else if (is_comment(line.text)) {
         comment = line;
       } else if (!trimmed(line.text).empty()) {
@@ -98,7 +98,7 @@ class Search {
     return layout;
   }
 
-  /// Does a heading name a column of numbers, by itself or because the caller says so?
+  /// Whether a heading names a column of numbers, by itself or by a statement of the caller.
   [[nodiscard]] bool names_column(const std::string& field) const {
     Heading heading = parse_heading(field, 0);
     const bool called = std::ranges::any_of(options_.columns, [&](const auto& entry) {
@@ -109,8 +109,8 @@ class Search {
     return known != nullptr && !known->unit.empty();
   }
 
-  /// The first row below line `i`, if that line can be its header: no numbers in the header, as many fields in the
-  /// row, and numbers below the headings that are known (`named`), or in all fields.
+  /// The first row below line `i`, if line `i` can be its header: the header has no numbers, the row has as many
+  /// fields, and the fields below known headings (`named`), or all fields, are numbers.
   [[nodiscard]] std::optional<std::size_t> first_row(std::size_t i, char separator, bool named) const {
     const Words headings = fields_of(lines_[i].line.text, separator);
     if (holds_numbers(headings)) return std::nullopt;
@@ -130,14 +130,15 @@ class Search {
     return (named ? any : all) ? std::optional(row) : std::nullopt;
   }
 
-  /// Of lines that can be the header of one row the nearest: what names a column above it may be its description.
+  /// Of several possible headers of a row, the nearest one. A line above it that names a column may be a
+  /// description.
   [[nodiscard]] std::size_t nearest(std::size_t i, char separator, std::size_t row, bool named) const {
     for (std::size_t k = row - 1; named && k > i; --k)
       if (first_row(k, separator, true) == row) return k;
     return i;
   }
 
-  /// As many fields; a comma may also part decimal commas, which is for the reader to say.
+  /// As many fields as the header. With decimal commas there are more; the reader reports these.
   [[nodiscard]] static bool fits(const Words& headings, const Words& fields, char separator) {
     if (headings.size() == 1 && separator == ' ') return false;
     const std::size_t wanted = count_of(headings);
@@ -170,7 +171,7 @@ class Search {
     return false;
   }
 
-  /// `# t x` above rows of numbers, as numpy writes it.
+  /// A header in a comment, `# t x`, above rows of numbers, as numpy writes it.
   [[nodiscard]] std::optional<Layout> header_in_comment() const {
     const Candidate& first = lines_.front();
     if (first.comment.number == 0) return std::nullopt;
@@ -188,7 +189,7 @@ class Search {
     return std::nullopt;
   }
 
-  /// The first line as header, though what is below it does not fit: the reader says what is wrong.
+  /// The first line as header, although the line below does not fit. The reader reports the fault.
   [[nodiscard]] Layout first_line() const {
     std::size_t i = 0;
     const auto names = [this](const Candidate& candidate) {
@@ -209,7 +210,7 @@ class Search {
   [[nodiscard]] Layout headless() const {
     const std::string_view line = lines_.front().line.text;
     Layout layout{.separator = separator_of(line), .lines = lines_.front().before, .is_headless = true};
-    // With decimal commas a comma separates nothing.
+    // With decimal commas, a comma is no separator.
     if (options_.decimal == ',' && layout.separator == ',')
       layout.separator = trimmed(line).find(' ') != std::string_view::npos ? ' ' : ';';
     return with_separator(std::move(layout));
@@ -225,7 +226,7 @@ class Search {
 
 std::optional<SourceLine> Rows::next() {
   restarted_ = false;
-  std::size_t empty = 0;  // at the end spreadsheets leave such rows, and nobody misses them
+  std::size_t empty = 0;  // not counted at the end of the file, where spreadsheets leave such rows
   while (!lines_.at_end()) {
     const SourceLine line = lines_.next();
     if (!header_.empty() && line.text == header_) {

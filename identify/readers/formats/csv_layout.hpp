@@ -1,6 +1,6 @@
 #pragma once
-/// Where the header and the rows of a CSV file begin: behind blocks of other lines that instruments write above,
-/// with comments, units in a row of their own, and blanks, commas, semicolons or tabs between the fields.
+/// The layout of a CSV file: the header and the first row below the lines that instruments write above them,
+/// comments, a row of units, and the separator: blanks, commas, semicolons or tabs.
 
 #include <cstddef>
 #include <optional>
@@ -14,8 +14,8 @@
 
 namespace dualdamp::identify {
 
-/// The rows of data one after the other. Left out: blank lines, comments, rows of empty fields, and the header
-/// where it stands there again, as in files put together from several.
+/// The rows of data, one after the other. Blank lines, comments, rows of empty fields and repeated headers (several
+/// files put together) are skipped.
 class Rows {
  public:
   Rows(Lines lines, char separator, std::string_view header, std::vector<std::string_view> below_header)
@@ -23,7 +23,7 @@ class Rows {
 
   [[nodiscard]] std::optional<SourceLine> next();
 
-  /// The header stood between the last row and the one before it.
+  /// Whether the header was repeated between the last row and the one before it.
   [[nodiscard]] bool restarted() const { return restarted_; }
   [[nodiscard]] std::size_t empty_rows() const { return empty_rows_; }
   [[nodiscard]] std::size_t count() const { return lines_.count(); }
@@ -44,15 +44,15 @@ struct Layout {
   std::vector<std::string_view> below_header =
       {};                       ///< lines between the header and the first row, units among them
   Lines lines = Lines({});      ///< at the first row
-  std::size_t lines_above = 0;  ///< left out above the header, without comments and blank lines
-  bool is_headless = false;     ///< the first line is a row of numbers, as the caller says or as it looks
+  std::size_t lines_above = 0;  ///< skipped above the header; comments and blank lines do not count
+  bool is_headless = false;     ///< the first line is a row of numbers, stated by the caller or recognised
 
   [[nodiscard]] Rows rows() const { return {lines, separator, header.text, below_header}; }
 };
 
 [[nodiscard]] Layout layout_of(std::string_view text, const ReadOptions& options);
 
-/// The unit in a field of the row of units: "mm", "[mm]", "(mm)"; empty for none.
+/// The unit in a field of the row of units: "mm", "[mm]", "(mm)"; empty if the field has none.
 [[nodiscard]] std::string unit_in(std::string_view field);
 
 }  // namespace dualdamp::identify

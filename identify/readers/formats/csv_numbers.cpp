@@ -16,7 +16,7 @@ namespace {
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
-/// A number of std::from_chars' own spelling, all of the text.
+/// The number in a text that std::from_chars can read completely.
 std::optional<double> plain_number(std::string_view text, std::errc& fault) {
   double value = 0.0;
   const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -25,7 +25,7 @@ std::optional<double> plain_number(std::string_view text, std::errc& fault) {
   return value;
 }
 
-/// In the spelling of std::from_chars: decimal point, exponent with E.
+/// The text as std::from_chars needs it: with a decimal point, and an exponent with E.
 std::string respelled(std::string_view text, char decimal) {
   std::string number(text);
   std::ranges::replace(number, decimal, '.');
@@ -34,7 +34,7 @@ std::string respelled(std::string_view text, char decimal) {
   return number;
 }
 
-/// Why a text is no number, in the words that help most.
+/// Why a text is no number, as specific as possible.
 FieldNumber no_number(std::string_view text, char decimal) {
   const char other = decimal == ',' ? '.' : ',';
   const bool digits = std::ranges::any_of(text, is_digit);
@@ -49,7 +49,7 @@ FieldNumber no_number(std::string_view text, char decimal) {
   else if (digits && has_other && !has_both)
     result.allowed = "a decimal number with a comma, as --decimal , says, not with a point";
   else if (digits && std::isalpha(static_cast<unsigned char>(text.back())) != 0)
-    result.allowed = "a decimal number; its unit stands in the heading";
+    result.allowed = "a decimal number; its unit belongs into the heading";
   else if (digits && grouped)
     result.allowed = "a decimal number without thousands separators";
   else if (digits && text.back() == '%')
@@ -57,7 +57,7 @@ FieldNumber no_number(std::string_view text, char decimal) {
   return result;
 }
 
-/// Digits from `at` on as a whole number, at least `least` and at most `most` of them.
+/// The integer of `least` to `most` digits from `at` on.
 std::optional<int> whole(std::string_view text, std::size_t& at, std::size_t least, std::size_t most) {
   const std::size_t begin = at;
   int value = 0;
@@ -72,7 +72,7 @@ bool skip(std::string_view text, std::size_t& at, std::string_view marks) {
   return true;
 }
 
-/// hh:mm or hh:mm:ss, with a fraction of the seconds.
+/// hh:mm or hh:mm:ss, with an optional fraction of the seconds.
 std::optional<double> time_of_day(std::string_view text, std::size_t& at, char decimal) {
   const auto hours = whole(text, at, 1, 2);
   if (!hours || *hours > 24 || !skip(text, at, ":")) return std::nullopt;
@@ -94,8 +94,8 @@ std::optional<double> time_of_day(std::string_view text, std::size_t& at, char d
   return hour * *hours + minute * *minutes + seconds;
 }
 
-/// Days since 1970 of yyyy-mm-dd or yyyy/mm/dd; 0 for days and months in an order that the text does not tell. A
-/// record over midnight is told by its times.
+/// Days since 1970 for yyyy-mm-dd or yyyy/mm/dd; 0 for other dates, whose order of day and month is not known. For
+/// these, a record over midnight is recognised by its times.
 std::optional<int> date(std::string_view text) {
   constexpr std::string_view marks = "-/.";
   std::size_t at = 0;
@@ -114,10 +114,10 @@ std::optional<int> date(std::string_view text) {
   return static_cast<int>(std::chrono::sys_days(calendar).time_since_epoch().count());
 }
 
-/// The half of the day that a clock of twelve hours tells.
+/// The half of the day for a clock of twelve hours.
 enum class Half { none, first, second };
 
-/// Of "12:30:01 PM", which is cut off.
+/// Reads and removes the half of the day in "12:30:01 PM".
 Half half_of_day(std::string_view& text) {
   if (text.size() < 3 || std::toupper(static_cast<unsigned char>(text.back())) != 'M') return Half::none;
   const auto letter = std::toupper(static_cast<unsigned char>(text[text.size() - 2]));
@@ -126,7 +126,7 @@ Half half_of_day(std::string_view& text) {
   return letter == 'A' ? Half::first : Half::second;
 }
 
-/// Z, +hh:mm or nothing behind a time; the offset is left out of account, because it is that of the whole record.
+/// Whether the rest after a time is Z, +hh:mm or empty. The offset is ignored, because it is the same in all rows.
 bool is_zone(std::string_view text) {
   return text.empty() || text == "Z" ||
          (text.size() > 2 && (text[0] == '+' || text[0] == '-') &&

@@ -16,10 +16,10 @@ namespace {
 
 constexpr std::size_t most_rows = 20'000'000;
 
-/// A field of every row, and where its numbers go.
+/// A field of every row, and the target of its numbers.
 struct Target {
   CsvField field;
-  std::vector<double>* values = nullptr;  ///< nullptr: a label, or nothing
+  std::vector<double>* values = nullptr;  ///< nullptr: a label, or an ignored field
 };
 
 class Parser {
@@ -148,7 +148,7 @@ class Parser {
     return false;
   }
 
-  /// Fields without content at the end, where one has a separator too many or a remark too few.
+  /// Whether a row differs from the header only at its end: empty fields too many, or remarks that are missing.
   [[nodiscard]] bool is_same_but_for_the_end(const SourceLine& line, std::size_t count) const {
     for (std::size_t i = count; i < targets_.size(); ++i)
       if (!targets_[i].field.may_be_missing) return false;
@@ -163,7 +163,7 @@ class Parser {
       table_.sweeps.push_back({std::string(label), row});
   }
 
-  /// The number of a field in SI; NaN after a problem, which keeps the record from being used.
+  /// The number of a field in SI; NaN after a problem. The record is not used then.
   double number(const SourceLine& line, const Fields& field, const CsvField& target) {
     const bool is_time = target.known->name == "t";
     if (is_time && field.text.find(':') != std::string_view::npos)
@@ -185,7 +185,7 @@ class Parser {
     return *number.value * target.factor;
   }
 
-  /// Seconds since the first time stamp; a day more after midnight where there is no date.
+  /// Seconds since the first time stamp. Without a date, a day is added after midnight.
   std::optional<double> stamp(std::string_view text) {
     constexpr double day = 86400.0;
     const auto clock = read_clock(text, options_.decimal);

@@ -14,7 +14,7 @@ char separator_of(std::string_view header) {
   return words.find(' ') == std::string_view::npos || words.starts_with('"') ? ',' : ' ';
 }
 
-/// Where blanks separate, a unit in brackets belongs to the name before it: `x [mm]`.
+/// If blanks are the separator, a unit in brackets still belongs to the name before it: `x [mm]`.
 std::size_t Fields::end_of_field() const {
   std::size_t end = std::min(line_.find_first_of(ends_, at_), line_.size());
   if (separator_ != ' ' || end == line_.size()) return end;

@@ -1,5 +1,5 @@
 #pragma once
-/// The text of a CSV file taken apart: lines and fields. What they mean is said by the reader.
+/// Splits the text of a CSV file into lines and fields. The reader interprets them.
 
 #include <algorithm>
 #include <cstddef>
@@ -16,7 +16,7 @@ struct SourceLine {
   int number = 0;
 };
 
-/// Lines of a text one after the other, whose ends are LF, CRLF or (where there is no LF at all) CR.
+/// The lines of a text, one after the other. Line ends are LF, CRLF or, in a text without LF, CR.
 class Lines {
  public:
   explicit Lines(std::string_view text) : text_(text) {
@@ -27,7 +27,7 @@ class Lines {
 
   [[nodiscard]] bool at_end() const { return start_ >= text_.size(); }
 
-  /// Cuts off the rows at the end that hold separators only: so spreadsheets write rows that were emptied.
+  /// Removes rows at the end that hold only separators. Spreadsheets write such rows for cells that were cleared.
   void drop_empty_rows(char separator) {
     const std::string blanks{' ', '\t', '\r', '\n', separator};
     const std::size_t last = std::min(text_.find_last_not_of(blanks), text_.size());
@@ -42,7 +42,7 @@ class Lines {
     return {line, ++number_};
   }
 
-  /// Lines still to come.
+  /// Number of lines that are left.
   [[nodiscard]] std::size_t count() const {
     if (at_end()) return 0;
     return static_cast<std::size_t>(
@@ -57,11 +57,11 @@ class Lines {
   char end_mark_ = '\n';
 };
 
-/// What separates the fields of a header: a tab, else a semicolon, else a comma, else blanks where there are any.
+/// The separator of a header: the first of tab, semicolon, comma and blank that it has; a comma if it has none.
 [[nodiscard]] char separator_of(std::string_view header);
 
-/// The fields of a line from left to right; one in double quotes may hold the separator, and a quote as two quotes.
-/// A blank as separator stands for any number of blanks and tabs.
+/// The fields of a line from left to right. A field in double quotes may hold the separator, and two quotes for
+/// one. A blank as separator means any number of blanks and tabs.
 class Fields {
  public:
   Fields(std::string_view line, char separator)
@@ -90,7 +90,7 @@ class Fields {
 
   std::string_view text;     ///< valid until the next call
   int column = 1;            ///< where the content begins, from 1
-  bool is_unclosed = false;  ///< a quoted field did not end with its quote
+  bool is_unclosed = false;  ///< a quoted field had no closing quote
 
  private:
   void read_quoted();
@@ -105,11 +105,10 @@ class Fields {
   std::string unquoted_;
 };
 
-/// Columns that a file may have.
+/// Largest number of columns of a file.
 inline constexpr std::size_t most_columns = 1000;
 
-/// Fields of a line, the first of them where there are more than `most_columns`; those of an unclosed quote are
-/// what stands there.
+/// The fields of a line, at most `most_columns` + 1. A field with an unclosed quote is taken as it is.
 [[nodiscard]] std::vector<std::string> fields_of(std::string_view line, char separator);
 
 }  // namespace dualdamp::identify

@@ -12,7 +12,7 @@ namespace {
 constexpr std::uint64_t content_mark = 1;
 constexpr std::uint64_t problems_mark = 2;
 
-/// Both ends are one program: numbers go as they lie in memory.
+/// Numbers are sent as they are in memory, since sender and receiver are the same program.
 class Sender {
  public:
   explicit Sender(const ByteSink& sink) : sink_(sink) {}
@@ -40,7 +40,7 @@ class Sender {
   const ByteSink& sink_;
 };
 
-/// Thrown at bytes that make no sense; never leaves this file.
+/// Thrown for invalid bytes. It is caught in this file.
 struct Nonsense {};
 
 class Receiver {
@@ -56,7 +56,7 @@ class Receiver {
   std::vector<double> values() {
     const std::uint64_t count = number();
     if (count > bytes_.size() / sizeof(double)) throw Nonsense{};
-    if (count == 0) return {};  // memcpy takes no null pointer, not even for nothing
+    if (count == 0) return {};  // memcpy takes no null pointer, even for zero bytes
     std::vector<double> values(count);
     std::memcpy(values.data(), take(count * sizeof(double)).data(), count * sizeof(double));
     return values;
@@ -99,7 +99,7 @@ TestColumns test(Receiver& from) {
   return test;
 }
 
-/// Rows in their order from the first, within the only test there is.
+/// Whether the labels begin at row 0, are in order, and lie within the only test.
 std::vector<LabelRun> row_labels(Receiver& from, const std::vector<TestColumns>& tests) {
   std::vector<LabelRun> runs = from.items([&from] {
     std::string label = from.text();
@@ -173,7 +173,7 @@ void send(const MatContent& content, const ByteSink& sink) {
 void send(const std::vector<core::Diagnostic>& problems, const ByteSink& sink) {
   const Sender to(sink);
   to.put(problems_mark);
-  to.put(problems, [&to](const core::Diagnostic& problem) {  // of binary files, which have no lines and columns
+  to.put(problems, [&to](const core::Diagnostic& problem) {  // binary files have no lines and columns
     for (const std::string* field : {&problem.place.file, &problem.place.text, &problem.message, &problem.allowed,
                                      &problem.found, &problem.suggestion})
       to.put(*field);

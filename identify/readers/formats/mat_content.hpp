@@ -1,9 +1,9 @@
 #pragma once
-/// What a MATLAB file holds, and its way over the pipe from the process that reads the file
+/// The content of a MATLAB file, and its transfer over the pipe from the process that reads the file
 /// (identify/readers/isolated.hpp).
 ///
-/// What comes is not trusted: damage may have reached the sender's memory. Every length is held against the bytes
-/// there are, every column against the known ones and against the length of its neighbours.
+/// The receiver does not trust the bytes, because a damaged file may have damaged the sender's memory. It checks
+/// every length against the number of bytes, and every column against the known names and the length of the others.
 
 #include <optional>
 #include <string>
@@ -18,7 +18,7 @@ namespace dualdamp::identify {
 
 struct MatContent {
   std::vector<TestColumns> tests;
-  std::optional<std::vector<LabelRun>> row_labels;  ///< instead of the labels of the tests
+  std::optional<std::vector<LabelRun>> row_labels;  ///< replace the labels of the tests
   std::vector<std::string> warnings;
   ColumnUnits units;
 };
@@ -26,7 +26,7 @@ struct MatContent {
 void send(const MatContent& content, const ByteSink& sink);
 void send(const std::vector<core::Diagnostic>& problems, const ByteSink& sink);
 
-/// Throws `core::InputError` with the problems where these were sent. Nothing when the bytes are neither.
+/// Throws `core::InputError` if problems were sent. Nothing if the bytes are neither a content nor problems.
 [[nodiscard]] std::optional<MatContent> receive(std::string_view bytes);
 
 }  // namespace dualdamp::identify

@@ -28,20 +28,20 @@ namespace {
 using MatFile = std::unique_ptr<mat_t, decltype([](mat_t* file) { Mat_Close(file); })>;
 using Variable = std::unique_ptr<matvar_t, decltype([](matvar_t* variable) { Mat_VarFree(variable); })>;
 
-/// What is wrong with a file is said by us, not on stderr by the libraries.
+/// Turns off the messages of the libraries on stderr. This program reports the faults of a file itself.
 void silence() {
   Mat_LogInitFunc("dualdamp", [](int, char*) {});
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
 }
 
-/// HDF5 knows where its files end; matio takes one that cannot be opened for one without variables.
+/// Lets HDF5 check the end of the file. matio reads a file that HDF5 cannot open as a file without variables.
 bool is_whole_hdf5(const std::string& path) {
   const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
   if (file >= 0) H5Fclose(file);
   return file >= 0;
 }
 
-/// A variable of HDF5 that MATLAB did not write: the attribute tells MATLAB what its numbers are.
+/// An HDF5 variable that MATLAB did not write: the attribute that states the MATLAB class is missing.
 bool lacks_class(const std::string& path, const std::string& variable) {
   const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
   if (file < 0) return false;
@@ -50,14 +50,14 @@ bool lacks_class(const std::string& path, const std::string& variable) {
   return has == 0;
 }
 
-/// A variable, a field of a struct, or a part of a matrix, by the name that the file or the caller gives it.
+/// A variable, a field of a struct, or a part of a matrix, with its name in the file or in the caller's options.
 struct Entry {
   std::string name;
   const matvar_t* variable = nullptr;
   std::optional<Slice> slice = {};
 };
 
-/// What belongs to one test: the variables of the file, or the fields of an element of a struct.
+/// The items of one test: the variables of the file, or the fields of an element of a struct.
 using Scope = std::vector<Entry>;
 
 bool is_number(const std::string& text) {
@@ -93,7 +93,7 @@ class Reader {
     problems_.add({{file_, 0, 0, {}}, std::move(message), std::move(allowed), std::move(found), {}});
   }
 
-  /// The variables that are asked for, and structs; others are not read into memory.
+  /// Reads the variables that are needed, and structs. Others are not read into memory.
   void read_variables() {
     const MatFile file(Mat_Open(path_.c_str(), MAT_ACC_RDONLY));
     const bool is_73 = file && Mat_GetVersion(file.get()) == MAT_FT_MAT73;
@@ -126,7 +126,7 @@ class Reader {
              "numpy.bytes_('double'); or a CSV file");
   }
 
-  /// The column that a name of the file stands for, and its unit where the name holds one, as `x_mm` does.
+  /// The column of a name in the file, and the unit if the name has one: `x_mm`.
   [[nodiscard]] std::pair<const KnownColumn*, std::string> column_of(const std::string& name) const {
     Heading heading{name, name, {}};
     const KnownColumn* known = named_column(heading);
@@ -137,7 +137,7 @@ class Reader {
     return {known, heading.unit};
   }
 
-  /// `dt`, or a sample rate, beside the vectors.
+  /// `dt` or a sample rate beside the vectors.
   [[nodiscard]] static bool is_sampling(const std::string& name) {
     return name == "dt" || name == "fs" || name == "Fs";
   }
@@ -150,7 +150,7 @@ class Reader {
     return is_sampling(name) || column_of(name).first != nullptr || std::ranges::any_of(options_.columns, holds);
   }
 
-  /// Columns of the only matrix, by their numbers.
+  /// Columns of the only matrix, which the caller names by their numbers.
   [[nodiscard]] bool wants_numbered() const {
     return std::ranges::any_of(options_.columns, [](const auto& entry) { return is_number(entry.second); });
   }
@@ -175,7 +175,7 @@ class Reader {
     scope.insert(scope.end(), slices.begin(), slices.end());
   }
 
-  /// Every column that the caller asks for is there.
+  /// Adds a problem for each column that the caller states and the file does not have.
   void report_missing(const MatContent& content) {
     for (const auto& [column, called] : options_.columns) {
       const KnownColumn* known = known_column(column);
@@ -198,7 +198,7 @@ class Reader {
 
   std::vector<Scope> find_scopes() {
     Scope whole;
-    Scope fields;  // of plain structs, as `run.x`
+    Scope fields;  // of single structs, as `run.x`
     std::vector<std::vector<Scope>> structs;
     for (const Variable& variable : variables_) {
       if (variable->class_type != MAT_C_STRUCT) {
@@ -228,7 +228,7 @@ class Reader {
   }
 
   [[nodiscard]] static std::vector<Scope> elements_of(const matvar_t& variable) {
-    auto* const record = const_cast<matvar_t*>(&variable);  // matio's readers take no const
+    auto* const record = const_cast<matvar_t*>(&variable);  // matio's functions take no const pointer
     const unsigned fields = Mat_VarGetNumberOfFields(record);
     char* const* const names = Mat_VarGetStructFieldnames(record);
     std::vector<Scope> elements;
@@ -264,7 +264,7 @@ class Reader {
     return result;
   }
 
-  /// Real numbers in a row or column; nothing after a problem.
+  /// The real numbers of a row or column. Nothing after a problem.
   std::optional<std::vector<double>> vector(const Entry& entry) {
     const matvar_t& variable = *entry.variable;
     const std::string subject = "variable '" + to_utf8(entry.name) + "'";
@@ -309,14 +309,14 @@ class Reader {
     return std::nullopt;
   }
 
-  /// Both `dt` and a rate may be there, if they say the same.
+  /// The file may have both `dt` and a rate, if they agree.
   void take_step(const Entry& entry, std::optional<double>& step) {
     const auto value = scalar(entry);
     if (!value) return;
     const double stated = entry.name == "dt" ? *value : 1.0 / *value;
     constexpr double rounding = 1e-6;
     if (step && !(std::abs(stated - *step) <= rounding * *step))
-      complain("dt and the sample rate contradict each other", "one of them, or both alike",
+      complain("dt and the sample rate contradict each other", "one of them, or equal values",
                "steps of " + core::format_number(*step, 6) + " s and " + core::format_number(stated, 6) + " s");
     step = stated;
   }
@@ -328,14 +328,14 @@ class Reader {
     where.place.file = file_;
     where.found = "variable '" + to_utf8(entry.name) + "'";
     if (std::ranges::any_of(test.columns, [&](const DataColumn& column) { return column.known == &known; }))
-      return complain("column " + std::string(known.name) + " stands there twice", {}, where.found);
-    // The letter says what the word "frequency" does not: rad/s.
+      return complain("column " + std::string(known.name) + " appears twice", {}, where.found);
+    // `omega` means rad/s; the word "frequency" does not state a unit.
     const double factor = factors_.factor_of(known, unit.empty() && entry.name == "omega" ? "rad/s" : unit, where);
     for (double& value : *values) value *= factor;
     test.columns.push_back({&known, std::move(*values)});
   }
 
-  /// A text or a number labels the test, a vector of numbers each row.
+  /// A text or a number is the label of the test; a vector of numbers has the label of each row.
   void take_label(const Entry& entry, TestColumns& test) {
     const matvar_t& variable = *entry.variable;
     if (variable.class_type == MAT_C_CHAR && variable.data_type == MAT_T_UINT8 && variable.data != nullptr) {
@@ -394,8 +394,8 @@ class Reader {
   std::size_t label_count_ = 0;
 };
 
-/// A file of a gigabyte in two minutes, whatever is compressed in it, and one of no size in some seconds. Under
-/// load the clock on the wall runs faster than the processor's.
+/// Limits of time: two minutes for a gigabyte with any compression, some seconds for a small file. On a busy
+/// machine, wall time is longer than processor time.
 IsolationLimits limits_of(const std::string& path) {
   constexpr std::chrono::seconds least{2};
   constexpr std::uintmax_t bytes_a_second = std::uintmax_t{8} << 20U;
@@ -410,12 +410,12 @@ IsolationLimits limits_of(const std::string& path) {
 [[noreturn]] void refuse_unread(const std::string& file, IsolatedEnd end) {
   switch (end) {
     case IsolatedEnd::out_of_time:
-      refuse_file(file, "the MATLAB file is damaged: reading it comes to no end", "the whole file");
+      refuse_file(file, "the MATLAB file is damaged: reading it does not end", "the whole file");
     case IsolatedEnd::out_of_memory:
       refuse_file(file, "reading the MATLAB file takes more than 4 GiB of memory: it is damaged or too large",
                   "the whole file, or a part of the record");
     case IsolatedEnd::not_started:
-      refuse_file(file, "the MATLAB file cannot be read: the system starts no process for it");
+      refuse_file(file, "the MATLAB file cannot be read: the system could not start a process for it");
     case IsolatedEnd::crashed:
     case IsolatedEnd::done:
       break;

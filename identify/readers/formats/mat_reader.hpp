@@ -1,15 +1,16 @@
 #pragma once
 /// Columns of a MATLAB file (v4, v5 to v7, v7.3), by matio.
 ///
-/// Real numeric vectors named like the columns, or one struct that holds them; each element of a struct array is a
-/// test of its own, labelled by its field `sweep` (text or number), else by its index. Instead of the times `t`
-/// there may be a scalar `dt` [s] or `fs` [Hz]. Numbers are SI unless the caller states units.
+/// The file holds real numeric vectors with the names of the columns, or one struct with such fields. Each element
+/// of a struct array is a test, labelled by its field `sweep` (text or number), else by its index. In place of the
+/// times `t` there may be a scalar `dt` [s] or `fs` [Hz]. Numbers are in SI unless the name or the caller states a
+/// unit.
 ///
-/// Neither matio nor HDF5 below it stands a damaged file: they crash, hang or ask for all memory. They read in a
-/// process of its own, with limits of time and memory (identify/readers/isolated.hpp).
+/// matio and HDF5 can crash, hang or use all memory on a damaged file. They therefore run in a separate process
+/// with limits of time and memory (identify/readers/isolated.hpp).
 ///
-/// Errors: a damaged or truncated file, no vectors of known names, a vector that is empty, complex, text, a matrix,
-/// of another length than the others, or not finite.
+/// Errors: a damaged or truncated file; no vectors with known names; a vector that is empty, complex, text, a
+/// matrix, not finite, or of another length than the others.
 
 #include <string>
 #include <vector>

@@ -12,7 +12,7 @@ namespace dualdamp::identify {
 
 namespace {
 
-constexpr std::size_t header_size = 128;  ///< of v5 to v7.3
+constexpr std::size_t header_size = 128;  ///< bytes, of versions 5 to 7.3
 
 std::uint32_t word(std::string_view bytes, std::size_t at, bool swap) {
   std::array<char, sizeof(std::uint32_t)> raw{};
@@ -23,9 +23,9 @@ std::uint32_t word(std::string_view bytes, std::size_t at, bool swap) {
   return value;
 }
 
-/// Head of a matrix of version 4: type, rows, columns, complex, length of the name.
+/// Header of a matrix of version 4: type, rows, columns, complex, length of the name.
 struct Head4 {
-  std::uint64_t size = 0;  ///< of the matrix with head and name; 0: this is no such head
+  std::uint64_t size = 0;  ///< of the matrix with header and name; 0: this is no such header
 };
 
 Head4 head4(std::string_view bytes, std::size_t at) {
@@ -55,16 +55,16 @@ bool is_mat_5(std::string_view bytes) {
 
 bool is_mat_73(std::string_view bytes) { return is_mat_5(bytes) && bytes.starts_with("MATLAB 7.3"); }
 
-/// A data element of version 5: its type and where its content lies.
+/// A data element of version 5: its type and the position of its content.
 struct Element {
   std::uint32_t type = 0;
   std::size_t begin = 0;
   std::size_t size = 0;
-  std::size_t next = 0;  ///< where the following element begins
+  std::size_t next = 0;  ///< start of the following element
 };
 
-/// Holds a file of version 5 against its own statements: every element ends within the one around it, and every
-/// array of numbers has as many as its dimensions say. What is compressed is left to zlib's checksum.
+/// Checks a file of version 5: every element must end within the element that holds it, and every array must have
+/// as many numbers as its dimensions say. Compressed elements are checked by zlib's checksum.
 class Elements {
  public:
   Elements(std::string_view bytes, const std::string& file)
@@ -86,7 +86,7 @@ class Elements {
   [[nodiscard]] Element read(std::size_t at, std::size_t end) const {
     if (at > end || end - at < tag) refuse_damaged_mat(file_);
     const std::uint32_t first = word(bytes_, at, swap_);
-    if (first >> 16U != 0) {  // up to four bytes in the tag itself
+    if (first >> 16U != 0) {  // up to four bytes of content are in the tag itself
       const std::size_t size = first >> 16U;
       if (size > 4) refuse_damaged_mat(file_);
       return {first & 0xFFFFU, at + 4, size, at + tag};
@@ -118,7 +118,7 @@ class Elements {
     }
     if (kind != cell && kind != structure) return;
     std::size_t at = name.next;
-    if (kind == structure) at = read(read(at, end).next, end).next;  // length and text of the names of its fields
+    if (kind == structure) at = read(read(at, end).next, end).next;  // skips length and text of the field names
     while (at < end) {
       const Element field = read(at, end);
       if (field.type != matrix) refuse_damaged_mat(file_);
@@ -127,14 +127,14 @@ class Elements {
     }
   }
 
-  /// Numbers that the dimensions ask for; a double, which no product of them leaves.
+  /// Number of values by the dimensions. A double, so that the product cannot overflow.
   [[nodiscard]] double count(const Element& sides) const {
     double product = 1.0;
     for (std::size_t i = 0; i + 4 <= sides.size; i += 4) product *= word(bytes_, sides.begin + i, swap_);
     return product;
   }
 
-  /// Bytes of a number of a type; of an unknown type it is infinite, which fits no count but zero.
+  /// Bytes of one number of a type. Infinite for an unknown type, so that only a count of zero fits.
   [[nodiscard]] static double width(std::uint32_t type) {
     constexpr std::array<double, 14> widths = {0, 1, 1, 2, 2, 4, 4, 4, 0, 8, 0, 0, 8, 8};
     return type < widths.size() && widths[type] > 0 ? widths[type] : std::numeric_limits<double>::infinity();
@@ -150,7 +150,7 @@ class Elements {
 bool is_mat(std::string_view bytes) { return is_mat_5(bytes) || head4(bytes, 0).size > 0; }
 
 void check_mat(std::string_view bytes, const std::string& file) {
-  if (is_mat_73(bytes)) return;  // HDF5 itself knows where its files end
+  if (is_mat_73(bytes)) return;  // HDF5 checks the end of its files
   const bool is_5 = is_mat_5(bytes);
   if (is_5 && bytes.size() == header_size) refuse_file(file, "the MATLAB file is empty: it holds no variables");
   if (is_5) {

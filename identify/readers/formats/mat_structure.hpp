@@ -1,23 +1,23 @@
 #pragma once
-/// Is a file a MATLAB file, and is it whole? Looked at before matio reads it.
+/// Checks whether a file is a MATLAB file and is complete, before matio reads it.
 ///
-/// Versions 5 to 7: every element ends within the one around it, and every array of numbers has as many as its
-/// dimensions say; what is compressed is left to zlib's checksum. Version 4: each matrix ends within the file.
-/// Version 7.3 is left to HDF5. Errors: `core::InputError`. Cost: linear in the number of elements.
+/// Versions 5 to 7: every element must end within the element that holds it, and every array must have as many
+/// numbers as its dimensions say; compressed parts are checked by zlib's checksum. Version 4: each matrix must end
+/// within the file. Version 7.3 is checked by HDF5. Errors: `core::InputError`. Cost: linear in the elements.
 
 #include <string>
 #include <string_view>
 
 namespace dualdamp::identify {
 
-/// The first bytes are those of a MATLAB file.
+/// Whether the first bytes are those of a MATLAB file.
 [[nodiscard]] bool is_mat(std::string_view bytes);
 
-/// Refuses a file that ends before its elements do: matio reads what is missing as zeros. `file` is its name in
-/// messages.
+/// Refuses a file that ends before its elements do, because matio would read the missing bytes as zeros. `file`:
+/// its name in messages.
 void check_mat(std::string_view bytes, const std::string& file);
 
-/// Throws: the file is damaged or cut off.
+/// Throws `core::InputError`: the file is damaged or cut off.
 [[noreturn]] void refuse_damaged_mat(const std::string& file);
 
 }  // namespace dualdamp::identify

@@ -28,7 +28,8 @@ std::string describe(const matvar_t& variable) {
 
 std::size_t size_of(const matvar_t& variable) {
   std::size_t size = 1;
-  for (int i = 0; i < variable.rank; ++i) size *= std::min(variable.dims[i], most_mat_values + 1);
+  constexpr std::size_t most = most_mat_values + 1;
+  for (int i = 0; i < variable.rank; ++i) size = std::min(size * std::min(variable.dims[i], most), most);
   return variable.rank == 0 ? 0 : size;
 }
 

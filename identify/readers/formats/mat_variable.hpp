@@ -1,5 +1,5 @@
 #pragma once
-/// A variable of a MATLAB file as numbers, whole or a row or column of it.
+/// The numbers of a MATLAB variable: all of them, or a row or a column.
 
 #include <cstddef>
 #include <optional>
@@ -13,16 +13,16 @@ namespace dualdamp::identify {
 /// Variables with more numbers are refused.
 inline constexpr std::size_t most_mat_values = 20'000'000;
 
-/// "100 x 3"
+/// The size for messages: "100 x 3".
 [[nodiscard]] std::string describe(const matvar_t& variable);
 
-/// Numbers in it, counted to one more than `most_mat_values` at each side.
+/// Number of values; larger ones than `most_mat_values` are not counted exactly.
 [[nodiscard]] std::size_t size_of(const matvar_t& variable);
 
-/// Numbers with two sides longer than one.
+/// Whether two sides are longer than one.
 [[nodiscard]] bool is_matrix(const matvar_t& variable);
 
-/// All numbers, column by column; nothing when the variable holds fewer than it says, or no numbers.
+/// All numbers, column by column. Nothing if the variable holds no numbers, or fewer than its size.
 [[nodiscard]] std::optional<std::vector<double>> numbers(const matvar_t& variable);
 
 /// A column or a row of a matrix, counted from 0.
@@ -38,7 +38,7 @@ struct SliceName {
 };
 [[nodiscard]] std::optional<SliceName> parse_slice(const std::string& text);
 
-/// The slice of a matrix with these numbers; it must be within.
+/// A slice of a matrix. `values`: all numbers of the matrix. The slice must lie within the matrix.
 [[nodiscard]] std::vector<double> part_of(const std::vector<double>& values, const matvar_t& variable, Slice slice);
 
 }  // namespace dualdamp::identify

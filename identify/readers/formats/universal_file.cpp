@@ -20,12 +20,12 @@ namespace {
 
 constexpr std::size_t most_values = 20'000'000;
 
-/// Characters [from, from + width) of a line, without blanks around; less where the line is shorter.
+/// Characters [from, from + width) of a line, without blanks at the ends. Fewer if the line is shorter.
 std::string_view cut(std::string_view line, std::size_t from, std::size_t width) {
   return from < line.size() ? trimmed(line.substr(from, width)) : std::string_view{};
 }
 
-/// A text of the file; the format writes NONE where there is none.
+/// A text of the file. The format writes NONE for no text.
 std::string text_of(std::string_view field) { return field == "NONE" ? std::string() : to_utf8(field); }
 
 template <typename Number>
@@ -70,7 +70,7 @@ struct FileUnits {
   }
 };
 
-/// Reads the text data set by data set.
+/// Reads the text, one data set after the other.
 class Scanner {
  public:
   Scanner(std::string_view text, std::string file, std::vector<std::string>& warnings)
@@ -87,7 +87,7 @@ class Scanner {
       } else if (number == "164") {
         read_units();
       }
-      // The mark at the end of what was read, or of what is none of ours.
+      // The mark at the end of a data set that was read or skipped.
       while (!at_end() && trimmed(peek_line()) != "-1") next_line();
       if (!at_end()) next_line();
     }
@@ -133,14 +133,14 @@ class Scanner {
   }
 
   void read_units() {
-    next_line();  // system and description
+    next_line();  // the record with system and description
     const std::string_view line = next_line();
     units_.length = field<double>(line, 0, 25);
     units_.force = field<double>(line, 25, 25);
     if (units_.length <= 0.0 || units_.force <= 0.0) refuse("the factors of data set 164 are not positive");
   }
 
-  /// Nothing for a function over something else than time.
+  /// Nothing for a function that is not over time.
   std::optional<Function> function_58(std::string_view head) {
     Function f;
     f.line = line_;
@@ -193,7 +193,7 @@ class Scanner {
     if (f.is_even && f.step <= 0.0) refuse("the step of the abscissa is not positive", "a step above zero");
   }
 
-  /// Room for what the header promises only as far as the file can hold it.
+  /// Reserves memory for the stated number of values, but not for more than the file can hold.
   void reserve(Function& f) const {
     const std::size_t values = std::min(f.count, text_.size() - std::min(at_, text_.size()));
     f.values.reserve(values);
@@ -220,12 +220,12 @@ class Scanner {
       return value;
     };
     while (f.values.size() < f.count) {
-      if (!f.is_even) f.times.push_back(next(single_width));  // beside values of any precision
+      if (!f.is_even) f.times.push_back(next(single_width));  // with values of any precision
       f.values.push_back(next(width));
     }
     const std::string_view ahead = at_end() ? "-1" : trimmed(peek_line());
     if (!cut(line, at, width).empty() || !(ahead.empty() || ahead == "-1"))
-      refuse("the data set goes on behind its " + std::to_string(f.count) + " values");
+      refuse("the data set continues after its " + std::to_string(f.count) + " values");
   }
 
   void read_binary(Function& f, std::string_view head) {

@@ -1,6 +1,6 @@
 #pragma once
-/// The text of a universal file taken apart: its data sets 58 and 58b (IEEE floating point) that are time
-/// responses, with the factors of the data set 164 before them. What they mean is said by the reader.
+/// Splits a universal file into its data sets 58 and 58b (IEEE floating point) that are time responses, with the
+/// factors of the data set 164 before them. The reader interprets them.
 ///
 /// Source: uff58.
 
@@ -11,7 +11,7 @@
 
 namespace dualdamp::identify::universal_file {
 
-/// What an axis is: records 8 and 9 of the data set.
+/// An axis: records 8 and 9 of the data set.
 struct Axis {
   int quantity = 0;
   std::string label;
@@ -33,17 +33,17 @@ struct Function {
   Axis abscissa;
   Axis ordinate;
   double divisor = 1.0;  ///< from data set 164: value / divisor is SI
-  int line = 0;          ///< of its number
+  int line = 0;          ///< of the number of the data set
   std::vector<double> times;
   std::vector<double> values;
 };
 
-/// The text begins with the mark of a data set and its number.
+/// Whether the text begins with the mark and the number of a data set.
 [[nodiscard]] bool begins_data_set(std::string_view text);
 
-/// The time responses in their order; other functions are left out with a warning. `file` is named in messages.
-/// Errors: `core::InputError` with the line, for complex numbers, a data set that ends early or goes on behind its
-/// values, a number that cannot be read.
+/// The time responses in the order of the file; other functions are left out with a warning. `file`: its name in
+/// messages. Errors: `core::InputError` with the line, for complex numbers, a data set with fewer or more values
+/// than it states, a number that cannot be read.
 [[nodiscard]] std::vector<Function> time_responses(std::string_view text, const std::string& file,
                                                    std::vector<std::string>& warnings);
 

@@ -14,7 +14,7 @@ namespace {
 
 using universal_file::Function;
 
-/// Which signal each data set is, and in which unit.
+/// Decides the signal and the unit of each data set.
 class Mapping {
  public:
   Mapping(const ReadOptions& options, Problems& problems, std::vector<std::string>& warnings)
@@ -49,14 +49,14 @@ class Mapping {
 
  private:
   static std::string allowed() {
-    return "a response name, axis label or ID line x, y, v, a or force; or the caller's choice of the column";
+    return "a response name, axis label or ID line x, y, v, a or force; or --column x=NAME";
   }
 
   void refuse_set(const Function& f, std::string message, std::string wanted) {
     problems_.add({{file_, f.line, 0, {}}, std::move(message), std::move(wanted), {}, {}});
   }
 
-  /// What a data set is called by, in messages too.
+  /// The names of a data set, for the caller's options and for messages.
   static std::string name_of(const Function& f) {
     return !f.entity.empty() ? f.entity : !f.ordinate.label.empty() ? f.ordinate.label : f.title;
   }
@@ -89,10 +89,10 @@ class Mapping {
     if (known == nullptr || is_chosen(*known) || !is_wanted(options_, *known)) {
       if (options_.only.empty())
         warnings_.push_back("data set '" + name_of(f) + "' at line " + std::to_string(f.line) +
-                            " is no signal that is asked for and is ignored");
+                            " is not a requested signal and is ignored");
       return nullptr;
     }
-    // The displacement of the base or of the mass: the file does not say which.
+    // The file does not state whether a displacement is that of the base or of the mass.
     for (const Function& other : functions) {
       if (other.ordinate.quantity != f.ordinate.quantity || called(other) == called(f)) continue;
       refuse_set(f,
@@ -129,7 +129,7 @@ class Mapping {
     core::Diagnostic where;
     where.place = {file_, f.line, 0, {}};
     where.found = "data set '" + name_of(f) + "'" + (f.ordinate.unit.empty() ? "" : " in " + f.ordinate.unit);
-    // Without a unit of its own it is in those of data set 164, which are SI where there is none.
+    // Without a unit of the axis, the units are those of data set 164, or SI if the file has none.
     const bool in_units_of_file = f.ordinate.unit.empty() && find_for(options_.units, known) == nullptr &&
                                   find_for(options_.scales, known) == nullptr;
     return in_units_of_file ? 1.0 / f.divisor : factors_.factor_of(known, f.ordinate.unit, where);

@@ -49,22 +49,27 @@ Table change_table(const std::vector<sim::BranchChange>& changes, const std::str
 }  // namespace
 
 ResultFields branch_fields(const ResultField& parameter) {
-  return joined({{"end", "", "why there are no more points: range, orbit, points, edge; all but range warn"},
-                 {"points[]." + parameter.path, parameter.unit, parameter.meaning},
-                 {"points[].x", "m", "output amplitude (peak - trough)/2"},
-                 {"points[].peak", "m", "max x"},
-                 {"points[].trough", "m", "min x"},
-                 {"points[].stops", "1", "stops in a period"},
-                 {"points[].sticks", "1", "sticks in a period"},
-                 {"points[].stable", "", "no Floquet multiplier outside the unit circle"},
-                 {"changes[].kind", "", "sequence, sticking, stops, fold, flip, neimark_sacker, stability, end"},
-                 {"changes[]." + parameter.path, parameter.unit, parameter.meaning},
-                 {"changes[].x", "m", "output amplitude there"},
-                 {"changes[].stops_before", "1", "stops before"},
-                 {"changes[].stops_after", "1", "stops after"},
-                 {"changes[].stable_before", "", "whether the orbits before attract"},
-                 {"changes[].stable_after", "", "whether the orbits after attract"}},
-                certificate_fields());
+  return joined(
+      {{"end", "",
+        "why the branch ends: it leaves the range (range), no orbit continues it (orbit), it has the "
+        "largest number of points (points), or no orbit was found at the end of the range (edge); all but range "
+        "give a warning"},
+       {"points[]." + parameter.path, parameter.unit, parameter.meaning},
+       {"points[].x", "m", "output amplitude (peak - trough)/2"},
+       {"points[].peak", "m", "max x"},
+       {"points[].trough", "m", "min x"},
+       {"points[].stops", "1", "stops in a period"},
+       {"points[].sticks", "1", "sticks in a period"},
+       {"points[].stable", "", "no Floquet multiplier outside the unit circle"},
+       {"changes[].kind", "",
+        "what changes: sequence, sticking, stops, fold, flip, neimark_sacker, stability, end"},
+       {"changes[]." + parameter.path, parameter.unit, parameter.meaning},
+       {"changes[].x", "m", "output amplitude there"},
+       {"changes[].stops_before", "1", "stops in a period before the change"},
+       {"changes[].stops_after", "1", "stops in a period after the change"},
+       {"changes[].stable_before", "", "whether the orbits before the change attract"},
+       {"changes[].stable_after", "", "whether the orbits after the change attract"}},
+      certificate_fields());
 }
 
 Answer BranchQuestion::run(const RunContext& context) const {

@@ -1,6 +1,6 @@
 #pragma once
-/// A branch of steady states over the amplitude or the frequency of the excitation: `xy_branch` and
-/// `frequency_branch` differ in nothing else.
+/// A branch of steady states over the amplitude or the frequency of the excitation. `xy_branch` and
+/// `frequency_branch` differ in this parameter only.
 
 #include "scenarios/analyses/analysis.hpp"
 #include "scenarios/results/motion.hpp"
@@ -22,7 +22,7 @@ class BranchQuestion final : public Question {
   double to_;
 };
 
-/// The fields of its result; `parameter`: name, unit and meaning of what the branch runs over.
+/// The fields of the result; `parameter`: name, unit and meaning of the parameter of the branch.
 [[nodiscard]] ResultFields branch_fields(const ResultField& parameter);
 
 }  // namespace dualdamp::scenarios

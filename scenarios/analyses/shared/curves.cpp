@@ -11,7 +11,7 @@ namespace dualdamp::scenarios {
 
 namespace {
 
-/// Which way each point was reached.
+/// The direction in which each point was reached.
 Column direction_column(const sim::Curve& curve, sim::Stepping stepping) {
   Column column{.name = "direction", .texts = {"up", "down"}, .kind = CellKind::text};
   const std::size_t up = stepping == sim::Stepping::up     ? curve.points.size()
@@ -75,13 +75,14 @@ Answer answer_of_curve(const sim::Curve& curve, const sim::Model& model, const A
 }
 
 ResultFields curve_fields(const ResultFields& own) {
-  return joined(joined(own, certificate_fields()),
-                {{"points[].x", "m", "output amplitude (peak - trough)/2"},
-                 {"points[].stops", "1", "stops in a period"},
-                 {"points[].sticks", "1", "sticks in a period"},
-                 {"points[].stable", "", "all Floquet multipliers inside the unit circle"},
-                 {"points[].direction", "", "with 'continue': the way the point was reached, up or down"},
-                 {"points[].reason", "", "for a point without numbers: the reason"}});
+  return joined(
+      joined(own, certificate_fields()),
+      {{"points[].x", "m", "output amplitude (peak - trough)/2"},
+       {"points[].stops", "1", "stops in a period"},
+       {"points[].sticks", "1", "sticks in a period"},
+       {"points[].stable", "", "all Floquet multipliers inside the unit circle"},
+       {"points[].direction", "", "with 'continue': the direction in which the point was reached, up or down"},
+       {"points[].reason", "", "for a point without numbers: the reason"}});
 }
 
 Field continue_key() {

@@ -1,5 +1,5 @@
 #pragma once
-/// What analyses of many steady states, curves and maps, have in common.
+/// Common parts of the analyses of many steady states: curves and maps.
 
 #include <functional>
 #include <string>
@@ -23,29 +23,29 @@ Column point_column(std::string name, std::string unit, const sim::Curve& curve,
   return result;
 }
 
-/// The reasons of points without numbers, where there are any.
+/// The reasons of points without numbers, if there are such points.
 void add_reasons(Table& table, const sim::Curve& curve);
 
-/// A quantity that a curve or map runs over.
+/// An axis of a curve or map.
 struct Axis {
   std::string name;
   double sim::CurvePoint::* value;
   std::string unit;
 };
 
-/// Remarks, the place of the list `points` and the certificate; no result when no point has a number.
+/// Adds remarks, the place of the list `points` and the certificate; no result when no point has a number.
 [[nodiscard]] Answer answer_of_points(const sim::Curve& curve, const sim::Model& model, const std::string& what,
                                       const std::vector<Axis>& axes);
 
-/// A curve over one axis; its points have a phase `with_phase`, and a direction where they were stepped through.
+/// A curve over one axis; `with_phase`: its points have a phase. Points that were stepped through have a direction.
 [[nodiscard]] Answer answer_of_curve(const sim::Curve& curve, const sim::Model& model, const Axis& axis,
                                      bool with_phase, std::optional<sim::Stepping> stepping);
 
 /// The key `continue`: in which direction the levels are stepped through.
 [[nodiscard]] Field continue_key();
-/// Nothing without the key: each level on its own.
+/// Nothing without the key: each level is computed separately.
 [[nodiscard]] std::optional<sim::Stepping> stepping_of(const Json& analysis);
-/// Levels that are stepped through twice are twice as many.
+/// Number of points: levels that are stepped through twice count twice.
 void check_stepping(CheckedFile& file);
 /// The fields of a curve; `own`: those of its axis.
 [[nodiscard]] ResultFields curve_fields(const ResultFields& own);

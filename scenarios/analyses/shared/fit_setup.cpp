@@ -49,7 +49,7 @@ bool is_loop_alone(const identify::Experiments& experiments) {
       experiments, [](const auto& experiment) { return experiment->kind == identify::ExperimentKind::loop; });
 }
 
-/// "position" stands for that of all records, "position[1]" for one.
+/// "position" means that of all records, "position[1]" that of one.
 bool take_own(const std::string& name, const identify::Experiments& experiments,
               std::vector<FitParameter>& parameters) {
   bool found = false;
@@ -96,7 +96,7 @@ void add_new(FitParameter parameter, std::vector<FitParameter>& parameters) {
   if (std::ranges::none_of(parameters, same)) parameters.push_back(std::move(parameter));
 }
 
-/// Motions alone tell forces in units of the mass or the stiffness.
+/// Motions alone determine forces only relative to the mass or the stiffness.
 void refuse_without_scale(const identify::Rig& rig, const std::vector<FitParameter>& parameters,
                           const identify::Experiments& experiments, std::vector<SetupFault>& faults) {
   const auto seeks = [&](Owner owner) {
@@ -134,7 +134,7 @@ identify::Rig rig_of(const Json& system, const sim::Model& model, const std::str
   identify::Rig rig{.known = model};
   rig.known.friction.clear();
   if (!system.contains("damping")) rig.known.oscillator.damping = identify::unknown;
-  // The derivatives are differences of motions: beyond this accuracy they gain nothing.
+  // The derivatives are differences of motions: a smaller tolerance does not improve them.
   constexpr double accurate = 1e-9;
   if (rig.known.solver.tolerance == sim::Solver{}.tolerance) rig.known.solver.tolerance = accurate;
   const core::Coordinate coordinate = model.oscillator.coordinate;
@@ -157,7 +157,7 @@ std::string laws_text(const identify::Rig& rig) {
 
 namespace {
 
-/// A drive that the file holds and the model lacks; empty where there is none.
+/// A drive that the file holds and the model lacks; empty if there is none.
 std::string idle_drive(const DataItem& item, const sim::Model& model) {
   if (item.keys.value("loop", false) || model.excitation.type != sim::ExcitationType::none) return {};
   const auto moves = [](const std::vector<double>& signal) {
@@ -175,7 +175,7 @@ std::string idle_drive(const DataItem& item, const sim::Model& model) {
   return {};
 }
 
-/// Whether some item holds what a known noise is stated of.
+/// Whether some item holds the signal whose noise is stated.
 bool holds(const std::vector<DataItem>& items, std::string_view signal) {
   return std::ranges::any_of(items, [signal](const DataItem& item) {
     const identify::Record& record = item.data.record;
@@ -192,7 +192,7 @@ bool holds(const std::vector<DataItem>& items, std::string_view signal) {
   });
 }
 
-/// A noise of a signal that no file holds would be ignored. One option states it of all files.
+/// A noise of a signal that no file holds would be ignored. One option states the noise for all files.
 void refuse_idle_noise(const std::vector<DataItem>& items, const std::string& key,
                        std::vector<SetupFault>& faults) {
   for (const std::string signal : {"x", "v", "a", "force", "phase"}) {
@@ -211,7 +211,7 @@ void refuse_idle_drive(const std::vector<DataItem>& items, const sim::Model& mod
   const sim::Excitation& drive = model.excitation;
   if (!drive.is_harmonic()) return;
   bool drives = false;  // some history
-  bool needs = false;   // some reading without a frequency of its own
+  bool needs = false;   // some reading does not state its frequency
   bool differs = false;
   for (const DataItem& item : items) {
     drives = drives || !item.data.record.histories.empty();
@@ -233,7 +233,8 @@ void refuse_idle_drive(const std::vector<DataItem>& items, const sim::Model& mod
 std::vector<std::string> drive_warnings(const sim::Model& model) {
   const auto& samples = model.excitation.samples;
   if (!samples || samples->interpolation() != sim::Interpolation::linear) return {};
-  // A chord lies off a smooth curve by a twelfth of the second difference, on the mean; noise makes some too.
+  // The mean distance of a chord from a smooth curve is a twelfth of the second difference; noise also contributes
+  // to it.
   const std::vector<double>& y = samples->values();
   const double noise = identify::noise_level(y);
   const double second = std::sqrt(6.0) * identify::noise_level(y, 2);
@@ -243,15 +244,16 @@ std::vector<std::string> drive_warnings(const sim::Model& model) {
   for (const double value : y) square += (value - mean) * (value - mean) / static_cast<double>(y.size());
   constexpr double least = 2e-4;
   if (!(smooth > least * std::sqrt(square))) return {};
-  return {"straight lines between the samples of the drive are off it by " +
-          core::format_number(100.0 * smooth / std::sqrt(square), 2) +
-          " % on the mean, and the estimates by as much or more: interpolation: cubic, where the drive is smooth"};
+  return {
+      "straight lines between the samples of the drive miss it by " +
+      core::format_number(100.0 * smooth / std::sqrt(square), 2) +
+      " % on average, and the estimates may be wrong by as much or more: if the drive is smooth, use interpolation: "
+      "cubic"};
 }
 
 namespace {
 
-/// About where the drive of the model swings, and how far [m]; nothing: it does not swing, or the spring is
-/// unknown.
+/// Mean and amplitude of the drive of the model [m]; nothing if it does not oscillate or the spring is unknown.
 std::optional<std::pair<double, double>> swing_of(const sim::Model& model) {
   const sim::Excitation& drive = model.excitation;
   double rest = drive.offset;
@@ -295,7 +297,7 @@ std::vector<std::string> remove_zeros(std::vector<DataItem>& items, const sim::M
       if (done.empty()) continue;
       item.zeroed.push_back(h);
       warnings.push_back(item.file + ": " + (history.sweep.empty() ? "" : "test '" + history.sweep + "': ") + done +
-                         "; what it leaves is sought as offset");
+                         "; the rest is fitted as offset");
     }
   return warnings;
 }
@@ -304,7 +306,7 @@ namespace {
 
 constexpr std::array<std::string_view, 5> signals_with_noise = {"x", "v", "a", "force", "phase"};
 
-/// A stated noise of what no record holds would be ignored.
+/// A stated noise of a signal that no record holds would be ignored.
 void refuse_idle_noise(const std::vector<DataItem>& items, const std::string& key,
                        const identify::Experiments& experiments, std::vector<SetupFault>& faults) {
   for (const std::string_view name : signals_with_noise) {

@@ -1,5 +1,5 @@
 #pragma once
-/// What a fit or a prediction is made of: rigs, experiments, and the parameters that are sought.
+/// Parts of a fit or a prediction: rigs, experiments, and the parameters that are fitted.
 
 #include <memory>
 #include <string>
@@ -17,20 +17,20 @@ struct DataItem {
   std::string file;
   Json keys;  ///< of its item
   identify::MeasuredRecord data;
-  std::vector<std::size_t> zeroed{};  ///< histories whose zero was subtracted: the rest of it is sought
+  std::vector<std::size_t> zeroed{};  ///< histories whose zero was subtracted: the remaining zero is fitted
 };
 
 [[nodiscard]] std::vector<DataItem> items_of(const Json& analysis, const std::vector<DataFile>& files,
                                              const std::string& key);
 
-/// Limits of a parameter that is sought; NaN: that of the law.
+/// Limits of a fitted parameter; NaN: the limit of the law.
 struct Bound {
   std::string name;
   std::string low;
   std::string high;
 };
 
-/// What is sought beside what the system does not state.
+/// Parameters that are fitted in addition to those that the system does not state.
 struct Sought {
   std::vector<std::string> free;  ///< names
   std::vector<Bound> bounds;
@@ -45,10 +45,10 @@ struct Sought {
 /// "coulomb + viscous_power"
 [[nodiscard]] std::string laws_text(const identify::Rig& rig);
 
-/// What to tell of a drive that was sampled too coarsely for the straight lines between its samples.
+/// Warning about a drive that was sampled too coarsely for straight lines between its samples.
 [[nodiscard]] std::vector<std::string> drive_warnings(const sim::Model& model);
 
-/// Experiments of all items; what cannot be used goes to `faults`, of item `index`.
+/// Experiments of all items; data that cannot be used are reported in `faults`, with the `index` of the item.
 struct SetupFault {
   std::string path;  ///< below `analysis`
   std::string message;
@@ -57,16 +57,16 @@ struct SetupFault {
                                                      const sim::Model& model, bool initial_is_known,
                                                      std::vector<SetupFault>& faults);
 
-/// Subtracts zeros of x that are further off than friction can hold the mass, as `identify` does, but for records
-/// whose `offset` is sought. Returns warnings.
+/// Subtracts zeros of x that are larger than the displacement at which friction can hold the mass, as `identify`
+/// does, except for records whose `offset` is fitted. Returns warnings.
 [[nodiscard]] std::vector<std::string> remove_zeros(std::vector<DataItem>& items, const sim::Model& model,
                                                     const Sought& sought);
 
-/// A stated frequency or amplitude that no item needs would be ignored by the fit.
+/// Complains about a stated frequency or amplitude that no item needs, because the fit would ignore it.
 void refuse_idle_drive(const std::vector<DataItem>& items, const sim::Model& model,
                        std::vector<SetupFault>& faults);
 
-/// All that is sought, in order.
+/// All fitted parameters, in order.
 [[nodiscard]] std::vector<identify::FitParameter> parameters_for(const identify::Rig& rig,
                                                                  const identify::Experiments& experiments,
                                                                  const Sought& sought,

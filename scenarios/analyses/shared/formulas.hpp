@@ -1,6 +1,6 @@
 #pragma once
-/// Closed forms by name, for `analysis: {type: formula, formula: {name: NAME, ...}}`: the check sums of the paper
-/// that no simulation stands behind. An explicit list, sorted by name.
+/// Closed forms by name, for `analysis: {type: formula, formula: {name: NAME, ...}}`: formulas of the paper that no
+/// simulation computes. An explicit list, sorted by name.
 
 #include <string_view>
 #include <vector>
@@ -15,7 +15,7 @@ struct FormulaEntry {
   std::string_view equation;  ///< plain text
   Section arguments;
   std::vector<ResultField> results;
-  /// `arguments` as read: complete, in range, SI. A number that does not exist is null.
+  /// `arguments` as read: complete, in range, SI. A result that does not exist is null.
   Json (*evaluate)(const Json& arguments);
 };
 

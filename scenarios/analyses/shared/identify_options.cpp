@@ -45,7 +45,7 @@ identify::OptionValue value_of(OptionKind kind, const Json& value) {
   return false;
 }
 
-/// A flag that is false asks for nothing.
+/// A flag that is false has no effect.
 bool asks_for_something(const identify::OptionValue& value) {
   const bool* flag = std::get_if<bool>(&value);
   return flag == nullptr || *flag;

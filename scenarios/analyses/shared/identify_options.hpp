@@ -13,11 +13,11 @@ namespace dualdamp::scenarios {
 /// One field for each option.
 [[nodiscard]] std::vector<Field> method_option_fields();
 
-/// A given option that none of the chosen methods uses is a problem, unless it is a flag that is false. `pairs`: of
-/// the record; 0 where it has none.
+/// A given option that none of the chosen methods uses is a problem, unless it is a flag that is false. `pairs`:
+/// number of pairs of the record; 0: none.
 void check_method_options(CheckedFile& file, std::size_t pairs);
 
-/// What a checked section `analysis` says.
+/// The options of a checked section `analysis`.
 [[nodiscard]] identify::OptionValues method_options(const Json& section);
 
 /// A warning for each option that some of the methods do not use.

@@ -18,7 +18,7 @@ std::string fingerprint(const std::string& inputs) {
 
 bool open_cases(CaseFile& file, std::size_t cases, const RunOptions& options) {
   ProcessGroup& processes = *options.processes;
-  // Parts of an earlier run are gone before anybody begins a new one.
+  // Parts of an earlier run are removed before any process begins a new one.
   if (processes.rank() == 0) file.prepare(options.found);
   processes.wait();
   file.open();
@@ -29,7 +29,7 @@ bool open_cases(CaseFile& file, std::size_t cases, const RunOptions& options) {
 
 void share_out(std::size_t count, const RunOptions& options, const std::function<void(std::size_t)>& work) {
   const std::unique_ptr<ItemCounter> items = options.processes->share_items();
-  std::atomic<bool> failed{false};  // one thread: the others need not go on
+  std::atomic<bool> failed{false};  // of any thread: the others stop
   const auto take_items = [&] {
     for (std::size_t item = items->next(); item < count && !failed; item = items->next()) {
       try {

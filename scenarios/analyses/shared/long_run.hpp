@@ -1,6 +1,6 @@
 #pragma once
-/// What runs of many cases have in common: their work is shared out among threads and processes, their finished
-/// cases are kept in a file (`results/case_file.hpp`), and they tell how far they are.
+/// Common parts of runs of many cases: the work is distributed to threads and processes, finished cases are kept in
+/// a file (`results/case_file.hpp`), and progress is reported.
 
 #include <chrono>
 #include <cstddef>
@@ -13,23 +13,23 @@
 
 namespace dualdamp::scenarios {
 
-/// The same scenario run by the same program on the same data gives the same lines. `inputs`: the resolved
-/// scenario, and digests of what else the lines depend on.
+/// Fingerprint of a run: the same scenario, program and data give the same lines. `inputs`: the resolved scenario,
+/// and digests of the other data on which the lines depend.
 [[nodiscard]] std::string fingerprint(const std::string& inputs);
 
-/// Opens the file for all processes together, after what the options say about earlier cases. True where all cases
-/// are there already.
+/// Opens the file for all processes together and treats earlier cases as the options say. True when all cases are
+/// already there.
 bool open_cases(CaseFile& file, std::size_t cases, const RunOptions& options);
 
 /// Calls work(0) to work(count - 1), on all threads of all processes.
 void share_out(std::size_t count, const RunOptions& options, const std::function<void(std::size_t)>& work);
 
-/// Counts finished cases and tells of them now and then.
+/// Counts finished cases and reports progress at intervals.
 class Meter {
  public:
   Meter(std::size_t done, std::size_t all, const RunOptions& options);
 
-  /// One more; from any thread.
+  /// Counts one case; from any thread.
   void add();
 
  private:

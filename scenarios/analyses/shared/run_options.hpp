@@ -1,5 +1,5 @@
 #pragma once
-/// Where and how a question is run; the processes that share a long run.
+/// Where and how a question is run, and the processes that share a long run.
 
 #include <atomic>
 #include <cstddef>
@@ -11,7 +11,7 @@
 
 namespace dualdamp::scenarios {
 
-/// How far a long run is.
+/// Progress of a long run.
 struct Progress {
   std::size_t done = 0;  ///< cases, those of an earlier run included
   std::size_t all = 0;
@@ -42,15 +42,15 @@ class ProcessGroup {
   ProcessGroup& operator=(const ProcessGroup&) = delete;
 
   [[nodiscard]] virtual int rank() const { return 0; }
-  /// A counter of its own for each run, shared by all processes; all of them call this.
+  /// A separate counter for each run, shared by all processes; every process must call this.
   [[nodiscard]] virtual std::unique_ptr<ItemCounter> share_items() { return std::make_unique<ItemCounter>(); }
   /// Waits for all processes.
   virtual void wait() {}
 };
 
-/// Where and how a question is run. A short one needs none of this.
+/// Where and how a question is run. A short run needs none of these options.
 struct RunOptions {
-  std::string directory = {};                          ///< of files that a campaign writes as it goes
+  std::string directory = {};                          ///< of files that a campaign writes during its run
   int threads = 0;                                     ///< of a campaign; 0: all cores
   FoundCases found = FoundCases::refuse;               ///< of a campaign: cases of an earlier run
   std::function<void(const Progress&)> progress = {};  ///< may be absent; called by one thread at a time

@@ -22,7 +22,7 @@ TEST_CASE("key: each case once, in an order that the seed decides") {
   CHECK(sorted == all);
   CHECK(bench::make_key("abc", 5, 1000).numbers == key.numbers);
   CHECK(bench::make_key("abc", 6, 1000).numbers != key.numbers);
-  // Neighbours have nothing to do with each other: of 999 pairs some two stay together.
+  // Neighbours are independent: of 999 pairs about two stay together.
   int together = 0;
   for (std::size_t i = 1; i < key.numbers.size(); ++i) together += key.numbers[i] == key.numbers[i - 1] + 1 ? 1 : 0;
   CHECK(together < 10);

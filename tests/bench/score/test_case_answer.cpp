@@ -24,7 +24,7 @@ TEST_CASE("interval score: width, and forty times what the truth lies outside") 
   CHECK(interval_score(8.0, 9.9, 10.0) == Approx(0.19 + 40.0 * 0.01));
   CHECK(interval_score(0.0, 20.0, 10.0) == Approx(ignorance_score));
   CHECK(interval_score(100.0, 101.0, 10.0) == worst_score);
-  // Proper: of all intervals the central one of a normal distribution scores least in the mean.
+  // The score is proper: of all intervals the central one of a normal distribution has the smallest mean score.
   const auto mean_score = [](double half) {
     double sum = 0.0;
     double weights = 0.0;

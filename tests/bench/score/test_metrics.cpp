@@ -17,7 +17,7 @@ TEST_CASE("area of risk: by hand") {
   reversed.add(1.0, 0.0);
   reversed.end_group();
   CHECK(reversed.area() == Approx(0.75));
-  RiskArea tied;  // who cannot tell has the mean
+  RiskArea tied;  // equal confidences have the mean risk
   tied.add(1.0, 0.0);
   tied.add(1.0, 1.0);
   tied.end_group();

@@ -45,7 +45,7 @@ TEST_CASE("prediction: the right law comes within 10 % of what it can reach", "[
   CAPTURE(right.text, right.error, right.attainable, right.uncertainty);
   CHECK(right.error < 1.1 * right.attainable);
   CHECK(!right.is_wrong);
-  CHECK_THAT(right.text, Catch::Contains("the law carries over"));
+  CHECK_THAT(right.text, Catch::Contains("the law also describes this record"));
   // Bands add up to the whole.
   double sum = 0.0;
   for (const identify::PredictionBand& band : right.bands) sum += band.error * band.error;
@@ -92,7 +92,7 @@ TEST_CASE("prediction: one rig against two tells a wrong law that the own fit do
   CHECK(wrong.attainable_noise_units < 1.2);
   CHECK(wrong.compromise.p_value < 1e-3);
   CHECK(wrong.is_wrong);
-  CHECK_THAT(wrong.text, Catch::Contains("no one set of its numbers"));
+  CHECK_THAT(wrong.text, Catch::Contains("no single set of parameters"));
   const identify::Prediction right = predicted_as("stribeck");
   CAPTURE(right.text, right.compromise.statistic);
   CHECK(right.compromise.p_value > 1e-3);

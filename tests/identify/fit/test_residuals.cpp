@@ -73,7 +73,7 @@ TEST_CASE("residuals: a fit that leaves more than noise says so", "[identify][fi
   REQUIRE(fit.outcome.ok());
   REQUIRE(fit.warnings.size() == 1);
   CHECK_THAT(fit.warnings.front(),
-             Catch::StartsWith("record.csv: the residuals of x") && Catch::Contains("are no noise"));
+             Catch::StartsWith("record.csv: the residuals of x") && Catch::Contains("are not noise"));
 }
 
 TEST_CASE("residuals: a stated noise that is ten times off is told, and intervals are never too narrow for it",

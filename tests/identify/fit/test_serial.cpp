@@ -93,5 +93,5 @@ TEST_CASE("serial: a decay beside a wrong mass, and pairs of another law, are to
       fit_to(rig, test::steady_states_of(hard, levels, 1e-5, 3e-3, 5), {"kinetic", "damping"});
   REQUIRE(of_hard.outcome.ok());
   REQUIRE(!of_hard.warnings.empty());
-  CHECK_THAT(of_hard.warnings.front(), Catch::Contains("too alike from reading to reading"));
+  CHECK_THAT(of_hard.warnings.front(), Catch::Contains("too similar from reading to reading"));
 }

@@ -56,7 +56,7 @@ class Laboratory {
   double uniform(double low, double high) { return std::uniform_real_distribution(low, high)(random_); }
   double normal() { return off_.noise * std::normal_distribution()(random_); }
 
-  /// As an analog to digital converter reads a signal, and a clock the times.
+  /// Rounds a signal as an analog-to-digital converter does, and times as a clock does.
   void convert(std::vector<double>& signal) const {
     if (off_.bits == 0 || signal.empty()) return;
     const auto [low, high] = std::ranges::minmax_element(signal);
@@ -67,12 +67,12 @@ class Laboratory {
     return off_.clock > 0.0 ? off_.clock * std::round(time / off_.clock) : time;
   }
 
-  /// What the zero of x is off by at one of `count` readings.
+  /// Error of the zero of x at one of `count` readings.
   [[nodiscard]] double drift_of_zero(std::size_t i, std::size_t count) const {
     return off_.zero_drift * result_.rig.x_f() * static_cast<double>(i) / static_cast<double>(count - 1);
   }
 
-  /// Drive amplitudes from twice to six times what dry friction alone withstands; L and V of the largest.
+  /// Drive amplitudes from two to six times the largest that dry friction alone withstands; L and V of the largest.
   void choose_level() {
     Rig& rig = result_.rig;
     least_ = uniform(1.8, 2.5) * rig.x_f();

@@ -1,5 +1,5 @@
 #pragma once
-/// Records of random rigs: what a laboratory would measure, with what may be off about it.
+/// Records of random rigs as a laboratory would measure them, with errors of sensors and of stated constants.
 
 #include <cstdint>
 #include <string_view>
@@ -25,7 +25,7 @@ enum class Kind {
 
 [[nodiscard]] std::string_view name_of(Kind kind);
 
-/// What is off beside the rig itself.
+/// Errors beside the departures of the rig.
 struct Off {
   double stiffness = 0.0;    ///< relative error of the stated stiffness
   double frequency = 0.0;    ///< of the stated frequency
@@ -38,7 +38,7 @@ struct Off {
   double noise = 1.0;        ///< factor on all noise
   double clock = 0.0;        ///< step of the clock that times of extremes are rounded to [s]; 0: none
   int bits = 0;              ///< of the converter of every signal, over 1.25 times its range; 0: none
-  double samples = 100.0;    ///< a natural period, of histories
+  double samples = 100.0;    ///< of histories in a natural period
 };
 
 struct Measured {
@@ -50,7 +50,7 @@ struct Measured {
 /// `alter` makes the rig depart. The same seed gives the same rig and noise.
 [[nodiscard]] Measured measured(Kind kind, std::uint64_t seed, void (*alter)(Rig&) = nullptr, const Off& off = {});
 
-/// Whether an assumption is one about the law of friction.
+/// Whether an assumption is about the friction law.
 inline bool is_of_friction(Assumption assumption) {
   return assumption == Assumption::friction_velocity || assumption == Assumption::friction_displacement ||
          assumption == Assumption::symmetry;

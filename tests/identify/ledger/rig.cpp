@@ -133,7 +133,7 @@ class Integrator {
     if (reach > 0.0) slider_ = std::clamp(slider_, state_[0] - reach, state_[0] + reach);
   }
 
-  /// After a reversal: on in the other direction, or at rest.
+  /// After a reversal: slip in the other direction, or stick.
   void turn() { direction_ = 0; }
 
   const Rig& rig_;

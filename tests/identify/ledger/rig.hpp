@@ -1,7 +1,7 @@
 #pragma once
-/// A laboratory rig of the tests' own, to find out how often the ledger of assumptions is right: a mass with dry
-/// friction, integrated by Runge and Kutta's method with small fixed steps and bisection at reversals. It shares no
-/// code with the engines or with the models that are fitted.
+/// A rig of the tests' own, to measure how often the ledger of assumptions is right: a mass with dry friction,
+/// integrated by Runge and Kutta's method with small fixed steps and bisection at reversals. It shares no code with
+/// the engines or with the models that are fitted.
 
 #include <cstdint>
 #include <functional>
@@ -12,7 +12,7 @@
 
 namespace dualdamp::identify::testing {
 
-/// What the rig is, and by how much it departs from what is assumed of it. All departures zero: as stated.
+/// The rig and its departures from the assumptions. All departures zero: as assumed.
 struct Rig {
   double m = 1.0;     ///< kg
   double k = 1000.0;  ///< N/m
@@ -28,7 +28,7 @@ struct Rig {
   double compliance = 0.0;    ///< deflection of the contact before it slides, over L
   double lugre = 0.0;         ///< deflection of the bristles before they slide, over L
   double asymmetry = 0.0;     ///< c v (1 + asymmetry sgn v)
-  double play = 0.0;          ///< way after a reversal without friction, over L
+  double play = 0.0;          ///< distance without friction after a reversal, over L
   double drift = 0.0;         ///< F0 (1 + drift (share of the record - 1/2))
 
   double L = 0.01;  ///< length and speed that the departures are relative to
@@ -38,7 +38,7 @@ struct Rig {
   [[nodiscard]] double x_f() const { return F0 / k; }
 };
 
-/// Force on the spring's end k y + f at a time.
+/// Drive k y + f [N] at a time [s].
 using Drive = std::function<double(double)>;
 
 /// Motion at `rate` from rest, or from `x0`; the first `settle` seconds are not returned.

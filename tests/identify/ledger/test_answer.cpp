@@ -82,7 +82,7 @@ TEST_CASE("An estimate cannot be used when an assumption that it rests on is vio
   CHECK_FALSE(found.estimates[0].usable);
   CHECK(mentions(found.estimates[0].reason, "the spring is linear"));
   CHECK(mentions(found.verdict, "These data contradict that the spring is linear"));
-  // The work of the base is k times lengths: F0 and c are wrong with the stiffness.
+  // The work of the base is proportional to k: a wrong stiffness makes F0 and c wrong.
   CHECK_FALSE(concluded({fit, balance}, ledger({Assumption::constants})).answer);
 }
 
@@ -105,7 +105,7 @@ TEST_CASE("A range over laws that answers beside a departure of friction says wh
   const Identification found = concluded(both, ledger({Assumption::friction_velocity}));
   CHECK(answering(found) == "any_law");
   CHECK(mentions(found.reason, "what would narrow it: record the phase at several frequencies"));
-  // Where nothing departs there is nothing to narrow.
+  // Without a departure the reason does not say what would narrow the range.
   CHECK_FALSE(mentions(concluded({ranges}, ledger({})).reason, "what would narrow it"));
 }
 
@@ -141,7 +141,7 @@ TEST_CASE("An estimate that the joint fit of all data excludes cannot be used, a
   CHECK_FALSE(alone.estimates[0].usable);
   CHECK(mentions(alone.estimates[0].reason, "joint_fit, which has all data, excludes it: zeta = 0.1, F0 = 4"));
   CHECK(answering(alone) == "joint_fit");
-  // One that agrees answers alone when it was asked for alone.
+  // A single method that was asked for, and agrees with the joint fit, answers alone.
   const Identification agrees = concluded({estimate("energy_balance", 0.102, 4.0, 0.02)}, with_joint);
   CHECK(agrees.estimates.size() == 1);
   CHECK(answering(agrees) == "energy_balance");

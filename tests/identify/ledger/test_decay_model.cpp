@@ -13,8 +13,9 @@ using namespace dualdamp::identify;
 using namespace dualdamp::identify::testing;
 
 TEST_CASE("Extremes hardly tell a zero that drifts from damping of its own in each direction, and name both") {
-  // What one half swing loses more than the next moves the middle of both by a share of the amplitude: a curve over
-  // the number of the extreme that a straight line follows, and the alternating rest is another zeta and release.
+  // If one half swing loses more than the next, the middle of both moves by a share of the amplitude. Over the
+  // number of the extreme this is a curve that a straight line nearly follows; the alternating part acts as another
+  // zeta and release.
   constexpr std::uint64_t first = 100;
   int both = 0;
   for (int i = 0; i < 6; ++i) {

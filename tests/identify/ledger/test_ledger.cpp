@@ -27,7 +27,7 @@ struct Found {
   int named = 0;
 };
 
-/// Ledgers of some records: how many violate anything, and how many this assumption.
+/// Number of records in which any assumption is violated, and in which a given one is.
 Found ledgers(Kind kind, int records, Assumption assumption, void (*alter)(Rig&) = nullptr, const Off& off = {}) {
   Found found;
   for (int i = 0; i < records; ++i) {
@@ -51,7 +51,7 @@ Ledger ledger_for(Kind kind, std::uint64_t seed, void (*alter)(Rig&)) {
 }  // namespace
 
 TEST_CASE("True Coulomb and viscous friction violates nothing but by chance") {
-  // At a level of 5 % three of ten happen in 1 of 100 sets.
+  // At a level of 5 % three or more of ten records are rejected in 1 of 100 sets.
   for (const Kind kind : {Kind::xy, Kind::xy_phase, Kind::response, Kind::extremes, Kind::forced, Kind::beat}) {
     CAPTURE(name_of(kind));
     CHECK(ledgers(kind, 10, Assumption::friction_velocity).any <= 2);
@@ -85,7 +85,7 @@ TEST_CASE("What a record cannot tell is untested, with what would tell") {
 
 namespace {
 
-/// Is friction charged, and nothing beside it?
+/// Is friction charged alone?
 bool blames_friction_alone(const Ledger& ledger) {
   return std::ranges::any_of(ledger.departures, [](const std::vector<Assumption>& departure) {
     return std::ranges::all_of(departure, is_of_friction);
@@ -137,7 +137,7 @@ TEST_CASE("Constants and gains that are off by less than their stated uncertaint
       too_sure += violated({.stiffness = 0.002 * m.constants.stiffness});
     }
     CHECK(uncertain <= 1);
-    // Extremes tell a stiffness by their times, and that it moves F0 by 2 % only just.
+    // The times show the wrong stiffness. It changes F0 by only just 2 %.
     if (kind != Kind::extremes) CHECK(certain >= 5);
     if (kind != Kind::extremes) CHECK(too_sure >= 5);
   }
@@ -204,7 +204,7 @@ TEST_CASE("Extremes with exact times show quadratic drag, and nothing where fric
   const auto& joint = std::get<JointModel>(model);
   const RelaxationTests found = test_relaxations(joint);
   CHECK(found.departures.empty());
-  // Noise of the extremes limits what is seen of friction over speed, however exact the times.
+  // Noise of the extremes limits the test of friction over speed, however exact the times are.
   for (const RelaxationTest& test : found.tests) {
     if (joint.relaxations[test.index].assumption != Assumption::friction_velocity) continue;
     CAPTURE(joint.relaxations[test.index].test);
@@ -230,7 +230,7 @@ TEST_CASE("The noise of a coarse converter is that of its steps, though most dif
     drive.push_back(i / 1000 % 2 == 0 ? 1.0 : -1.0);
   }
   CHECK(noise_of(coarse) == Approx(step / std::sqrt(12.0)).epsilon(1e-6));
-  CHECK(noise_of(drive) == 0.0);  // it switches, and is no converter's
+  CHECK(noise_of(drive) == 0.0);  // a drive that switches: its step is not that of a converter
 }
 
 TEST_CASE("Where a term of friction is nearly seen the intervals reach over the estimate with it free") {
@@ -242,10 +242,10 @@ TEST_CASE("Where a term of friction is nearly seen the intervals reach over the 
     const Ledger ledger = ledger_of(m.record, m.constants);
     if (!ledger.joint || !ledger.joint->interval95) continue;
     ++answered;
-    const bool noted = ledger.entry(Assumption::friction_velocity).reason.find("nearly seen") != std::string::npos;
+    const bool noted = ledger.entry(Assumption::friction_velocity).reason.find("nearly significant") != std::string::npos;
     if (!noted) continue;
     ++near;
-    // The estimate with the term free is less certain than half the distance between both.
+    // The standard error of the estimate with the term free is larger than half the distance of both estimates.
     const std::array<double, 2>& interval = ledger.joint->interval95->zeta;
     const double value = ledger.joint->value.zeta;
     const double sides = (interval[1] - value) / (value - interval[0]);
@@ -298,7 +298,7 @@ TEST_CASE("The rest after a vibration is left out, however long it was recorded"
   CHECK(moving > 400);
   CHECK(moving < 500);
   x *= 0.01;
-  CHECK(moving_rows({}, x, x_f) == x.size());  // small from the start: there is nothing else
+  CHECK(moving_rows({}, x, x_f) == x.size());  // small from the start: all is used
 }
 
 TEST_CASE("Where friction drifts from sweep to sweep the answer is the mean over the sweeps") {
@@ -378,7 +378,7 @@ TEST_CASE("A zero of x that drifts is charged to what drifts, neither to frictio
 }
 
 TEST_CASE("Of two departures of a history the one that explains more is charged first, not what hides the other") {
-  // A zero that is off and drifts: a mass set free explains nothing, and was charged as it left less to the rest.
+  // A zero that is off and drifts: a free mass explains nothing and must not be charged.
   Measured m = measured(Kind::decay, ledger_seed, nullptr, {.zero_drift = 2.0});
   for (double& x : m.record.histories[0].x) x += m.rig.x_f();
   const auto model = history_model(m.record, m.constants);
@@ -412,9 +412,9 @@ TEST_CASE("Constants that are 1 % higher move a joint fit that sets nothing else
     CHECK(of(one).zeta_change + of(other).zeta_change == Approx(0.0).margin(0.01));
     CHECK(of(one).F0_change + of(other).F0_change == Approx(0.01).margin(0.01));
   }
-  // A mass that is 1 % off is a natural frequency half a percent off, which the ledger would set free.
+  // A mass that is 1 % off makes the natural frequency half a percent wrong; the ledger would set the mass free.
   CHECK_FALSE(ledger_of(m.record, {1.01 * m.constants.mass, m.constants.stiffness, unknown}).departures.empty());
-  // The answer with a mass that is 1 % off, freed again, is that with the right one.
+  // If the mass is free again, the answer with a mass 1 % off is that with the right mass.
   const Estimate freed = joint_fit(m.record, {1.01 * m.constants.mass, m.constants.stiffness, unknown},
                                    {"natural frequency free, stiffness as stated"});
   CHECK(freed.value.zeta == Approx(ledger.joint->value.zeta).epsilon(0.01));
@@ -422,8 +422,8 @@ TEST_CASE("Constants that are 1 % higher move a joint fit that sets nothing else
 }
 
 TEST_CASE("Noise of the drive, which columns and residuals share, rejects no constant of a steady motion") {
-  // One frequency, settled: beside a mass that is not known, a stiffness or a gain adds to the motion hardly more
-  // than its response to the noise of the drive.
+  // One frequency, settled, with an unknown mass: a change of stiffness or gain changes the motion hardly more than
+  // the noise of the drive does.
   int rejected = 0;
   constexpr int records = 8;
   for (int i = 0; i < records; ++i) {

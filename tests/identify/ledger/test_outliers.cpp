@@ -57,7 +57,7 @@ TEST_CASE("Readings that belong to each other are no outliers but by chance") {
       const Measured m = measured(kind, seed);
       outliers += static_cast<int>(bounded_influence(m.record, m.constants).outliers.size());
     }
-  // Beyond four deviations lies one in 16,000 normal readings; the median of few readings adds some.
+  // One normal reading in 16,000 lies beyond four deviations; the median of few readings adds some.
   CHECK(outliers <= 12);
 }
 

@@ -11,7 +11,7 @@ using namespace dualdamp::identify;
 
 namespace {
 
-/// A straight line over u in [-1, 1]; relaxations: u^2, u^3, sin 3u, all but alike in pairs, and the line itself.
+/// A straight line over u in [-1, 1]. Relaxations: u^2, u^3, sin 3u, nearly equal in pairs, and the line itself.
 JointModel line_with(double square, std::uint32_t number) {
   constexpr Eigen::Index count = 30;
   JointModel model;
@@ -53,7 +53,7 @@ TEST_CASE("A departure is charged to the relaxation that explains it, and what i
   const RelaxationTest& test = found.departures[0].explanations[0];
   CHECK(test.index == 0);
   CHECK(test.p_value < 1e-4);
-  // The mean of u^2 over the points is 0.356: so much the constant falls when the square is set free.
+  // The mean of u^2 over the points is 0.356: the constant falls by this amount when the square is set free.
   CHECK(test.F0_change == Approx(-5.0 * 0.356).epsilon(0.35));
   CHECK(std::abs(test.zeta_change) < 1e-9);
 }
@@ -85,11 +85,11 @@ TEST_CASE("Relaxations that explain alike are named together") {
   for (Eigen::Index i = 0; i < model.residuals.size(); ++i) model.residuals[i] += 6.0 * model.relaxed(i, 1);
   const RelaxationTests found = test_relaxations(model);
   REQUIRE(found.departures.size() == 1);
-  REQUIRE(found.departures[0].explanations.size() == 2);  // beside a line, sin 3u is all but u^3
+  REQUIRE(found.departures[0].explanations.size() == 2);  // beside a line, sin 3u is nearly u^3
 }
 
 TEST_CASE("A test that sees all that matters at a strict level leaves its level to the others") {
-  // Forty terms move the base by nothing that matters; the square moves the constant.
+  // Forty terms hardly change the base parameters; the square changes the constant.
   const auto smallest_p = [](double share) {
     JointModel model = line_with(2.2, 5);
     constexpr Eigen::Index more = 40;
@@ -99,7 +99,7 @@ TEST_CASE("A test that sees all that matters at a strict level leaves its level 
     for (Eigen::Index j = own; j < own + more; ++j) {
       for (Eigen::Index i = 0; i < model.relaxed.rows(); ++i)
         model.relaxed(i, j) = random.normal(static_cast<std::uint64_t>(100 * j + i));
-      // Beside the line, and a share of it: what the term would do to the base.
+      // Orthogonal to the line, plus a share of the line: that share is the change of the base parameter.
       const Eigen::VectorXd term = model.relaxed.col(j);
       model.relaxed.col(j) = term - model.base * model.base.colPivHouseholderQr().solve(term);
       model.relaxed.col(j) += share * model.base.col(1);

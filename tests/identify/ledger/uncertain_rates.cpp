@@ -20,20 +20,20 @@ namespace dualdamp::identify::testing {
 
 namespace {
 
-/// What a method was asked and said.
+/// Records and intervals of one method.
 struct Coverage {
   int records = 0, outcomes = 0, usable = 0, intervals = 0, zeta = 0, c = 0, F0 = 0;
   std::array<int, 2> zeta_sides{}, F0_sides{};  ///< intervals below and above the truth
 };
 
-/// A record with constants and gains that are off by chance, and what is stated of them.
+/// A record with random errors of constants and gains, and the stated uncertainties.
 struct Drawn {
   Measured measured;
   ConstantUncertainties uncertainties;
 };
 
 Drawn drawn(Kind kind, double deviation, std::uint64_t seed) {
-  constexpr double of_frequency = 0.2;  // a clock is better than a scale
+  constexpr double of_frequency = 0.2;  // a clock is more accurate than a scale
   std::mt19937_64 random(7'000'003 * seed + static_cast<std::uint64_t>(kind));
   std::normal_distribution<double> normal;
   const auto off = [&](double share) { return share * normal(random); };

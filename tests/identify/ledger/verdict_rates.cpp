@@ -1,5 +1,6 @@
-/// How often the ledger of assumptions and the answer are right: records of random rigs, identified as the program
-/// does it. usage: verdict_rates RECORDS FIRST_SEED [ROW]...   A ROW is a part of its name. One line a row.
+/// How often the ledger of assumptions and the answer are right, by records of random rigs, identified as the
+/// program does it. usage: verdict_rates RECORDS FIRST_SEED [ROW]...   ROW: a part of the name of a row. Prints a
+/// line for each.
 
 #include <Eigen/LU>
 #include <algorithm>
@@ -78,7 +79,7 @@ Identification identified(Measured& measured) {
   static_cast<void>(complete(record, measured.constants.frequency));
   Ledger ledger = ledger_of(record, measured.constants);
   std::vector<Estimate> estimates;
-  // Where it can be used the joint model's own estimate answers: the other methods need not run.
+  // If the estimate of the joint model is usable it answers, and the other methods need not run.
   if (ledger.joint && ledger.joint->usable && ledger.joint->interval95) {
     estimates.push_back(*ledger.joint);
     return concluded(std::move(estimates), std::move(ledger));
@@ -103,7 +104,7 @@ std::optional<JointModel> model_of(const Measured& measured) {
   return std::nullopt;
 }
 
-/// Which relaxations of friction a t test of 5 % rejects that knows the departure, each by itself.
+/// The relaxations of friction that a t test of 5 % rejects, each tested by itself.
 std::vector<std::string> known_departures(const Measured& measured) {
   std::vector<std::string> rejected;
   const std::optional<JointModel> model = model_of(measured);
@@ -158,7 +159,7 @@ void count_verdict(const Row& row, std::uint64_t seed, Counts& counts) {
       found.ledger.entries, [](const LedgerEntry& entry) { return entry.p_value.value_or(1.0) < family_level; });
   counts.friction +=
       std::ranges::any_of(assumptions(), [&](Assumption a) { return is_of_friction(a) && violated(a); });
-  // Friction alone is charged where no other assumption is named beside it.
+  // Friction alone is charged if no other assumption is named with it.
   counts.blamed += std::ranges::any_of(found.ledger.departures, [&](const std::vector<Assumption>& departure) {
     return std::ranges::all_of(departure, is_of_friction);
   });

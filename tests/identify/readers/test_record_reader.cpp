@@ -66,7 +66,7 @@ TEST_CASE("A label for each test splits a file into histories") {
   CHECK(histories[1].sweep == "down");
   CHECK(histories[1].x.size() == 30);
   CHECK(histories[1].sample_rate == Approx(50.0).epsilon(1e-14));
-  CHECK(mentions(refusal_of(text + history_text(20, 100.0, "%.2f", "up")), "do not stand together"));
+  CHECK(mentions(refusal_of(text + history_text(20, 100.0, "%.2f", "up")), "are not together"));
   // Without labels a test begins where the time does, or where the header stands again.
   for (const char* between : {"", "t [s],x [mm]\n"}) {
     CAPTURE(between);
@@ -283,7 +283,7 @@ TEST_CASE("Universal files: what is no time response is left out, what is damage
   CHECK(mentions(refusal_of(whole.substr(0, 300)), "no number in columns"));
   std::string fewer = whole;
   fewer.replace(fewer.find("        20"), 10, "        19");
-  CHECK(mentions(refusal_of(fewer), "the data set goes on behind its 19 values"));
+  CHECK(mentions(refusal_of(fewer), "the data set continues after its 19 values"));
   const std::string binary = uff58b(good);
   CHECK(mentions(refusal_of(binary.substr(0, binary.size() - 40)), "ends before its 20 values"));
   std::string letters = whole;

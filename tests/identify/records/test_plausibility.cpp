@@ -98,7 +98,7 @@ TEST_CASE("Amplitudes off by 1000, degrees for radians, and readings that do not
     return faults_in(other.record, other.constants);
   };
   CHECK(mentions(changed([](Pair& p) { p.x *= 1000.0, p.fundamental *= 1000.0; }),
-                 "take more force than the base gives"));
+                 "need more force than the base gives"));
   CHECK(mentions(changed([](Pair& p) { p.fundamental *= 1000.0; }),
                  "column fundamental is about 1000 times too large"));
   CHECK(mentions(
@@ -185,5 +185,5 @@ TEST_CASE("A force of the wrong sign takes work out of the motion, and is refuse
     CHECK(faults_with(1.0, ratio, 0.05).empty());
   }
   for (const double ratio : {0.95, 1.0, 1.05})
-    CHECK(faults_with(-1.0, ratio, 0.0).find("one of both has the wrong sign") != std::string::npos);
+    CHECK(faults_with(-1.0, ratio, 0.0).find("one of them has the wrong sign") != std::string::npos);
 }

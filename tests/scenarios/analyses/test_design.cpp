@@ -28,7 +28,7 @@ TEST_CASE("design: candidates with their widths and power, the best first", "[sc
   const scenarios::RunResult run = scenarios::run(scenarios::parse_scenario(compliant_rig, "test.yaml"));
   const auto answer = testing::result_of(run);
   const auto& candidates = answer.at("candidates");
-  // The simulated states have phases: recording them is no candidate.
+  // The simulated states have phases, so recording phases is not a candidate.
   REQUIRE(candidates.size() == 9);
   double before = 0.0;
   for (const auto& candidate : candidates) {
@@ -95,7 +95,7 @@ TEST_CASE("design: uncertain constants are in the ranges now and after, as in th
     CHECK(width(uncertain["hull95"][number]) > 1.05 * width(exact["hull95"][number]));
     CHECK(uncertain["hull95"][number] == identified["estimates"][0]["hull95"][number]);
   }
-  // No measurement weighs the mass anew: what helped most helps less.
+  // No measurement determines the mass again, so the best candidate helps less.
   CHECK(uncertain["candidates"][0]["hull_shrinks_to"]["F0"].get<double>() >
         exact["candidates"][0]["hull_shrinks_to"]["F0"].get<double>());
   const auto gains = answer_to("1.042 kg", "type: design, gain_uncertainty: {x: 10 %, y: 10 %}");
@@ -112,7 +112,7 @@ TEST_CASE("design: data that state their own frequencies, and data without stead
   };
   write("frequency [Hz],Y [mm],x [mm]\n5.0,4,27.1\n5.0,5,37.3\n5.0,6,47.2\n5.0,7,57.3\n");
   CHECK_NOTHROW(read(""));
-  // Stated twice, and differently: one of both would be ignored.
+  // Stated twice with different values: one would be ignored.
   CHECK_THROWS_AS(read("excitation: {type: base_harmonic, frequency: 5.5 Hz}\n"), core::InputError);
   CHECK_NOTHROW(read("excitation: {type: base_harmonic, frequency: 5.01 Hz}\n"));
   write("Y [mm],x [mm]\n4,27.1\n5,37.3\n6,47.2\n7,57.3\n");

@@ -21,7 +21,7 @@ namespace {
 
 constexpr const char* rig = "mass: 1 kg, stiffness: 1000 N/m";
 
-/// A file beside the test's scenarios, gone with it.
+/// A file beside the test's scenarios, deleted with the object.
 class File {
  public:
   File(const std::string& name, const std::string& text) : path_(name) { std::ofstream(path_) << text; }
@@ -132,7 +132,7 @@ TEST_CASE("fit: laws are compared, and the right one predicts", "[scenarios][fit
   const nlohmann::json result = result_of_text(fit_scenario(
       rig, "data: [{file: fit_first.csv}], validate: fit_second.csv, laws: [viscous_saturating, coulomb]"));
   CHECK(result.at("law") == "coulomb");
-  // Saturation at low speed is Coulomb friction too, with a parameter more.
+  // A force that saturates at low speed is Coulomb friction with one more parameter.
   CHECK(result.at("laws").at(0).at("weight").get<double>() > 0.5);
   const nlohmann::json& validation = result.at("validation");
   CHECK(validation.at("error").get<double>() < 1.1 * validation.at("attainable").get<double>());
@@ -213,7 +213,7 @@ TEST_CASE("fit: a zero of the sensor that is far off is subtracted and told, its
   };
   const auto is_told = [](const scenarios::RunResult& result) {
     return std::ranges::any_of(result.warnings, [](const std::string& warning) {
-      return warning.find("taken for the zero of the sensor and subtracted") != std::string::npos;
+      return warning.find("taken as the zero of the sensor and subtracted") != std::string::npos;
     });
   };
   for (const std::string& initial : {std::string(), released + "\n"}) {
@@ -226,7 +226,7 @@ TEST_CASE("fit: a zero of the sensor that is far off is subtracted and told, its
     CHECK(result.at("parameters").at(1).at("value").get<double>() == Approx(1.0).epsilon(2e-3));
     CHECK(result.at("residual").at("noise_units").get<double>() == Approx(1.0).margin(0.15));
   }
-  // Who seeks the offset gets all of it.
+  // If the offset is fitted, nothing is subtracted before.
   const scenarios::RunResult fit = fit_with(", free: offset", "");
   REQUIRE(fit.failure.empty());
   CHECK(!is_told(fit));
@@ -242,7 +242,7 @@ TEST_CASE("fit: a copy of a record is refused whatever its name and its last dig
 }
 
 TEST_CASE("fit: a mass that nobody stated is found from afar", "[scenarios][fit]") {
-  // The beginnings of the motion had too few steps: the fit of the shipped record ended at 20 times the noise.
+  // With too few steps at the beginning of the motion the fit of the shipped record ends at 20 times the noise.
   std::ifstream in(testing::in_tree("scenarios/examples/free_run.csv"));
   std::stringstream text;
   text << in.rdbuf();

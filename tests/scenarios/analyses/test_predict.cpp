@@ -80,7 +80,7 @@ TEST_CASE("predict: a drive that the file holds and the model lacks", "[scenario
                                      file + "}\n",
                                  "b.yaml"),
                   core::InputError);
-  // The same readings count once, and do not predict themselves.
+  // The same readings must not count twice, and must not predict themselves.
   const std::string fit =
       "schema: dualdamp/1\nsystem: {mass: 1 kg, stiffness: 1000 N/m, friction: {law: coulomb}}\nexcitation: {type: "
       "measured_base, file: " +
@@ -89,7 +89,7 @@ TEST_CASE("predict: a drive that the file holds and the model lacks", "[scenario
   CHECK_THROWS_AS(parse_scenario(fit + "data: [" + file + ", " + file + "]}\n", "e.yaml"), core::InputError);
   CHECK_THROWS_AS(parse_scenario(fit + "data: " + file + ", validate: " + file + "}\n", "f.yaml"),
                   core::InputError);
-  // Lines between 21 samples in a period are 0.75 % off it.
+  // The error of straight lines between 21 samples in a period is 0.75 %.
   const scenarios::RunResult lines =
       scenarios::run(parse_scenario(system + "excitation: {type: measured_base, file: " + file +
                                         ", column: y}\nanalysis: {type: predict, data: " + file + "}\n",

@@ -12,7 +12,7 @@ TEST_CASE("steady_state: one period of Eq (3) at resonance", "[scenarios][steady
   CHECK(answer.at("amplitude").get<double>() == Approx(0.1860780979567862).epsilon(1e-14));
   CHECK(answer.at("stops_per_cycle") == 0);
   CHECK(answer.at("stable") == true);
-  // What the base puts in is what friction and the damper take out.
+  // The work of the base equals the work of friction and damper.
   const auto& energy = answer.at("energy");
   CHECK(energy.at("friction").get<double>() == Approx(4.0 * 2.0 * 0.1860780979567862).epsilon(1e-13));
   CHECK(energy.at("input").get<double>() ==

@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A directory of the test's own, with one data file, deleted with the object.
+/// A directory with one data file, deleted with the object.
 class Directory {
  public:
   explicit Directory(const std::string& data)
@@ -187,8 +187,8 @@ TEST_CASE("drives: a measured motion beside the simulated one", "[scenarios][dri
     CHECK(result.tables.back().size() == 801);
     return testing::result_of(result).at("residual");
   };
-  // The model is right: noise is left, known to 1/sqrt(2 801) = 2.5 % and estimated to some 5 %. 126 samples a
-  // period, 5 (w h)^4/384 of the base motion: 8e-9 m.
+  // The model is correct, so the residual is noise, known to 1/sqrt(2 801) = 2.5 % and estimated to some 5 %. 126
+  // samples a period, 5 (w h)^4/384 of the base motion: 8e-9 m.
   const auto estimated = answer("");
   CHECK(estimated.at("samples") == 801);
   CHECK(estimated.at("rms").get<double>() == Approx(noise).epsilon(0.08));

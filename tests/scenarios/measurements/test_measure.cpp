@@ -86,7 +86,7 @@ TEST_CASE("sweeps drift as their factors do", "[measure]") {
   const scenarios::MotionRecord motion = scenarios::motion_of(rig(), measurement, {});
   const std::vector<identify::Pair>& pairs = motion.exact.pairs->pairs;
   REQUIRE(pairs.size() == 6);
-  // The definition of the drift, written out again; stream 3 of the seed.
+  // The definition of the drift, independently of the code; stream 3 of the seed.
   const core::RandomStream draws{.seed = 9, .stream = 3};
   double factor = 1.0;
   for (std::size_t sweep = 0; sweep < 3; ++sweep) {
@@ -115,7 +115,8 @@ TEST_CASE("histories are samples of the simulated motion, late by the sensors' l
   REQUIRE(history.x.size() == 201);
   CHECK(history.force.empty());
   const sim::History all = sim::simulate(rig(), {.duration = 0.6, .sample_rate = rate});
-  // Times are summed in another order; a motion of 0.3 m/s and 15 m/s^2 moves no more in their rounding.
+  // Times are summed in another order; their rounding changes a motion of 0.3 m/s and 15 m/s^2 by no more than
+  // this.
   for (std::size_t i = 0; i < history.x.size(); ++i) {
     const std::size_t now = i + 100;
     CHECK(std::abs(history.y[i] - all.samples[now].y) < 1e-14);
@@ -174,7 +175,7 @@ TEST_CASE("sampled steady states give the pairs of exact ones", "[measure]") {
   for (std::size_t i = 0; i < exact.size(); ++i) {
     const identify::Pair& pair = record.pairs->pairs[i];
     CHECK(pair.number == exact[i].number);
-    // What nine harmonics leave out of a Coulomb response (identify/records/derived_records.hpp).
+    // The part of a Coulomb response beyond nine harmonics (identify/records/derived_records.hpp).
     CHECK(pair.Y == Approx(exact[i].Y).epsilon(1e-9));
     CHECK(pair.x == Approx(exact[i].x).epsilon(1e-3));
     CHECK(pair.phase == Approx(exact[i].phase).epsilon(1e-4));

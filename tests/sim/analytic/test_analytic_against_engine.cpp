@@ -1,4 +1,4 @@
-// The event-driven engine and the closed forms know nothing of each other: they must agree.
+// The event-driven engine and the closed forms are independent of each other, and must agree.
 
 #include <algorithm>
 #include <catch2/catch.hpp>

@@ -9,7 +9,8 @@ TEST_CASE("Eq (18) gives the paper's transition velocity") {
   // K_y = 11.6e4 N/m, X_m = 4.25 mm, w = 38.5 rad/s, F_k = 3.5 N: 0.02748 m/s, printed as 0.028.
   const double V = transition_velocity(38.5, 4.25e-3, 3.5, 11.6e4).value();
   CHECK(V == Approx(0.02748).margin(5e-6));
-  // V_s goes with K^(-1/2), so the observed 0.024 m/s asks for a contact 31 % stiffer: 15.2e4 N/m.
+  // V_s is proportional to K^(-1/2), so the observed 0.024 m/s would need a contact that is 31 % stiffer: 15.2e4
+  // N/m.
   CHECK(contact_stiffness(38.5, 4.25e-3, 3.5, 0.024).value() == Approx(15.2e4).margin(0.05e4));
 }
 

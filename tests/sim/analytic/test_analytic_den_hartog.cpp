@@ -19,8 +19,9 @@ struct PhasePoint {
   double v = 0.0;
 };
 
-/// x'' + 2 zeta x' + x - x_f = Y cos(r t + phi), time in units of 1/wn: the half period with x' < 0, whatever the
-/// sign x' really takes. Runge-Kutta of order four with step pi/(r steps); an independent way to the same motion.
+/// x'' + 2 zeta x' + x - x_f = Y cos(r t + phi), time in units of 1/wn: the half period with the friction of x' <
+/// 0, for either sign of the computed x'. Runge-Kutta of order four with step pi/(r steps), an independent
+/// computation of the same motion.
 std::vector<PhasePoint> integrate_half_cycle(double zeta, double r, double Y, double x_f, double phi, PhasePoint s,
                                              int steps) {
   const auto acceleration = [=](double t, const PhasePoint& u) {
@@ -89,7 +90,7 @@ constexpr Reference references[] = {
 }  // namespace
 
 TEST_CASE("G, H, q and dG/dzeta agree with a 50-digit evaluation") {
-  // G is a quotient of sums of positive terms (below zeta = 1): a few dozen roundings. H is as sharp as the
+  // G is a quotient of sums of positive terms (below zeta = 1): a few dozen roundings. H is as accurate as the
   // distance of b from the next multiple of pi, which the smallest case here (zeta = 0.95, r = 0.1) takes from
   // terms 60 times larger. The derivative is a difference of terms of size G pi/r.
   for (const Reference& expected : references) {

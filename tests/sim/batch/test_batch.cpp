@@ -29,7 +29,7 @@ using friction::Memory;
 
 namespace {
 
-/// One oscillator in the terms of the theory.
+/// One oscillator by the parameters of the theory.
 struct Drawn {
   double zeta = 0.0;
   double r = 1.0;
@@ -50,7 +50,7 @@ void add(OscillatorBatch& batch, const Drawn& drawn, double mass = 1.0, double s
   batch.frequency.push_back(drawn.r * natural);
 }
 
-/// Anywhere in the class, sticking and near-resonant ones included; `slippery`: most do not stick.
+/// Any oscillator of the class, including sticking and near-resonant ones; `slippery`: most do not stick.
 OscillatorBatch random_batch(std::uint64_t seed, int count, bool slippery,
                              ExcitationType type = ExcitationType::base_harmonic,
                              DamperTo damper_to = DamperTo::ground) {
@@ -121,7 +121,7 @@ TEST_CASE("Batches give the same bits for every width and number of threads") {
       CHECK(here.engine == expected.engine);
     }
   }
-  // The comparison is one of packs, not of the engine with itself.
+  // So that the comparison is one of packs, not of the engine with itself.
   CHECK(std::count(reference.engine.begin(), reference.engine.end(), 0) > 9'000);
   CHECK(std::count(expected.engine.begin(), expected.engine.end(), 0) > 9'000);
 }
@@ -186,7 +186,7 @@ TEST_CASE("Orbits of batches are Den Hartog's, and where he has none the engine 
     INFO("zeta " << batch.damping[i] / 20.0 << " r " << batch.frequency[i] / 10.0 << " ratio " << ratios[i]);
     CHECK(std::abs(states.peak[i] - ratios[i] * x_f) < 1e-12 * states.peak[i]);
   }
-  // What is left to the engine: close to the boundary or to undamped resonance.
+  // Cases for the engine: close to the boundary or to undamped resonance.
   CHECK(skipped < 200);
 }
 
@@ -263,7 +263,7 @@ TEST_CASE("What packs cannot certify goes to the exact engine") {
 
 namespace {
 
-// Coulomb friction that no registry knows, and neighbours of it that are none.
+// Coulomb friction that is not in the registry, and similar laws that are not Coulomb friction.
 struct OtherCoulomb {
   static Affine affine_force(const Memory&, const Instant&, Direction direction) {
     return {.constant = 2.0 * friction::sign(direction)};
@@ -346,7 +346,8 @@ TEST_CASE("Batches are for plain springs and for drives of one harmonic without 
 }
 
 TEST_CASE("Packs leave out an orbit whose neighbours are steady within 1e-6, as the engine does") {
-  // Undamped at r = 1/2 every multiplier is 1 (a continuum of orbits); beside it they leave the circle as c.
+  // Undamped at r = 1/2 every Floquet multiplier is 1 (a continuum of orbits); near it their distance from the
+  // circle is proportional to c.
   OscillatorBatch batch;
   for (const double zeta : {1e-9, 1e-8, 1e-5}) add(batch, {.zeta = zeta, .r = 0.5, .friction = 0.1});
   const auto orbits = sliding_orbits(batch);

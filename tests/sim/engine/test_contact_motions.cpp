@@ -1,5 +1,5 @@
-/// Motions on contacts, damped or not, beside other friction: what a damped slider does beside a mass at rest, the
-/// limit of no damping, and both engines event by event.
+/// Motions on contacts, damped or not, beside other friction: a damped slider with a mass at rest, the limit of no
+/// damping, and the events of both engines compared.
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -47,7 +47,8 @@ sim::Model slowly_driven(double contact_damping) {
   return model;
 }
 
-/// Those of the mass, or else the mode changes of the laws, in the order of time. Grazings come and go by rounding.
+/// Events of the mass, or otherwise the mode changes of the laws, in the order of time. Grazings are left out,
+/// because rounding decides them.
 std::vector<Event> chosen(const std::vector<Event>& events, bool switching) {
   std::vector<Event> result;
   for (const Event& event : events) {
@@ -57,9 +58,9 @@ std::vector<Event> chosen(const std::vector<Event>& events, bool switching) {
   return result;
 }
 
-/// What differs first, or nothing. A slider that stops where the mass does may do so before or after it: mode
-/// changes are compared apart from the rest. They may differ by a hundred times as much: a contact at its limit
-/// where the mass is released without acceleration breaks away as soon as the cube of time exceeds rounding.
+/// The first difference, or nothing. A slider that stops with the mass may stop before or after it, so mode changes
+/// are compared separately. They may differ by a hundred times as much: a contact at its limit where the mass is
+/// released without acceleration breaks away as soon as the cube of time exceeds rounding.
 std::string difference(const std::vector<Event>& a, const std::vector<Event>& b, double time) {
   for (const bool switching : {false, true}) {
     const std::vector<Event> left = chosen(a, switching);
@@ -152,7 +153,7 @@ class RandomContacts {
   void contact() {
     const double level = kinetic();
     const double limit = static_level(level);
-    // The smooth engine knows a contact's force to its stiffness times 1e-13 of the motion.
+    // In the smooth engine the error of a contact's force is its stiffness times 1e-13 of the motion.
     const double stiffest = std::min(1e8, 3e3 * level / force_);
     const double stiffness = model_.oscillator.stiffness * random_.logarithmic(1e-3, stiffest);
     const double damping = random_.chance(0.3) ? 0.0 : stiffness * time_ * random_.logarithmic(1e-12, 10.0);
@@ -174,8 +175,8 @@ class RandomContacts {
   std::string words_;
 };
 
-/// When the mass first slips by less than a part of 1e-7 of `length`: the accuracy of the smooth engine does not
-/// tell how long such slips last. Infinite: never.
+/// Time at which the mass first slips by less than 1e-7 of `length`. The smooth engine is not accurate enough for
+/// the duration of such slips. Infinite: never.
 double first_short_slip(const std::vector<Event>& events, double length) {
   const std::vector<Event> motion = chosen(events, false);
   for (std::size_t i = 1; i < motion.size(); ++i) {
@@ -185,7 +186,7 @@ double first_short_slip(const std::vector<Event>& events, double length) {
   return std::numeric_limits<double>::infinity();
 }
 
-/// Those before a time.
+/// The events before a time.
 std::vector<Event> before(std::vector<Event> events, double time) {
   std::erase_if(events, [&](const Event& event) { return event.t >= time; });
   return events;
@@ -254,7 +255,7 @@ TEST_CASE("Random contacts beside other friction move alike under both engines, 
 
 TEST_CASE("A contact at its limit where the mass is released lets go once, however small its damping",
           "[contacts]") {
-  // The slider starts with the speed of the mass, 1e-13 m/s by rounding; steps longer than its decay told it to
+  // The slider starts with the speed of the mass, 1e-13 m/s by rounding; with steps longer than its decay it would
   // stop.
   sim::Model model;
   model.oscillator = {.mass = 1.282452635681383, .stiffness = 21.131695874858067, .damping = 0.37715124127075184};
@@ -274,7 +275,7 @@ TEST_CASE("A contact at its limit where the mass is released lets go once, howev
 }
 
 TEST_CASE("The slider of a damped contact beside a mass at rest creeps on while its limit falls", "[contacts]") {
-  // It starts from no speed, and ends at the speed at which its spring relaxes.
+  // It starts with speed 0, and ends at the speed at which its spring relaxes.
   sim::Model model;
   model.oscillator = {.mass = 1.0, .stiffness = 100.0, .damping = 1.0};
   model.friction = {
@@ -299,7 +300,8 @@ TEST_CASE("The slider of a damped contact beside a mass at rest creeps on while 
 
 TEST_CASE("A stiff bond at its limit that the mass relieves before it stretches again holds", "[contacts]") {
   // The limit falls at t = 0.890793 s while the bond, which yields within 1e-10 m, is stretched backward and the
-  // mass moves forward. It turns back 3.6e-5 s later, before the guard has left what a step lands by.
+  // mass moves forward. It turns back 3.6e-5 s later, before the guard has changed by more than the accuracy with
+  // which a step ends.
   sim::Model model;
   model.oscillator = {.mass = 124.04029354253345, .stiffness = 156061.5231458529, .damping = 11530.58816591984};
   const friction::ParameterValues fluctuation{
@@ -332,8 +334,8 @@ TEST_CASE("A contact too stiff for double precision is refused, with a stiffness
     CHECK(refused.outcome.reason.find("friction law 1 is too stiff for double precision") != std::string::npos);
     CHECK(refused.outcome.reason.find("times smaller would do") != std::string::npos);
   }
-  // The stiffest that is taken: above the peak of rigid friction by 0.02161 m (N/m)^(1/2)/sqrt(stiffness), a
-  // constant found at 1e10 and 1e12 N/m.
+  // The largest stiffness that is accepted: above the peak of rigid friction by 0.02161 m
+  // (N/m)^(1/2)/sqrt(stiffness), a constant found at 1e10 and 1e12 N/m.
   const sim::SteadyState taken = state(1e13, SolverKind::automatic);
   REQUIRE(taken.outcome.ok());
   CHECK(taken.peak - 0.18607809795678620 == Approx(0.02161 / std::sqrt(1e13)).epsilon(1e-3));
@@ -341,8 +343,8 @@ TEST_CASE("A contact too stiff for double precision is refused, with a stiffness
 }
 
 TEST_CASE("a stiff contact that lets go at little speed slides until that speed is used up", "[sim][exact]") {
-  // A limit of 4e4 N that falls a little, behind 1e10 N/m on a spring of 1e-3 N/m: the speed at the release was
-  // taken for rounding of the contact's force. Friction alone uses it up.
+  // A limit of 4e4 N that falls a little, behind 1e10 N/m on a spring of 1e-3 N/m: the speed at the release is
+  // small, but it is not rounding of the contact's force. Only friction stops the mass.
   constexpr double limit = 4e4;
   constexpr double stiffness = 1e10;
   sim::Model model;

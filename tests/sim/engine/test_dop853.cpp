@@ -17,8 +17,8 @@ double moment(const Row& row, int power, std::size_t count = dop853::all_stages)
 
 }  // namespace
 
-// What every stage asks: it belongs to its node. From the third on they are of second order, which is what lets so
-// few stages reach order 8 (hairer1993, II.5).
+// Condition of every stage: its row sum is its node. From the third stage on they are of second order, which allows
+// order 8 with so few stages (hairer1993, II.5).
 TEST_CASE("DOP853: each stage belongs to its node") {
   for (std::size_t i = 1; i < dop853::all_stages; ++i) {
     CAPTURE(i);

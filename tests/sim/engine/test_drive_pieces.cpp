@@ -190,7 +190,7 @@ TEST_CASE("motions under samples follow brute-force integration event by event",
     for (std::size_t i = 0; i < std::min(found.events.size(), expected.events.size()) && alike; ++i) {
       alike = found.events[i].kind == expected.events[i].kind &&
               std::abs(found.events[i].t - expected.events[i].t) < 1e-8 / wn;
-      // Two events within a step of the integration are not seen there; nothing else may differ.
+      // Two events within one step of the integration may be missed there; nothing else may differ.
       const bool close = i + 1 < found.events.size() && found.events[i + 1].t - found.events[i].t < 0.02 / wn;
       if (!alike && close) break;
       CHECK(alike);
@@ -271,8 +271,8 @@ TEST_CASE("a base that jumps does work on the spring", "[drive]") {
 }
 
 TEST_CASE("a law with modes sees no switching that pieces of a drive only seem to make", "[drive]") {
-  // Pieces of a fast chirp: the coefficients of s^2 and s^3 are 1e6 and 1e11 times the motion, which may not count
-  // as its rounding at s = 0.
+  // Pieces of a fast chirp: the coefficients of s^2 and s^3 are 1e6 and 1e11 times the motion, which must not count
+  // as rounding of the motion at s = 0.
   Model model;
   model.oscillator = {.mass = 0.01, .stiffness = 8800.0, .damping = 6e-4};
   model.excitation = {.type = ExcitationType::base_chirp,
@@ -302,8 +302,8 @@ TEST_CASE("a law with modes sees no switching that pieces of a drive only seem t
 }
 
 TEST_CASE("the energy account under a cubic drive holds where the mass only creeps", "[drive]") {
-  // The damper of 2e6 N s/m decides the motion: x' = k (y - x)/c, whose square is of degree six in time, while the
-  // only rate that lasts is k/c = 0.05/s.
+  // The damper of 2e6 N s/m decides the motion: x' = k (y - x)/c, whose square is of degree six in time; the only
+  // slow rate is k/c = 0.05/s.
   Model model;
   model.oscillator = {.mass = 0.93, .stiffness = 1e5, .damping = 2e6};
   std::vector<double> t{0.0};

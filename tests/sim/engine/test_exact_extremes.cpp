@@ -111,7 +111,7 @@ TEST_CASE("Amplitudes of 1e-200 move like those of 1", "[exact]") {
 }
 
 TEST_CASE("A growing own motion disturbs no release of a sticking mass", "[exact]") {
-  // The base moves at 1e-5 m/s until 100 N/m reach 2 N; the own motion would have grown by e^12000.
+  // The base moves at 1e-5 m/s until 100 N/m reach 2 N; the free motion would have grown by e^12000.
   Model model = ramped(1.0, 100.0, -12.0, ExcitationType::base_ramp, 1e-5);
   model.friction.push_back(coulomb(2.0, 2.0));
   const std::vector<test::EngineEvent> events = events_of(model, 2100.0, 1);

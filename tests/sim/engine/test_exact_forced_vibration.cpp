@@ -67,9 +67,9 @@ TEST_CASE("The engine follows brute-force integration event by event", "[exact]"
 }
 
 TEST_CASE("Random oscillators follow brute-force integration event by event", "[exact]") {
-  // DUALDAMP_WALK_CASES for a longer run. Brute force looks at the velocity 400 times a period of the fastest part:
-  // it cannot see slips and stops shorter than that. The comparison ends at the first of them, and where a touch of
-  // the limits is decided by less than its errors.
+  // DUALDAMP_WALK_CASES for a longer run. Brute force evaluates the velocity 400 times in a period of the fastest
+  // part, so it misses shorter slips and stops. The comparison ends at the first of them, and where its errors
+  // decide whether a limit is reached.
   const long cases = test::case_count("DUALDAMP_WALK_CASES", 150);
   Random random(25);
   long compared = 0;
@@ -155,7 +155,7 @@ TEST_CASE("A strong drive reverses the mass without stick, twice a period", "[ex
 }
 
 TEST_CASE("A periodic motion keeps its phase over a thousand periods", "[exact]") {
-  // With stops, so that every period starts afresh: events fall at the same place of every period.
+  // With stops, after which the motion does not depend on its past: events are at the same place of every period.
   Model model = standard(6.0, 7.0);
   model.excitation.frequency = 7.3;
   const double period = 2.0 * pi / 7.3;
@@ -175,8 +175,8 @@ TEST_CASE("A periodic motion keeps its phase over a thousand periods", "[exact]"
 }
 
 TEST_CASE("Events on a period boundary are neither lost nor doubled", "[exact]") {
-  // The same motion seen from another origin of time, put so that each event in turn falls on the boundary: the
-  // phase of the drive and the state are those of the first run one period before the event.
+  // The same motion with another origin of time, chosen so that each event in turn is on the boundary: the phase of
+  // the drive and the state are those of the first run one period before the event.
   for (const Model& model : {standard(), standard(5.0, 6.5)}) {
     const double period = 2.0 * pi / model.excitation.frequency;
     ExactEngine engine(model);
@@ -193,8 +193,7 @@ TEST_CASE("Events on a period boundary are neither lost nor doubled", "[exact]")
         shifted.excitation.phase = std::remainder(model.excitation.frequency * origin, 2.0 * pi);
         const auto seen = events_of(shifted, 3.0 * period);
         CAPTURE(i, offset);
-        // The first event behind the origin that is surely seen: those within rounding of it may belong to either
-        // run.
+        // The first event that is certainly after the origin: those within rounding of it may belong to either run.
         std::size_t k = 0;
         while (k < seen.size() && seen[k].t < 0.01 * period) ++k;
         std::size_t j = settled - 10;
@@ -286,7 +285,8 @@ TEST_CASE("Without friction a mass in equilibrium stays until the drive moves it
 
 TEST_CASE("The sensitivity is the derivative of the end state by the start", "[exact]") {
   // Central differences of second order: (relative step)^2 = 1e-12 and rounding 1e-15/1e-6 leave 1e-8 of the
-  // largest entry. A stop makes the map forget the direction of the perturbation: its determinant is zero.
+  // largest entry. After a stop the map does not depend on the direction of the perturbation: its determinant is
+  // zero.
   Random random(26);
   int stopped = 0;
   for (int i = 0; i < 60; ++i) {

@@ -46,8 +46,8 @@ TEST_CASE(
 }
 
 TEST_CASE("Without friction the engine is the linear oscillator", "[exact]") {
-  // Position against 50 digits at many times of 50 periods. Phases end at turning points, each of which adds a few
-  // eps.
+  // Position against 50 digits at many times of 50 periods. Intervals end at turning points, each of which adds a
+  // few eps.
   Random random(22);
   for (const double zeta : {0.0, 0.02, 0.7, 1.0, 3.0}) {
     for (const DamperTo damper : {DamperTo::ground, DamperTo::base}) {
@@ -82,7 +82,7 @@ TEST_CASE("A free undamped oscillator keeps time over a thousand periods", "[exa
   REQUIRE(events.size() == 2000);
   for (std::size_t n = 0; n < events.size(); n += 111) {
     const double expected = static_cast<double>(n + 1) * pi / 10.0;
-    // Every half period adds a few eps of itself and rounding of the sum of times.
+    // Every half period adds a few relative eps and the rounding of the sum of times.
     CHECK(std::abs(events[n].t - expected) <= 4 * epsilon * expected * std::sqrt(static_cast<double>(n + 1)));
     CHECK(std::abs(std::abs(events[n].x) - 1.0) <= 4 * epsilon * static_cast<double>(n + 1));
   }

@@ -27,7 +27,7 @@ struct Candidate {
   [[nodiscard]] bool has_equal_limits() const { return static_level == kinetic; }
 };
 
-/// Nothing next to critical damping or next to an undamped resonance.
+/// Nothing near critical damping or near an undamped resonance.
 std::optional<Candidate> random_candidate(Random& random) {
   const double wn = random.logarithmic(1.0, 100.0);
   const double m = random.logarithmic(0.1, 10.0);
@@ -67,7 +67,7 @@ ReleaseAngle release_angle(const Candidate& candidate, double sign) {
   return {sign, level, -static_cast<long double>(sign) * std::sqrt(1.0L - level * level)};
 }
 
-/// How long the slip lasts by the closed form; nothing when it lasts longer than three periods.
+/// Duration of the slip by the closed form; nothing when it is longer than three periods.
 std::optional<long double> slip_duration(const Candidate& candidate, const ReleaseAngle& release, double period) {
   const Oscillator& oscillator = candidate.model.oscillator;
   const Excitation& base = candidate.model.excitation;

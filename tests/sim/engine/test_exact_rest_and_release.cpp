@@ -47,7 +47,7 @@ TEST_CASE("A start exactly at the limit stays while the pull falls and slips whi
 }
 
 TEST_CASE("Beside a mass at rest a contact at its limit neither breaks away nor holds on again", "[exact]") {
-  // The contact was dragged along until the mass stopped: it stands stretched to its limit, within rounding.
+  // The contact was dragged until the mass stopped, so it is stretched to its limit, within rounding.
   Random random(27);
   int stretched = 0;
   for (int i = 0; i < 200; ++i) {
@@ -68,9 +68,9 @@ TEST_CASE("Beside a mass at rest a contact at its limit neither breaks away nor 
 }
 
 TEST_CASE("A release is not taken back by the rounding of a contact that lets go with it", "[exact]") {
-  // The contact still stands at its limit on the side to which the mass is released: it lets go at once, and with
-  // it goes a force k x a thousand times those that decide between slip and rest. With static = kinetic the slip
-  // then begins without acceleration.
+  // The contact is still at its limit on the side to which the mass is released, so it lets go at once. Its force k
+  // x is a thousand times those that decide between slip and stick. With static = kinetic the slip then begins
+  // without acceleration.
   Random random(28);
   int together = 0;
   for (int i = 0; i < 300; ++i) {
@@ -103,12 +103,12 @@ TEST_CASE("A harmonic pull at the limit at the start: growing, falling and at it
     const ExactEngine engine(model);
     CHECK(engine.direction() == (rate > 0.0 ? Direction::forward : Direction::none));
   }
-  // At the crest, pull = static = 10 N: equality holds and the pull falls on both sides.
+  // At the crest, pull = static = 10 N: equality holds the mass, and the pull falls on both sides.
   Model crest = base_driven(1.0, 100.0, 4.0, 0.1, 10.0);
   crest.friction.push_back(coulomb(10.0, 10.0));
   ExactEngine engine(crest);
   CHECK(engine.direction() == Direction::none);
-  // And it comes back to the crest, once a period, without ever crossing.
+  // The pull returns to the crest once a period and never crosses it.
   CHECK(events_of(engine, 10.0).empty());
 }
 
@@ -179,7 +179,7 @@ TEST_CASE("Release under a ramp with damping never comes to rest again", "[exact
     const auto events = events_of(engine, 200.0);
     REQUIRE(events.size() == 1);
     CHECK(events[0].t == Approx(0.5).epsilon(4 * epsilon));
-    // The own motion has fallen by exp(-200/4): x = (f - F_friction - c v)/k with v = -0.06.
+    // The free motion has decreased by exp(-200/4): x = (f - F_friction - c v)/k with v = -0.06.
     CHECK(engine.velocity() == Approx(-0.06).epsilon(1e-12));
     CHECK(engine.position() == Approx((-600.0 + 1.5 + 0.06) / 50.0).epsilon(1e-12));
   }
@@ -187,8 +187,8 @@ TEST_CASE("Release under a ramp with damping never comes to rest again", "[exact
 
 TEST_CASE("Stick-slip under a base ramp with static > kinetic, every slip and stick in closed form", "[exact]") {
   // No damping. In the frame of the moving base the slip is an arc of a circle: v = V (1 - cos s) + D/(m w) sin s
-  // with D = static - kinetic. It ends at w s = 2 (pi - atan(D w/(k V))) with the spring D below kinetic, as far as
-  // it began above: x moves by V s + 2 D/k, and rest lasts 2 D/(k V).
+  // with D = static - kinetic. It ends at w s = 2 (pi - atan(D w/(k V))) with the spring D below kinetic; it began
+  // D above it. x moves by V s + 2 D/k, and the stick lasts 2 D/(k V).
   const double m = 0.5;
   const double k = 200.0;
   const double speed = 0.03;
@@ -225,9 +225,9 @@ TEST_CASE("Stick-slip under a base ramp with static > kinetic, every slip and st
 }
 
 TEST_CASE("A mass that no law holds moves on where a slow drive turns beside a fast decay", "[exact]") {
-  // On a contact far stiffer than the spring and under a heavy damper the mass follows the drive and turns where
-  // the drive does. There the Taylor coefficients of the pull, in units of the fastest decay, are within rounding
-  // of kt x; the mass was taken to rest for ever.
+  // With a contact far stiffer than the spring and a strong damper the mass follows the drive and reverses with it.
+  // There the Taylor coefficients of the pull, in units of the fastest decay, are within rounding of kt x; the mass
+  // must not stick for ever.
   for (const double damping : {24.0, 240.0, 2400.0}) {
     Model model = base_driven(0.18, 0.009, damping, 2.8e-3, 1.2);
     model.friction.push_back(friction::Law(friction::ContactCompliance(1e-3, 1e-3, 5.5e5, 0.0)));

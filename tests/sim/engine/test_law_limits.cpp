@@ -1,5 +1,5 @@
-// Laws towards simpler ones, at the order that theory says: the slope of the error of the steady amplitude of the
-// standard system over a parameter, both logarithmic. docs/smooth-engine.md lists them.
+// Convergence of laws to simpler ones, with the order of the theory: the slope of the error of the steady amplitude
+// of the standard system over a parameter, both logarithmic. docs/smooth-engine.md lists them.
 
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -45,7 +45,7 @@ double order(const std::function<double(double parameter)>& error, double first,
   return std::log(std::abs(error(second) / error(first))) / std::log(second / first);
 }
 
-/// The same of the amplitude of a law that tends to one of this amplitude.
+/// The same for the amplitude of a law that tends to one of this amplitude.
 double order(const std::function<Law(double parameter)>& law, double limit, double first, double second) {
   return order([&](double parameter) { return amplitude(law(parameter)) - limit; }, first, second);
 }
@@ -59,7 +59,8 @@ ParameterValues stribeck_curve(double velocity) {
 }  // namespace
 
 TEST_CASE("limits: compliant laws tend to coulomb as stiffness^(-1/2)", "[limits]") {
-  // The contact turns over within x = 2 F/k of a turning point, where x is parabolic: for a time of k^(-1/2).
+  // The contact reverses its force within x = 2 F/k of a turning point, where x is parabolic: for a time of
+  // k^(-1/2).
   const double rigid = coulomb_amplitude();
   const auto contact = [](double k) {
     return make("contact_compliance", {{"kinetic", 2.0}, {"contact_stiffness", k}});
@@ -71,7 +72,7 @@ TEST_CASE("limits: compliant laws tend to coulomb as stiffness^(-1/2)", "[limits
     return make("bouc_wen", {{"limit", 2.0}, {"stiffness", k}, {"exponent", 2.0}});
   };
   CHECK(order(bouc_wen, rigid, 1e6, 1e7) == Approx(-0.5).margin(0.01));
-  // Its damper goes with sqrt(sigma0), so that the bristles keep their damping ratio.
+  // Its damper is proportional to sqrt(sigma0), so that the bristles keep their damping ratio.
   const auto lugre = [](double k) {
     return make("lugre", {{"kinetic", 2.0}, {"stribeck_velocity", 0.05}, {"sigma0", k}, {"sigma1", std::sqrt(k)}});
   };
@@ -136,7 +137,7 @@ TEST_CASE("limits: viscous laws tend to a dashpot at first order", "[limits]") {
     return make("viscous_saturating", {{"coefficient", C}, {"saturation_velocity", 1.0 / flatness}});
   };
   CHECK(order(saturating, dashpot, 2e-3, 1e-3) == Approx(1.0).margin(0.01));
-  // A power of nothing is coulomb; the least velocities weigh by their logarithm, which is integrable.
+  // The power 0 is coulomb; small velocities contribute by their logarithm, which is integrable.
   const auto flat = [](double exponent) {
     return make("viscous_power", {{"coefficient", 2.0}, {"exponent", exponent}});
   };
@@ -164,7 +165,7 @@ TEST_CASE("limits: uniform iwan tends to its continuum as count^(-2)", "[limits]
 }
 
 TEST_CASE("limits: a sharper bouc_wen tends to contact_compliance as exponent^(-2)", "[limits]") {
-  // The force differs by F/n over a way of z0/n, where the slider begins to slide.
+  // The force differs by F/n over a distance of z0/n, where the slider begins to slide.
   const double k = 1e3;
   const double sharp = amplitude(make("contact_compliance", {{"kinetic", 2.0}, {"contact_stiffness", k}}));
   const auto bouc_wen = [&](double exponent) {
@@ -174,8 +175,8 @@ TEST_CASE("limits: a sharper bouc_wen tends to contact_compliance as exponent^(-
 }
 
 TEST_CASE("limits: a mass that a small power of speed nearly holds creeps, as its closed form says", "[limits]") {
-  // The speed is (pull/1 N)^20 m/s: 5e-7 of what the mass would have without friction, and far below rounding where
-  // the pull turns.
+  // The speed is (pull/1 N)^20 m/s: 5e-7 of the speed without friction, and far below rounding where the pull
+  // changes its sign.
   sim::Model model = test::standard_system(make("viscous_power", {{"coefficient", 1.0}, {"exponent", 0.05}}));
   model.excitation.amplitude = 0.005;
   const sim::SteadyState creep = sim::steady_state(model);
@@ -183,7 +184,7 @@ TEST_CASE("limits: a mass that a small power of speed nearly holds creeps, as it
   REQUIRE(creep.outcome.ok());
   const double stroke = std::pow(0.5, 20.0) * std::numbers::pi * 184756.0 / 1048576.0 / model.excitation.frequency;
   CHECK(creep.peak == Approx(0.5 * stroke).epsilon(2e-4));
-  // Nearly Coulomb friction, of which the pull is 0.999 to 1.1 at most.
+  // Nearly Coulomb friction; the largest pull is 0.999 to 1.1 of it.
   for (const double amplitude : {0.00999, 0.011}) {
     for (const double exponent : {0.2, 0.1, 0.05, 0.02}) {
       INFO(amplitude << " m, exponent " << exponent);
@@ -198,7 +199,7 @@ TEST_CASE("limits: a mass that a small power of speed nearly holds creeps, as it
 }
 
 TEST_CASE("limits: random and varying laws agree in both engines", "[limits]") {
-  // The others that are affine: tests/sim/engine/test_smooth_engine.cpp.
+  // Other affine laws: tests/sim/engine/test_smooth_engine.cpp.
   const auto noise = [](const std::string& correlation, double value) {
     const ParameterValues record{{"ratio", 0.3}, {correlation, value}, {"seed", 5.0}};
     return ParameterValues{{"kinetic", 2.0}, {"fluctuation", std::vector<ParameterValues>{record}}};
@@ -222,7 +223,7 @@ TEST_CASE("limits: random and varying laws agree in both engines", "[limits]") {
 }
 
 TEST_CASE("limits: elements that are laws of their own under a vanishing drift move like one law", "[limits]") {
-  // The limits change by 1e-13 of themselves in 1.26 s. 60 elements: more than a system has laws in its file.
+  // The limits change by a relative 1e-13 in 1.26 s. 60 elements: more than a file may have laws.
   ParameterValues values{{"stiffness", 1e3}, {"limit", 2.0}, {"count", 60.0}};
   sim::Model model = test::standard_system(make("iwan", values));
   const sim::History together = sim::simulate(model, {.duration = 1.26});

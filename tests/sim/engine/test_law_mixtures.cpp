@@ -1,5 +1,5 @@
-/// Whole motions under one to three laws with modifiers, drawn at random through the registry: each comes to its
-/// end and balances its energy. And by name the mode changes that such motions once got caught in.
+/// Whole motions under one to three laws with modifiers, drawn at random from the registry: each must reach its end
+/// and balance its energy. Then single motions with mode changes that could repeat without end.
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -58,7 +58,7 @@ Motion motion_of(const sim::Oscillator& oscillator, double amplitude, double fre
   return motion;
 }
 
-/// Draws laws whose limits are shares of the drive's force, and whose stiffnesses range far around the
+/// Draws laws whose limits are shares of the drive's force, and whose stiffnesses range widely around the
 /// oscillator's.
 class RandomLaws {
  public:
@@ -104,7 +104,7 @@ class RandomLaws {
     }
     return values;
   }
-  /// Its force jumps when it holds again: under limits that fall too fast there may be no motion, see below.
+  /// Its force jumps when it sticks again: under limits that fall too fast there may be no motion, see below.
   ParameterValues reset_integrator() {
     ParameterValues values{{"kinetic", force()}, {"stiffness", stiffness_ * random_.logarithmic(0.3, 1e3)}};
     if (random_.chance(0.6)) values.set("static_gain", random_.uniform(0.0, 1.0));
@@ -149,7 +149,7 @@ class RandomLaws {
   double length_ = 0.0;     ///< m, of the drive
   double stiffness_ = 0.0;  ///< N/m, of the oscillator
   double time_ = 0.0;       ///< s, of the oscillator
-  // Of the law being drawn.
+  // For the law that is drawn.
   double steepest_ = 0.0;  ///< N/m, largest slope of its limits over position
   bool may_fall_ = true;   ///< its limits, with time
 };
@@ -180,7 +180,7 @@ struct Switchings {
   int at_once = 0;
 };
 
-/// Adds those of a motion, which comes to its end.
+/// Adds those of a motion, which must reach its end.
 void count_switchings(const Motion& motion, double periods, Switchings& count) {
   const double duration = periods * 2.0 * std::numbers::pi / motion.model.excitation.frequency;
   const sim::History history = sim::simulate(motion.model, {.duration = duration});
@@ -210,8 +210,8 @@ Switchings count_switchings(std::string_view law, std::uint64_t seed, double per
   return count;
 }
 
-/// Every work is a sum over phases, known to the rounding of its terms: some 10 eps of the work that went to and
-/// fro. That is more than the net work: the support spring takes up k Y^2 and gives it back in every period.
+/// Every work is a sum over intervals, with the rounding of its terms: some 10 eps of the sum of their magnitudes.
+/// This sum is more than the net work: the support spring takes k Y^2 and returns it in every period.
 double relative_defect(const sim::Model& model, const sim::Energy& energy, double periods) {
   const double drive = model.excitation.amplitude;
   const double swapped = model.oscillator.stiffness * drive * drive * periods;
@@ -246,8 +246,8 @@ TEST_CASE("Random motions under laws with modifiers come to their end and balanc
 }
 
 TEST_CASE("A damped contact that breaks away does not hold on again by rounding", "[mixtures]") {
-  // Stuck, its guard is kinetic - (k u + c v); sliding, the same over c, computed from a stretch of its own. Both
-  // are zero at break-away. The mass has just started, so what is left of amplitudes thousands of times larger
+  // In stick its guard is kinetic - (k u + c v); in slip it is the same over c, computed from another stretch. Both
+  // are zero at break-away. The mass has just started, so the rounding of amplitudes thousands of times larger
   // decides.
   const Switchings count = count_switchings("contact_compliance", 29, 3.0, [](test::Random& random) {
     return ParameterValues{{"kinetic", random.logarithmic(0.1, 1.0)},
@@ -293,9 +293,9 @@ TEST_CASE("A bond under a limit that falls as steeply as its spring does not bre
 }
 
 TEST_CASE("A damped bond under a falling limit may have no motion, which is an outcome", "[mixtures]") {
-  // Dragged on the left while the mass moves right, the bond's end stops when v = rate/stiffness. Sliding, the mass
-  // is accelerated there; holding, the damper slows it down: v then falls behind the limit and the bond slides
-  // again.
+  // The bond is dragged on the left while the mass moves right; its end stops when v = rate/stiffness. If the bond
+  // slides, the mass is accelerated there. If it holds, the damper slows the mass down, v falls behind the limit,
+  // and the bond slides again.
   const double kinetic = 2.0;
   const double stiffness = 20.0;
   const double damping = 40.0;

@@ -1,5 +1,5 @@
-/// Whole motions with one to three laws in parallel, against brute-force integration of the laws' equations written
-/// down a second time; and their energy account.
+/// Whole motions with one to three laws in parallel, against brute-force integration of an independent version of
+/// the laws' equations; and their energy balance.
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -23,7 +23,8 @@ struct Timed {
   EventKind kind = EventKind::reversal;
 };
 
-/// Reversals, stops and releases, or else switchings: where both fall within rounding their order is left open.
+/// Reversals, stops and releases, or otherwise switchings; if both are within rounding, their order is not
+/// compared.
 template <class Events>
 std::vector<Timed> timed(const Events& events, bool switching) {
   std::vector<Timed> result;
@@ -42,7 +43,7 @@ struct MotionTally {
   double worst_defect = 0.0;
 };
 
-/// Two of one kind closer than brute force looks: it may have missed both.
+/// Two events of one kind that are closer than the steps of brute force: it may have missed both.
 bool is_blinded(const std::vector<Timed>& events, double blind) {
   return std::ranges::adjacent_find(events, [&](const Timed& a, const Timed& b) { return b.t - a.t < blind; }) !=
          events.end();

@@ -1,9 +1,9 @@
 /// After every release the next event: nothing missed, nothing invented, of the right kind and of the right
 /// element, for every exact law.
 ///
-/// A release is any event at which something lets go: a contact, an element or a bond breaks away, a bristle snaps,
-/// the mass leaves rest, or it starts again after a reversal at which a slider came to stand. The engine's next
-/// event is compared with the closed form of the interval, from the engine's x, v and t at the release and the
+/// A release here is any event at which something lets go: a contact, an element or a bond breaks away, a bristle
+/// snaps, the mass starts from rest, or it starts again after a reversal at which a slider stopped. The engine's
+/// next event is compared with the closed form of the interval, from the engine's x, v and t at the release and the
 /// places of all sliders that the test keeps itself, by the oracle's rigorous search
 /// (tests/support/plain_interval).
 
@@ -34,7 +34,7 @@ struct ReleaseTally {
   long oscillators = 0;
   long releases = 0;
   long compared = 0;      ///< next events
-  long sharp = 0;         ///< of these, known to 1e-10 of the time from the release
+  long sharp = 0;         ///< number of these with a time that is known to 1e-10 of the time from the release
   long double_roots = 0;  ///< intervals after a release with a guard that begins with one
   double shortest = 1.0;  ///< from a release to the next event, in periods
   double worst = 0.0;     ///< relative error of that time, of the sharp ones
@@ -99,7 +99,7 @@ bool Walk::step() {
   }
   if (expected.empty() || expected.front().s > 2.9 * period) return found ? fail("invented") : false;
   if (!found) return fail(fmt::format("missed at {:.17g}", expected.front().s));
-  // Of events that rounding puts in order the engine may take any.
+  // Of events within rounding of each other the engine may take any.
   const bool turns = found->kind == EventKind::reversal || found->kind == EventKind::stop;
   const auto same = std::ranges::find_if(
       expected, [&](const NextEvent& event) { return turns == (event.what == NextEvent::What::reversal); });

@@ -73,7 +73,7 @@ class SolvedMode {
   ModeFunction f_;
 };
 
-/// The fastest rate of all that takes part.
+/// The fastest rate of all parts of the motion.
 double fastest(const LinearProblem& p) {
   const double half = std::abs(p.damping) / (2.0 * p.mass);
   double rate = half + std::sqrt(std::abs(p.stiffness / p.mass - half * half));
@@ -93,9 +93,9 @@ std::string describe(const LinearProblem& p, double s) {
   return text.str();
 }
 
-/// The scale on which positions are sums: the parts of the particular solution, constant/K, ramp C/K^2 and the
-/// like. Written with the own exponents f and g they are force/(m f g), ramp (f + g)/(m f^2 g^2); where f vanishes
-/// beside the drive's frequency, or beside g, it is divided differences that count, and these parts stop growing.
+/// The scale of positions, which are sums: the parts of the particular solution, constant/K, ramp C/K^2 and the
+/// like. Written with the own exponents f and g they are force/(m f g), ramp (f + g)/(m f^2 g^2); where f is small
+/// beside the drive's frequency, or beside g, divided differences replace these parts, which do not grow further.
 double deflection(const LinearProblem& p) {
   const double half = std::abs(p.damping) / (2.0 * p.mass);
   const double beat = std::sqrt(std::abs(p.stiffness / p.mass - half * half));
@@ -116,9 +116,9 @@ double deflection(const LinearProblem& p) {
          p.mass;
 }
 
-/// Errors are judged in eps (1 + |z| s) of the largest size of the motion so far and of the deflection. Rounding of
-/// z s turns and scales an element by eps |z| s; exponents as close as one part in 100 are still written apart and
-/// cancel two digits; sums lose a few ulps. Together that stays below 512.
+/// Errors are measured in eps (1 + |z| s) of the largest size of the motion so far and of the deflection. Rounding
+/// of z s rotates and scales an element by eps |z| s; exponents as close as one part in 100 are still separate
+/// terms, which cancel two digits; sums lose a few ulps. The total is below 512.
 constexpr double allowed_units = 512.0;
 
 struct Unit {
@@ -157,7 +157,7 @@ void check(const Case& c, double s) {
         allowed_units * unit.force);
 }
 
-/// A time between a hundredth and 30 units of the oscillator's own; growth stays below exp(20).
+/// A time between a hundredth and 30 time units of the oscillator; growth is below exp(20).
 double random_time(const LinearProblem& p, Random& random) {
   const double half = p.damping / (2.0 * p.mass);
   const double growth = std::max(0.0, -half + std::sqrt(std::max(0.0, half * half - p.stiffness / p.mass)));
@@ -330,7 +330,7 @@ TEST_CASE("No chain joins exponents that are far from each other") {
     const double fast = std::abs(half) + std::sqrt(std::max(0.0, half * half - p.stiffness / p.mass));
     for (int k = 0; k < basis.size(); ++k) {
       for (int j = basis.parent(k); j >= 0; j = basis.parent(j)) {
-        // Close as the header of the mode means it: three of them may be two steps apart.
+        // Close in the sense of the header of the mode: three of them may be two steps apart.
         const double distance = std::abs(basis.exponent(k) - basis.exponent(j));
         const double size = std::max(std::abs(basis.exponent(k)), std::abs(basis.exponent(j)));
         INFO(describe(p, 0.0));
@@ -369,7 +369,7 @@ TEST_CASE("Forces are represented as they are given") {
 }
 
 TEST_CASE("The propagator is the derivative of the motion by its start, with the determinant exp(-C s/m)") {
-  // The motion is affine in its start: differences of solutions are exact but for rounding. Abel's identity fixes
+  // The motion is affine in its start: differences of solutions are exact within rounding. Abel's identity fixes
   // the determinant.
   Random random(17);
   for (int i = 0; i < 300; ++i) {
@@ -408,7 +408,7 @@ TEST_CASE("The propagator is the derivative of the motion by its start, with the
     CHECK(std::abs(propagator(1, 1) - by_velocity.v) <= unit);
     CHECK(std::abs(propagator.determinant() - std::exp(-p.damping / p.mass * s)) <= 4 * unit * size);
 
-    // A perturbed solve moves by the propagator.
+    // A perturbed solution changes by the propagator.
     Case moved = c;
     moved.problem.x0 += 0.5;
     moved.problem.v0 -= 0.25 * rate;

@@ -23,7 +23,7 @@ Model noisy(ExcitationType type, double intensity, double bandwidth, std::uint64
   return model;
 }
 
-/// The definition of the noise, written out again.
+/// The definition of the noise, independently of the code.
 double node(const sim::Noise& noise, std::uint64_t n) {
   const core::RandomStream draws{.seed = noise.seed, .stream = sim::noise_stream};
   return std::sqrt(noise.intensity * noise.bandwidth / std::numbers::pi) * draws.normal(n);
@@ -96,7 +96,7 @@ TEST_CASE("nodes are no events, and stops anywhere change nothing", "[noise]") {
   REQUIRE(history.outcome.ok());
   REQUIRE(history.events.size() > 50);
   for (const sim::Event& event : history.events) CHECK(event.kind != sim::EventKind::switching);
-  // A walk that is cut at odd times ends within the rounding of its cuts.
+  // A run that is interrupted at arbitrary times ends within the rounding of the interruptions.
   const std::unique_ptr<sim::Engine> engine = sim::make_engine(model);
   for (int i = 1; i <= 400; ++i) {
     while (engine->next(i * 0.05) != nullptr) {
@@ -116,7 +116,7 @@ TEST_CASE("nodes are no events, and stops anywhere change nothing", "[noise]") {
 }
 
 TEST_CASE("both engines follow a noise alike", "[noise]") {
-  // The smooth one to its tolerance times what a motion with stops and releases makes of it over 10 s.
+  // The smooth engine to its tolerance, amplified by a motion with stops and releases over 10 s.
   for (const sim::DamperTo damper_to : {sim::DamperTo::ground, sim::DamperTo::base}) {
     Model model = noisy(ExcitationType::base_noise, 4e-5, 40.0, 3);
     model.oscillator.damper_to = damper_to;
@@ -137,7 +137,7 @@ TEST_CASE("both engines follow a noise alike", "[noise]") {
 
 TEST_CASE("the spectral density of a noise is its intensity times sinc^4", "[noise]") {
   // Mean of `blocks` periodograms of one frequency, each exponentially distributed: its relative deviation is
-  // 1/sqrt(blocks) = 1.6 %; a fifth of a percent of all draws would lie 5 % off.
+  // 1/sqrt(blocks) = 1.6 %; an error of 5 % has a probability of a fifth of a percent.
   constexpr int blocks = 4000;
   constexpr int cells = 64;
   const Model model = noisy(ExcitationType::force_noise, 2.5, 50.0, 5);
@@ -171,8 +171,8 @@ TEST_CASE("the spectral density of a noise is its intensity times sinc^4", "[noi
 
 TEST_CASE("white noise feeds an oscillator D/(2 m) of power, whatever the friction", "[noise]") {
   // (identification.md c.5 with D of a force.) The noise is white to 0.2 % at wn = wb/38; the energy of the motion
-  // forgets itself in about 1/(2 zeta wn) = 1 s, so 6,000 s hold some 6,000 independent ones: 1.8 % deviation of
-  // their mean where they are exponentially distributed.
+  // is correlated over about 1/(2 zeta wn) = 1 s, so 6,000 s contain some 6,000 independent values. If they are
+  // exponentially distributed, their mean has a deviation of 1.8 %.
   Model model = noisy(ExcitationType::force_noise, 2.0, 380.0, 19);
   model.friction.emplace_back(friction::Coulomb(0.15, 0.15));
   const double duration = 6000.0;

@@ -56,7 +56,8 @@ TEST_CASE("powers of time drive a mode as the oracle says, brief or not", "[mode
     INFO("m " << p.mass << " C " << p.damping << " K " << p.stiffness << " s " << s << " degree " << degree
               << (is_brief ? " brief" : "") << " error " << error);
     if (is_brief) worst = std::max(worst, error);
-    // Not on one chain the particular solution loses 1/(rate s)^degree, or that of the slow one of two exponents.
+    // If they are not on one chain, the particular solution loses 1/(rate s)^degree, or that of the slow one of two
+    // exponents.
     CHECK(error < (is_brief ? 16.0 * epsilon : 1e-9));
   }
   WARN("largest error of brief modes " << worst);

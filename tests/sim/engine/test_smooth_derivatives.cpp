@@ -1,5 +1,5 @@
-/// Monodromy matrices of the smooth engine against central differences of its period map, where the derivative of
-/// the steps as computed is not that of the motion.
+/// Monodromy matrices of the smooth engine against central differences of its period map, in cases in which the
+/// derivative of the computed steps is not that of the motion.
 
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -43,9 +43,9 @@ Eigen::VectorXd quotient(sim::PeriodMap& map, const ForcingPeriod& period, Eigen
 
 TEST_CASE("smooth engine: a perturbation passes a reversal at which the force turns over at once",
           "[sim][smooth][derivative]") {
-  // rate_state: the force turns over within exp(-mu0/a) = 1e-28 of the reference velocity, far below any rounding
-  // of the motion's. Differences of 1e-5 of the motion are smooth, and good to 1e-6 of the column at a tolerance of
-  // 1e-11.
+  // rate_state: the force changes its sign within exp(-mu0/a) = 1e-28 of the reference velocity, far below the
+  // rounding of the motion's velocity. Differences of 1e-5 of the motion are smooth, and good to 1e-6 of the column
+  // at a tolerance of 1e-11.
   sim::Model model;
   model.oscillator = {.mass = 0.058, .stiffness = 92.8, .damping = 0.0933};
   model.excitation = {
@@ -91,8 +91,8 @@ TEST_CASE("smooth engine: perturbations of turning points among stiff contacts a
 
 TEST_CASE("smooth engine: a perturbation that decays within one explicit step is gone after it",
           "[sim][smooth][derivative]") {
-  // The spring of bouc_wen yields within 1e-6 m and moves by 1e-3 m: exp(-1000) of what its state was is left. The
-  // stability function of the steps as taken would leave some per cent.
+  // The spring of bouc_wen yields within 1e-6 m and moves by 1e-3 m: exp(-1000) of its former state remains. The
+  // stability function of the steps would leave some per cent.
   sim::Model model;
   model.oscillator = {.mass = 0.00715, .stiffness = 0.0427, .damping = -6.69e-4};
   model.excitation = {.type = sim::ExcitationType::base_harmonic, .amplitude = 0.0055, .frequency = 1933.0};
@@ -106,8 +106,8 @@ TEST_CASE("smooth engine: a perturbation that decays within one explicit step is
 
 TEST_CASE("smooth engine: springs under a force limit that vanished and comes back are those of no stretch",
           "[sim][smooth][derivative]") {
-  // Where the limit vanishes the rate of a spring's force is 0/0; what was left of its derivative came back with
-  // the limit, and the monodromy matrix was 5 % off.
+  // Where the limit vanishes, the rate of a spring's force is 0/0. If the remainder of its derivative grew again
+  // with the limit, the error of the monodromy matrix would be 5 %.
   sim::Model model;
   model.oscillator = {.mass = 0.0555, .stiffness = 4.224, .damping = 0.0019};
   model.excitation = {
@@ -133,8 +133,8 @@ TEST_CASE("smooth engine: springs under a force limit that vanished and comes ba
 
 TEST_CASE("smooth engine: a mode change is differentiated along each perturbation and in the sizes of its states",
           "[sim][smooth][derivative]") {
-  // The heat of a contact is a state of 1e-6 W beside positions of 1 m: a displacement by a part of a position
-  // would be many times its size.
+  // The heat of a contact is a state of 1e-6 W beside positions of 1 m: a displacement by a small part of a
+  // position would be many times this heat.
   sim::Model model;
   model.oscillator = {.mass = 1.0, .stiffness = 1.0, .damping = 0.1};
   model.excitation = {.type = sim::ExcitationType::base_harmonic, .amplitude = 1.0, .frequency = 0.8};
@@ -155,8 +155,8 @@ TEST_CASE("smooth engine: a mode change is differentiated along each perturbatio
 
 TEST_CASE("smooth engine: a perturbation that has died out to a subnormal number passes a mode change",
           "[sim][smooth][derivative]") {
-  // That of the speed of a slider dies out while it slides, to numbers by which nothing can be divided; at which
-  // positions is a matter of rounding.
+  // The derivative of a slider's speed decays while it slides, to numbers by which nothing can be divided; rounding
+  // decides at which positions.
   sim::Model model;
   model.oscillator = {.mass = 1.446, .stiffness = 256.156, .damping = 45.93, .damper_to = sim::DamperTo::base};
   model.excitation = {.type = sim::ExcitationType::base_harmonic,
@@ -196,8 +196,8 @@ TEST_CASE("smooth engine: a perturbation that has died out to a subnormal number
 TEST_CASE("smooth engine: a perturbation turns as often as it does where the motion that it leaves does not turn",
           "[sim][smooth][derivative]") {
   // A mass that friction holds, and one attached to it: z'' = -stiffness/mass (z - x) - damping/mass z', which
-  // turns five times in a forcing period in which nothing moves. Steps that ask the motion alone are half a turn
-  // long.
+  // oscillates five times in a forcing period in which nothing moves. Steps that depend on the motion alone are
+  // half an oscillation long.
   sim::Model model;
   model.oscillator = {.mass = 50.0, .stiffness = 75.0, .damping = 5.0};
   model.excitation = {.type = sim::ExcitationType::force_harmonic, .amplitude = 0.7, .frequency = 10.0};
@@ -225,8 +225,8 @@ TEST_CASE(
     "smooth engine: the derivative of a motion that follows its drive on a stiff contact is that of the exact "
     "engine",
     "[sim][smooth][derivative]") {
-  // The contact never slips. Perturbations ring on it, 32 times in a forcing period, or decay on it; the motion
-  // does neither, and implicit steps pass over both.
+  // The contact never slips. Perturbations oscillate on it, 32 times in a forcing period, or decay on it. The
+  // motion itself does neither, and implicit steps are longer than both.
   for (const double contact_damping : {0.0, 3.0, 100.0, 600.0}) {
     sim::Model model;
     model.oscillator = {.mass = 1.0, .stiffness = 100.0, .damping = 2.0};
@@ -252,8 +252,8 @@ TEST_CASE(
 TEST_CASE("smooth engine: the delay of a mode change that leaves the force as it is drowns no derivative",
           "[sim][smooth][derivative]") {
   // The late velocity w follows within 1.1 s, 15 forcing periods. A perturbation of it delays the instant at which
-  // its sign changes by more than a period, and the force, the level of |w|, knows nothing of that instant. What it
-  // does to the velocity nearly cancels between the quarters of the period.
+  // its sign changes by more than a period, and the force, the level of |w|, does not depend on that instant. The
+  // effect on the velocity nearly cancels between the quarters of the period.
   sim::Model model;
   model.oscillator = {.mass = 215.2919240753114, .stiffness = 5.660864323429163};
   model.excitation = {.type = sim::ExcitationType::base_harmonic,

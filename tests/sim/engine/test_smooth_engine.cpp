@@ -29,7 +29,7 @@ sim::Model system_with(std::string_view name, const ParameterValues& values, Sol
   return model;
 }
 
-/// F(t) = level for a law without modes that sees the velocity a while ago.
+/// F(t) = level, for a law without modes that depends on the velocity at an earlier time.
 struct Delayed {
   double lag;
   [[nodiscard]] double force(const friction::Memory&, const friction::Instant& now, friction::Direction) const {
@@ -79,7 +79,7 @@ TEST_CASE("smooth engine: exact laws come out as in the exact engine", "[sim][sm
       REQUIRE(found.outcome.ok());
       REQUIRE(found.events.size() == expected.events.size());
       // Motions are some 0.1 m and 1 m/s large; local errors of 1e-11 in a contracting motion. A relaxed damper
-      // stops with the mass: which of the two comes first is rounding.
+      // stops with the mass; rounding decides which is first.
       for (std::size_t i = 0; i < found.events.size(); ++i) {
         const auto beside = [&](std::size_t j) {
           return j < found.events.size() && found.events[j].kind == expected.events[i].kind &&
@@ -101,8 +101,7 @@ TEST_CASE("smooth engine: exact laws come out as in the exact engine", "[sim][sm
 
 TEST_CASE("smooth engine: a guard that passes zero within what a step lands by changes the mode once",
           "[sim][smooth]") {
-  // At t = 114.54 s the late velocity passes zero where all that moves it is as small as what is left of
-  // it: 1.6e-17 m/s.
+  // At t = 114.54 s the late velocity passes zero, where its rate is as small as its remainder: 1.6e-17 m/s.
   sim::Model model;
   model.oscillator = {.mass = 17.099728675595408,
                       .stiffness = 3.292623622011964,
@@ -217,7 +216,7 @@ TEST_CASE("smooth engine: the stick-slip example of the LuGre paper", "[sim][smo
 
 TEST_CASE("smooth engine: explicit steps give up a motion that is too sharp, implicit ones do not",
           "[sim][smooth]") {
-  // Near v = 0 the force of rock turns over within exp(-0.6/0.01) of the reference velocity.
+  // Near v = 0 the force of rock changes its sign within exp(-0.6/0.01) of the reference velocity.
   sim::Model model = test::standard_system(law("rate_state", {{"normal_force", 5.0},
                                                               {"mu0", 0.6},
                                                               {"a", 0.01},
@@ -237,7 +236,7 @@ TEST_CASE("smooth engine: explicit steps give up a motion that is too sharp, imp
 }
 
 TEST_CASE("smooth engine: a free vibration that creeps for ever ends after its last reversal", "[sim][smooth]") {
-  // Rock creeps ever more slowly and neither reverses nor sticks; waiting for a ninth reversal took minutes.
+  // Rock creeps more and more slowly and neither reverses nor sticks; a ninth reversal would take minutes.
   sim::Model model;
   model.oscillator = {.mass = 1.042, .stiffness = 1568.0, .damping = 8.0};
   model.initial = {.position = 0.04};
@@ -254,8 +253,8 @@ TEST_CASE("smooth engine: a free vibration that creeps for ever ends after its l
 }
 
 TEST_CASE("smooth engine: what a guard touches behind an event is not reported before it", "[sim][smooth]") {
-  // The free mass turns at pi/10. The step that finds this looks beyond, to where the guard touches, and so does
-  // the phase that begins there: reported by both, a touch would count twice. A loose tolerance makes long steps.
+  // The free mass turns at pi/10. The step that finds this extends to the place where the guard touches zero, and
+  // so does the interval that begins there. Both must not report the grazing. A loose tolerance makes long steps.
   int touches = 0;
   for (int i = 1; i <= 30; ++i) {
     sim::Model model;
@@ -316,8 +315,8 @@ TEST_CASE("smooth engine: free hardening spring", "[sim][smooth]") {
 }
 
 TEST_CASE("smooth engine: a motion that a ramp begins from rest is as exact in every unit", "[sim][smooth]") {
-  // Neither the spring nor the contact is stretched at first: the size of the motion is that of what the ramp
-  // reaches. In forces and lengths 2^-30 times as large all numbers of the motion are, and its times are the same.
+  // At first neither spring nor contact is stretched: the size of the motion is that of the ramp's end. If forces
+  // and lengths are 2^-30 times as large, so are all numbers of the motion, and its times are the same.
   const auto times = [](double unit) {
     sim::Model model;
     model.oscillator = {.mass = 1.0, .stiffness = 100.0, .damping = 0.5};
@@ -338,9 +337,9 @@ TEST_CASE("smooth engine: a motion that a ramp begins from rest is as exact in e
 
 TEST_CASE("smooth engine: a release just after the begin or before the end of a step is not passed over",
           "[sim][smooth]") {
-  // While the mass sticks a step takes an eighth of the period T of the drive, and guards are watched every T/32,
-  // 0.196 rad. The pull exceeds the limit for 0.04 to 0.1 rad only, between two of these points and next to an end
-  // of the step.
+  // While the mass sticks, a step takes an eighth of the period T of the drive, and guards are watched every T/32,
+  // 0.196 rad. The pull exceeds the limit for 0.04 to 0.1 rad only, between two of these points and near an end of
+  // the step.
   constexpr double push = 2.0;
   constexpr double omega = 5.0;
   constexpr double end = std::numbers::pi / 4.0;
@@ -392,8 +391,8 @@ TEST_CASE("smooth engine: a short stop between two points of a long step is not 
 
 TEST_CASE("smooth engine: a contact that slips on from a release lets go at once", "[sim][smooth]") {
   // At the release velocity and acceleration are zero, and the contact is at its limit: its guard begins with t^3,
-  // which leaves rounding only after 2e-5 s. The force of reset_integrator falls where it slips, so that a contact
-  // that lets go late delays the motion.
+  // which exceeds rounding only after 2e-5 s. The force of reset_integrator falls when it slips, so a contact that
+  // lets go late delays the motion.
   sim::Model model;
   model.oscillator = {.mass = 129.3146724807495, .stiffness = 299.89158568978326, .damping = 12.17478077146789};
   model.excitation = {.type = sim::ExcitationType::base_ramp, .slope = -0.00016729442226503976};
@@ -417,9 +416,9 @@ TEST_CASE("smooth engine: a contact that slips on from a release lets go at once
 
 TEST_CASE("smooth engine: implicit steps set the mass in motion where friction turns over at one speed alone",
           "[sim][smooth]") {
-  // Under rate and state friction the force turns over within exp(-mu0/a) = 1e-47 of the reference velocity, and at
-  // the reversal at 0.0288 s the push exceeds it. A Newton iteration that stops on small corrections alone finds
-  // the mass at rest for a microsecond.
+  // Under rate and state friction the force changes its sign within exp(-mu0/a) = 1e-47 of the reference velocity,
+  // and at the reversal at 0.0288 s the pull exceeds it. A Newton iteration that stops on small corrections alone
+  // finds the mass at rest for a microsecond.
   sim::Model model;
   model.oscillator = {.mass = 0.0015479497110449162,
                       .stiffness = 0.02717608397763958,

@@ -1,4 +1,4 @@
-/// When the smooth engine asks a law to change its mode: guards at the begin of an interval.
+/// When the smooth engine changes the mode of a law: guards at the begin of an interval.
 
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -36,7 +36,8 @@ sim::Model far_from_the_origin(double sign) {
   return model;
 }
 
-/// rate_state with mu0/a = 28: at a slip's end the mass creeps on, at speeds that an explicit step passes over.
+/// rate_state with mu0/a = 28: at the end of a slip the mass creeps on, at speeds that an explicit step does not
+/// resolve.
 sim::Model creeping_rock() {
   sim::Model model;
   model.oscillator = {.mass = 0.01652273347721008, .stiffness = 870.5875366082995, .damping = 0.14186497616955548};
@@ -56,7 +57,7 @@ sim::Model creeping_rock() {
 }  // namespace
 
 TEST_CASE("smooth engine: a slip does not end where the forces drive the mass on", "[sim][smooth]") {
-  // It was taken to reverse there once.
+  // It must not reverse there.
   sim::Model model = creeping_rock();
   const sim::History automatic = sim::simulate(model, {.duration = 0.2});
   model.solver.kind = sim::SolverKind::implicit_steps;
@@ -65,7 +66,7 @@ TEST_CASE("smooth engine: a slip does not end where the forces drive the mass on
   REQUIRE(implicit.outcome.ok());
   REQUIRE(automatic.events.size() == implicit.events.size());
   CHECK(automatic.final.x == Approx(implicit.final.x).epsilon(1e-6));
-  // Explicit steps asked for by name follow the creep: they had 7,382 events.
+  // Explicit steps, requested by name, follow the creep: without care they would have 7,382 events.
   model.solver.kind = sim::SolverKind::explicit_steps;
   const sim::History by_name = sim::simulate(model, {.duration = 0.2});
   REQUIRE(by_name.outcome.ok());
@@ -73,7 +74,8 @@ TEST_CASE("smooth engine: a slip does not end where the forces drive the mass on
 }
 
 TEST_CASE("smooth engine: a creep below the level of a grazing grazes nothing", "[sim][smooth]") {
-  // Explicit steps that stability limits leave ripples on the speed of 2e-10 m/s: each was a grazing, 15 in all.
+  // Explicit steps that are limited by stability leave ripples of 2e-10 m/s on the speed. None of the 15 ripples is
+  // a grazing.
   sim::Model model = creeping_rock();
   model.solver = {sim::SolverKind::explicit_steps, 1e-12};
   const sim::History by_name = sim::simulate(model, {.duration = 0.2});
@@ -83,8 +85,8 @@ TEST_CASE("smooth engine: a creep below the level of a grazing grazes nothing", 
 }
 
 TEST_CASE("smooth engine: a creep far below what a step may err by is followed", "[sim][smooth]") {
-  // rate_state with mu0/a = 61: friction turns over within exp(-61) of the reference velocity. With corrections of
-  // the speed that had to shrink, however small they were, the motion was given up after four reversals.
+  // rate_state with mu0/a = 61: friction changes its sign within exp(-61) of the reference velocity. If corrections
+  // of the speed had to shrink however small they are, the motion would be given up after four reversals.
   sim::Model model;
   model.oscillator = {.mass = 1.0, .stiffness = 100.0, .damping = 0.566};
   model.excitation = {.type = sim::ExcitationType::base_harmonic, .amplitude = 0.1, .frequency = 0.364};
@@ -105,7 +107,7 @@ TEST_CASE("smooth engine: a creep far below what a step may err by is followed",
 }
 
 TEST_CASE("smooth engine: a creep that no step leaves is given up soon, with the reason", "[sim][smooth]") {
-  // mu0/a = 101. Up to 300,000 steps at one instant took 2 to 8 s.
+  // mu0/a = 101. Without a remedy, 300,000 steps at one instant would take 2 to 8 s.
   sim::Model model;
   model.oscillator = {.mass = 1.0, .stiffness = 100.0, .damping = 1.70};
   model.excitation = {.type = sim::ExcitationType::base_harmonic, .amplitude = 0.1, .frequency = 1.51};
@@ -132,8 +134,8 @@ TEST_CASE("smooth engine: a contact is asked to slip at its limit, not just befo
 
 TEST_CASE("smooth engine: a step lands on a guard by the law's own forces, however large the motion was before",
           "[sim][smooth]") {
-  // From 4 m to rest at 6 mm, beside a drive of random force. To a part of the contact's force at 4 m the guard is
-  // known to 4e-12 N; the damper makes 6e-8 m/s of it, by which the slider would run backward and stop at once.
+  // From 4 m to rest at 6 mm, beside a drive of random force. Relative to the contact's force at 4 m the guard has
+  // an error of 4e-12 N. By the damper this is 6e-8 m/s, with which the slider would run backward and stop at once.
   sim::Model model;
   model.oscillator = {.mass = 0.00537, .stiffness = 0.0309, .damping = 0.00187};
   model.excitation.type = sim::ExcitationType::force_noise;
@@ -156,8 +158,8 @@ TEST_CASE("smooth engine: a step lands on a guard by the law's own forces, howev
 
 TEST_CASE("smooth engine: a contact that lets go just before the mass turns goes on sliding until it turns",
           "[sim][smooth]") {
-  // Some 1e-6 s before, at 2e-5 m/s. The rounding of its force of 4e4 N, behind 1e10 N/m, is a larger number than
-  // that, though of newtons: taken for a speed it stopped the slider at once, which let go again, without end.
+  // Some 1e-6 s before, at 2e-5 m/s. The rounding of its force of 4e4 N, with 1e10 N/m, is a larger number, but in
+  // newtons. If it counted as a speed, the slider would stop at once and let go again, without end.
   sim::Model model;
   model.oscillator = {.mass = 15318.341108344996,
                       .stiffness = 707996.3913393652,
@@ -185,7 +187,7 @@ TEST_CASE("smooth engine: a contact that lets go just before the mass turns goes
 TEST_CASE("smooth engine: a slider is judged by its present speed, not by that of a decay long over",
           "[sim][smooth]") {
   // The damped contact relaxes within 1e-15 s from 3e5 m/s; ten seconds later it stops where the mass does, not at
-  // the 3e-8 m/s that are rounding of the other speed.
+  // 3e-8 m/s, which is the rounding of the former speed.
   sim::Model model;
   model.oscillator = {.mass = 2.3901670337220833,
                       .stiffness = 0.07854940852779521,

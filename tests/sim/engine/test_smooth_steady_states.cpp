@@ -1,4 +1,4 @@
-/// The smooth engine at the ends of its range: friction that falls steeply with speed, and a dashpot that holds.
+/// The smooth engine at the ends of its range: friction that falls steeply with speed, and a very strong dashpot.
 
 #include <array>
 #include <catch2/catch.hpp>
@@ -28,7 +28,7 @@ friction::Law falling(const char* form, double exponent) {
 }  // namespace
 
 TEST_CASE("smooth steady states: the phase of the drive moves the orbit in time and changes nothing else") {
-  // Newton's method displaces the state at the boundary of a period, wherever on the orbit that lies.
+  // Newton's method displaces the state at the boundary of a period, at any place of the orbit.
   const std::vector<friction::Law> laws = {falling("exponential", 0.0), falling("gaussian", 1.5),
                                            falling("gaussian", 3.0)};
   for (const friction::Law& friction : laws) {

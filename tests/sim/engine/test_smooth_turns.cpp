@@ -1,5 +1,5 @@
-/// Bristles that yield at a level which falls within a small part of the speed: what a turn shows of it is seen
-/// within a short time alone. Against the same equations in fixed small steps, which are good to 3e-10.
+/// Bristles that yield at a level which falls within a small part of the speed: at a reversal this lasts for a
+/// short time only. Compared with the same equations in fixed small steps, which are accurate to 3e-10.
 
 #include <array>
 #include <catch2/catch.hpp>
@@ -67,7 +67,7 @@ BristleState by_small_steps(Bristles bristles, BristleState from, int steps) {
   return at;
 }
 
-/// Of a motion that has gone on for two forcing periods.
+/// For a motion after two forcing periods.
 sim::State running(const sim::Model& model) {
   sim::PeriodMap map(model);
   static_cast<void>(map.from_start(0.5, 0.0, Monodromy::without));

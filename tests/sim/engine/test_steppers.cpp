@@ -73,7 +73,7 @@ struct ForcedDuffing {
   }
 };
 
-/// Prothero and Robinson: x' = lambda (x - sin t) + cos t, with the solution x = sin t whatever lambda is.
+/// Prothero and Robinson: x' = lambda (x - sin t) + cos t, with the solution x = sin t for any lambda.
 Field prothero_robinson(double lambda) {
   return {1,
           [lambda](std::span<const double> x, double t, std::span<double> r) {
@@ -98,7 +98,7 @@ struct Stepped {
   StateVector error;
 };
 
-/// One step with next to no error left in the iteration.
+/// One step with a negligible error of the iteration.
 Stepped step(Stepper& stepper, const sim::VectorField& field, const StateVector& x, double t, double h,
              double allowed = 1e-14) {
   Stepped result{StateVector(x.size()), StateVector(x.size())};
@@ -188,7 +188,7 @@ TEST_CASE("the Radau coefficients satisfy the order conditions") {
   CHECK(defect(2 * stages) > 1e-6);
 }
 
-// The eigenvalues put together again are the matrix they came from.
+// The matrix is recovered from its eigenvalues.
 TEST_CASE("the Radau coefficients are diagonalised") {
   const RadauCollocation radau;
   for (std::size_t i = 0; i < stages; ++i)
@@ -283,7 +283,7 @@ TEST_CASE("dense output is exact at both ends") {
   }
 }
 
-// Sizes 2, 3 and 4 have code of their own, the others share one.
+// Sizes 2, 3 and 4 have separate code, the others share one.
 TEST_CASE("a step does not depend on how many equations are beside it") {
   for (const Method& method : methods) {
     const auto stepper = method.make();

@@ -20,7 +20,7 @@ using dualdamp::test::Random;
 
 namespace {
 
-/// An interval without its closed form: what observers make of it comes from quadrature and bisection.
+/// An interval without its closed form, so that observers use quadrature and bisection.
 class Sampled final : public Interval {
  public:
   explicit Sampled(const Interval& inner) : inner_(inner) {
@@ -68,7 +68,7 @@ Model random_model(Random& random) {
   if (random.chance(0.5)) {
     model.friction.emplace_back(dualdamp::friction::Coulomb(kinetic, at_rest));
   } else {
-    // Its force relaxes by an exponential of its own while the contact slips.
+    // Its force relaxes by a separate exponential while the contact slips.
     const double stiffness = random.logarithmic(100.0, 1e4);
     const double contact_damping = random.logarithmic(1.0, 30.0);
     model.friction.emplace_back(
@@ -98,7 +98,7 @@ TEST_CASE("Accounts in closed form are those of quadrature") {
     INFO("damping " << model.oscillator.damping << " frequency " << model.excitation.frequency);
     const Energy ours = account.energy.account();
     const Energy theirs = reference.energy.account();
-    // A few dozen intervals, each exact to some roundings of the energies that meet in it.
+    // A few dozen intervals, each exact to some roundings of its energies.
     const double scale = std::abs(theirs.input) + theirs.friction + theirs.viscous + std::abs(theirs.stored);
     CHECK(std::abs(ours.input - theirs.input) < 1e-14 * scale);
     CHECK(std::abs(ours.friction - theirs.friction) < 1e-14 * scale);
@@ -127,7 +127,7 @@ TEST_CASE("The largest speed under heavy damping is that of the fastest sample")
       REQUIRE(interval != nullptr);
       extremes.observe(*interval);
       for (int k = 0; k <= 400; ++k) {
-        // Dense at the start too, where the own motion dies out.
+        // Dense at the start too, where the free motion decays.
         const double part = k / 400.0;
         fastest = std::max({fastest, std::abs(interval->at(part * interval->duration).v),
                             std::abs(interval->at(std::pow(part, 4) * interval->duration).v)});
@@ -194,7 +194,7 @@ TEST_CASE("Integrals of products of exponentials are exact for long and for shor
 }
 
 TEST_CASE("The energy defect is a check of the forces, not zero by construction") {
-  /// The interval with another friction force than the motion's.
+  /// The interval with a friction force other than that of the motion.
   class Wrong final : public Interval {
    public:
     explicit Wrong(const Interval& inner) : form_(*inner.closed_form()) {

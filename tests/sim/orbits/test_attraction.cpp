@@ -1,5 +1,4 @@
-// What tells whether a motion approaches an orbit, and after how many periods it comes back: on maps that are
-// known.
+// Whether a motion approaches an orbit, and after how many periods it returns: tested on known maps.
 
 #include "sim/orbits/attraction.hpp"
 
@@ -16,7 +15,8 @@ constexpr double swing_omega = 2.0;
 
 sim::State at(double x, double v) { return {.x = x, .v = v, .direction = friction::Direction::forward}; }
 
-/// An orbit at x = 1 m, v = 0.5 m/s that turns deviations by `angle` and shrinks them to `radius`.
+/// An orbit at x = 1 m, v = 0.5 m/s. In a period, deviations from it rotate by `angle` and shrink by the factor
+/// `radius`.
 sim::ForcingPeriod orbit(double radius, double angle) {
   sim::ForcingPeriod period;
   period.begin = period.end = at(1.0, 0.5);

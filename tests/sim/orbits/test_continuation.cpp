@@ -83,7 +83,7 @@ TEST_CASE("a branch in amplitude passes through the steady states found one by o
   }
   // Both close to 1e-13, and the slowest multiplier is about 0.5.
   CHECK(worst < 1e-11);
-  // Each orbit is walked at least twice, to close it and to describe it: two reversals and the end of the period.
+  // Each orbit is computed at least twice, to close it and to describe it: two reversals and the end of the period.
   CHECK(branch.certificate.searches >= 6 * static_cast<long>(branch.points.size()));
   CHECK(branch.certificate.panels >= branch.certificate.searches);
 }
@@ -100,7 +100,8 @@ TEST_CASE("sticking sets in where Den Hartog's boundary says") {
     const auto onset =
         std::find_if(branch.changes.begin(), branch.changes.end(),
                      [](const sim::BranchChange& change) { return change.kind == ChangeKind::sticking; });
-    // A stick just born lasts as long as the root of the distance: known to 1e-9 of the range by bisection.
+    // The duration of a new stick is proportional to the root of the distance, which bisection finds to 1e-9 of the
+    // range.
     CHECK(onset->parameter == Approx(boundary).epsilon(1e-8));
     CHECK(onset->stops_before == 0);
     CHECK(onset->stops_after == 2);
@@ -123,7 +124,7 @@ TEST_CASE("the number of stops grows as the frequency falls, and every change is
 
 TEST_CASE("over decades of frequency a branch passes every resonance, and turns nowhere where one orbit lives") {
   // Below the resonance the amplitude rises and falls by a hundredth many times, each time within a tenth of the
-  // frequency. A step over such a bend had turned the branch round.
+  // frequency. A step over such a bend must not reverse the branch.
   const sim::Branch branch =
       continue_branch(coulomb_driven(0.4, 0.2, 1.0, 0.1), BranchParameter::frequency, 0.1, 30.0);
   REQUIRE(branch.outcome.ok());
@@ -142,7 +143,8 @@ TEST_CASE("over decades of frequency a branch passes every resonance, and turns 
 }
 
 TEST_CASE("a branch that turns back and leaves the range where it began says so") {
-  // An asymmetric orbit meets its mirror image, and the branch goes on along that, back to smaller amplitudes.
+  // An asymmetric orbit meets its mirror image, and the branch continues along the mirror image, back to smaller
+  // amplitudes.
   sim::Model model;
   model.oscillator = {.mass = 1.0, .stiffness = 1.0, .damping = 0.0706985835};
   model.excitation = {
@@ -171,7 +173,7 @@ TEST_CASE("the response of a bilinear spring folds; the branch between is unstab
   }
   REQUIRE(folds.size() == 2);
   CHECK(folds[0].parameter > folds[1].parameter);
-  // Between the folds three orbits live at one frequency: two attract, the middle one does not.
+  // Between the folds there are three orbits at each frequency: two attract, the middle one does not.
   const double middle = 0.5 * (folds[0].parameter + folds[1].parameter);
   int passes = 0;
   int stable = 0;
@@ -226,8 +228,8 @@ TEST_CASE("a complex pair that leaves the unit circle is no flip and no fold") {
 }
 
 TEST_CASE("a branch that ends says so once, and does not jump to and fro between two branches") {
-  // The first folds, and its unstable part then meets a grazing; the other two end where static friction above
-  // kinetic lets a slip go on. A branch that jumps back to a part it has passed folds again and again.
+  // The first folds, and its unstable part then meets a grazing; the other two end where a slip continues because
+  // static friction is above kinetic. A branch that jumped back to a passed part would fold again and again.
   std::vector<sim::Branch> branches;
   branches.push_back(continue_branch(compliant(0.05144051, 1.0, 0.10326303, 2.20485448, 5.0238030),
                                      BranchParameter::frequency, 0.317, 0.2));

@@ -73,7 +73,7 @@ sim::Model model_for_packs(test::Random& random) {
   return model;
 }
 
-/// Every point against the engine's answer to it alone, as far as both can know it.
+/// Every point against the engine's result for this point alone, within the accuracy of both.
 void compare_with_engine(const sim::Curve& curve, sim::Model model) {
   for (const sim::CurvePoint& point : curve.points) {
     model.excitation.frequency = point.omega;
@@ -104,7 +104,7 @@ TEST_CASE("a map sticks below Den Hartog's boundary and follows his amplitude ab
       REQUIRE(point.ok());
       const sim::analytic::DenHartog functions = sim::analytic::den_hartog(zeta, point.omega);
       const double boundary = 1.0 / sim::analytic::non_sticking_boundary(functions);
-      // A rest near the boundary is shorter than what the engine takes for one.
+      // Near the boundary a stick is shorter than the shortest that the engine counts.
       if (std::abs(point.Y / boundary - 1.0) < 1e-6) continue;
       CHECK((point.sticks > 0) == (point.Y < boundary));
       ++(point.sticks > 0 ? sticking : free);
@@ -119,12 +119,12 @@ TEST_CASE("a map sticks below Den Hartog's boundary and follows his amplitude ab
 }
 
 TEST_CASE("stops come in pairs, more of them the slower the drive and the weaker the damping") {
-  // Each base stroke drags the mass along in slips of about a natural period; a stroke holds 1/(2 r) of them, so
-  // that above r = 1/2 there is one slip a stroke.
+  // In each stroke of the base the mass follows in slips of about a natural period. A stroke contains 1/(2 r) of
+  // them, so above r = 1/2 there is one slip in a stroke.
   const std::vector<double> slow = ratios(0.06, 0.12, 12);
   const std::vector<double> amplitudes = ratios(1.05, 6.0, 40);
   CHECK(stops_of(sim::regime_map(unit_model(0.05), slow, amplitudes)) == std::set<int>{2, 4, 6});
-  // A fourth slip begins 21.7 or more before the base turns; at r = 0.06 a slip that early does not end in time.
+  // A fourth slip begins 21.7 or more before the base reverses; at r = 0.06 a slip that early does not end in time.
   CHECK(stops_of(sim::regime_map(unit_model(0.05), {0.02}, {1.05})) == std::set<int>{8});
   const std::set<int> undamped = stops_of(sim::regime_map(unit_model(0.0), slow, amplitudes));
   for (const int stops : {2, 4, 6, 8}) CHECK(undamped.contains(stops));
@@ -222,7 +222,7 @@ TEST_CASE("a point found in a pack brings its certificate, and a closure that pa
 
 TEST_CASE("reasons and warnings of many points are kept once, with their number and first point") {
   // Undamped at resonance: friction of 1 N limits the motion up to Y = 4/pi, and a small drive never moves the
-  // mass. However long a motion was followed, it grows for the same reason.
+  // mass. The motion grows for the same reason however long it is integrated.
   const std::vector<double> amplitudes = {0.5, 2.0, 0.9, 1.3, 1.2, 9.0};
   const sim::Curve curve = sim::xy_curve(
       [] {
@@ -259,7 +259,7 @@ TEST_CASE("a map tells what the mass does, by its speed where no law holds it") 
   CHECK(rigid.points[1].regime() == Regime::rests);
   CHECK(rigid.points[1].sticks == 2);
   CHECK(rigid.points[2].regime() == Regime::slides_through);
-  // A contact so stiff that the mass nearly rests where it would under rigid friction.
+  // A contact so stiff that the mass nearly sticks where it would under rigid friction.
   model.friction = {friction::Law(friction::ContactCompliance(1.0, 1.0, 1e7, 300.0))};
   const sim::Curve compliant = sim::regime_map(model, {1.5}, amplitudes);
   CHECK(compliant.points[0].regime() == Regime::rests);

@@ -69,7 +69,7 @@ std::optional<Eigen::VectorXd> quotient(sim::PeriodMap& map, const ForcingPeriod
   };
   const auto wide = difference(4e-6);
   const auto narrow = difference(1e-6);
-  // Truncation falls with h^2 and rounding is 1e-10; else an event appears or goes between.
+  // Truncation falls with h^2 and rounding is 1e-10; otherwise an event appears or disappears in between.
   if (!wide || !narrow || (*wide - *narrow).norm() > 1e-6 * (1.0 + narrow->norm())) return std::nullopt;
   return narrow;
 }
@@ -85,7 +85,7 @@ TEST_CASE("a release whose limit depends on position passes a perturbation on as
   CHECK(state.warnings.empty());
   double radius = 0.0;
   for (const std::complex<double>& multiplier : state.multipliers) radius = std::max(radius, std::abs(multiplier));
-  // The difference quotient of the period map along its only direction that a stick leaves: the trace.
+  // The difference quotient of the period map in the only direction that remains after a stick: the trace.
   sim::PeriodMap map(model);
   const ForcingPeriod period = map.from(state.start, Monodromy::with);
   double trace = 0.0;
@@ -104,7 +104,7 @@ TEST_CASE("a release whose limit depends on position passes a perturbation on as
 }
 
 TEST_CASE("two contacts that let go at one instant pass a perturbation on each at its own") {
-  // Both at x = 1/128 m from where they stick, by the same bits.
+  // Both start at x = 1/128 m from where they stick, with the same bits.
   sim::Model model;
   model.oscillator = {.mass = 1.0, .stiffness = 100.0, .damping = 1.0};
   model.excitation = {.type = sim::ExcitationType::base_harmonic, .amplitude = 0.1, .frequency = 10.0};
@@ -165,7 +165,7 @@ TEST_CASE("monodromy matrices of random systems are the difference quotients of 
     CAPTURE(i, model.excitation.frequency, model.oscillator.damping);
     const bool rests = period.begin.direction == friction::Direction::none;
     for (Eigen::Index j = 0; j < period.monodromy.cols(); ++j) {
-      // A mass that sticks has no speed to perturb.
+      // The speed of a mass that sticks cannot be perturbed.
       if (rests && j == 1) continue;
       ++columns;
       const auto expected = quotient(map, period, j);

@@ -1,5 +1,5 @@
 // The steady state is the one that the motion from the initial state reaches: against that motion itself,
-// integrated for hundreds of periods. Subharmonic, asymmetric and aperiodic motions; orbits that are the only one.
+// integrated for hundreds of periods. Subharmonic, asymmetric and aperiodic motions; unique orbits.
 
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -123,7 +123,7 @@ TEST_CASE("a motion of twelve forcing periods is a steady state of period twelve
   const Range range = after(model, 4800, 12);
   CHECK(state.peak == Approx(range.peak).epsilon(1e-10));
   CHECK(state.trough == Approx(range.trough).epsilon(1e-10));
-  // All that is said of a period is said of this one.
+  // All results about a period refer to this one.
   CHECK(std::abs(state.energy.defect) < 1e-12 * state.energy.input);
   const std::vector<sim::Sample> orbit = sim::one_period(model, state, 1200);
   REQUIRE(orbit.size() == 1201);
@@ -151,7 +151,7 @@ TEST_CASE("a linear oscillator with damping has exactly one steady state") {
     CHECK(state.warnings.empty());
     CHECK(state.stable());
     const std::complex<double> response = 0.1 / std::complex<double>(1.0 - c.r * c.r, 2.0 * c.zeta * c.r);
-    // The period map determines the orbit to its rounding over 1 - exp(-2 pi zeta/r).
+    // The period map determines the orbit to the rounding of the map over 1 - exp(-2 pi zeta/r).
     CHECK(state.amplitude == Approx(std::abs(response)).epsilon(1e-9));
   }
 }
@@ -164,7 +164,7 @@ TEST_CASE(
   constexpr double k = 5.669;
   constexpr double c = 0.06;
   model.friction.emplace_back(friction::AttachedMass(m, k, c));
-  // Above resonance, where hardly anything is dissipated, the mass turns at the begin of each period.
+  // Above resonance, where hardly anything is dissipated, the mass reverses at the begin of each period.
   for (const double w : {3.0, 5.3, 8.0, 10.0, 11.5, 20.0}) {
     CAPTURE(w);
     model.excitation = {.type = sim::ExcitationType::base_harmonic, .amplitude = 0.01, .frequency = w};
@@ -226,7 +226,7 @@ TEST_CASE("a motion far above resonance is periodic, although displacements from
 }
 
 TEST_CASE("an aperiodic motion is called so") {
-  // Ueda's x'' + 0.05 x' + x^3 = 7.5 cos t is chaotic; the linear spring is next to nothing.
+  // Ueda's x'' + 0.05 x' + x^3 = 7.5 cos t is chaotic; the linear spring is negligible.
   sim::Model model;
   model.oscillator = {.mass = 1.0, .stiffness = 1e-6, .damping = 0.05, .cubic_stiffness = 1.0};
   model.excitation = {.type = sim::ExcitationType::force_harmonic, .amplitude = 7.5, .frequency = 1.0};
@@ -238,8 +238,8 @@ TEST_CASE("an aperiodic motion is called so") {
 }
 
 TEST_CASE("a motion that winds towards its orbit is not looked at anew in each period") {
-  // The own motion turns by 2/7 of a turn in a forcing period: it comes back over 7 periods, and over 25, long
-  // before it comes back over one. Elements that never slip keep their Floquet multipliers at 1.
+  // The free motion rotates by 2/7 of a turn in a forcing period, so it nearly returns after 7 and after 25
+  // periods, long before it does after one. Elements that never slip keep their Floquet multipliers at 1.
   const std::vector<friction::ParameterValues> elements{{{"stiffness", 20.0}, {"share", 0.5}},
                                                         {{"stiffness", 24.0}, {"share", 0.5}}};
   sim::Model model;
@@ -253,6 +253,6 @@ TEST_CASE("a motion that winds towards its orbit is not looked at anew in each p
   const sim::SteadyState state = sim::steady_state(model);
   REQUIRE(state.outcome.ok());
   CHECK(state.transient_periods == 1334);
-  // 611,144 before.
+  // With a check of the orbit in each period there would be 611,144.
   CHECK(state.certificate.searches < 500'000);
 }

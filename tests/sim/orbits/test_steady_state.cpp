@@ -48,7 +48,8 @@ TEST_CASE("the standard case agrees with Den Hartog to the last digits") {
   CHECK(state.sticks.empty());
   CHECK(state.stable());
   CHECK(state.warnings.empty());
-  // Friction takes 4 F x0 a period from any orbit that turns twice; the base gives what both take.
+  // Friction dissipates 4 F x0 in a period on any orbit with two reversals; the work of the base is that of
+  // friction and damper.
   CHECK(state.energy.friction == Approx(4.0 * 2.0 * state.peak).epsilon(1e-13));
   CHECK(std::abs(state.energy.defect) < 1e-13 * state.energy.input);
   // Only the fundamental of x meets the harmonic base: pi k Y X1 sin(phase) = 4 F x0 + c int v^2.
@@ -97,7 +98,8 @@ TEST_CASE("the stick-slip case has its published peak and sticks") {
     CHECK(std::abs(stick.duration - 1.3755743369215955) < 1e-12);
     CHECK(std::abs(std::abs(stick.position) - 1.2515943400339361) < 1e-12);
   }
-  // A stick wipes out the memory of the speed: the map keeps one dimension, where the mass stuck.
+  // After a stick the motion does not depend on the former speed: the map has one dimension left, the place of the
+  // stick.
   CHECK(std::abs(state.multipliers[0] * state.multipliers[1]) < 1e-12);
   CHECK(state.stable());
 }
@@ -105,7 +107,7 @@ TEST_CASE("the stick-slip case has its published peak and sticks") {
 TEST_CASE("a stick across the period boundary counts once") {
   sim::Model model = stick_slip();
   const sim::SteadyState plain = sim::steady_state(model);
-  // Shift time by the middle of the second stick: it then lies across t = 0.
+  // Shift time by the middle of the second stick, which then contains t = 0.
   const double shift = plain.sticks[1].start + 0.5 * plain.sticks[1].duration;
   model.excitation.phase = 0.5 * shift;
   const sim::SteadyState shifted = sim::steady_state(model);
@@ -151,7 +153,7 @@ TEST_CASE("1,000 forcing periods balance their energy, sticking included") {
     const double period = 2.0 * std::numbers::pi / model.excitation.frequency;
     const sim::History history = sim::simulate(model, {.duration = 1000.0 * period});
     REQUIRE(history.outcome.ok());
-    // Each account is a compensated sum of quadratures exact to rounding.
+    // Each work is a compensated sum of quadratures that are exact to rounding.
     CHECK(std::abs(history.energy.defect) < 1e-12 * history.energy.input);
     CHECK(history.energy.friction > 0.0);
   }
@@ -162,7 +164,7 @@ TEST_CASE("no number is returned where there is none") {
     const sim::SteadyState state = sim::steady_state(base_driven(1.0, 1.0, 0.0, 0.5, 0.5, 1.0, 1.0));
     CHECK(state.outcome.kind == core::OutcomeKind::no_steady_state);
     CHECK(state.outcome.reason.find("grows") != std::string::npos);
-    // In proportion to time from the start: the first time it can be told is after 2,000 periods.
+    // Growth in proportion to time; it can first be recognised after 2,000 periods.
     CHECK(state.transient_periods < 2010);
   }
   SECTION("a viscous force that saturates below what the drive puts in") {
@@ -210,7 +212,7 @@ TEST_CASE("a drive that friction holds leaves the mass where it was, and says so
 }
 
 TEST_CASE("low frequencies stop more than twice a period") {
-  // After each base reversal the mass follows in several slips: 2, 4, 6 stops as the drive slows down.
+  // After each reversal of the base the mass follows in several slips: 2, 4, 6 stops as the drive becomes slower.
   CHECK(sim::steady_state(base_driven(1.0, 1.0, 0.02, 0.3, 0.3, 1.0, 0.2)).stops_per_cycle == 2);
   CHECK(sim::steady_state(base_driven(1.0, 1.0, 0.02, 0.3, 0.3, 1.0, 0.1)).stops_per_cycle == 4);
   CHECK(sim::steady_state(base_driven(1.0, 1.0, 0.02, 0.3, 0.3, 1.0, 0.07)).stops_per_cycle == 6);
@@ -236,7 +238,7 @@ TEST_CASE("the certificate of a curve is the sum of its points'") {
     sim::Model point = model;
     point.excitation.frequency = omega;
     const sim::SteadyState state = sim::steady_state(point);
-    // Two reversals and the end of the period: three searches in each period followed.
+    // Two reversals and the end of the period: three searches in each computed period.
     CHECK(state.certificate.searches >= 3 * (1 + state.newton_steps));
     CHECK(state.certificate.panels >= state.certificate.searches);
     sum += state.certificate;
@@ -255,7 +257,7 @@ TEST_CASE("a frequency response keeps its order and peaks near resonance") {
   CHECK(curve[0].omega == 5.0);
   CHECK(curve[1].x > curve[0].x);
   CHECK(curve[1].x > curve[2].x);
-  // Phase runs from in phase through a quarter turn to opposite.
+  // The phase lag goes from 0 through a quarter turn to a half turn.
   CHECK(curve[0].phase < 0.5 * std::numbers::pi);
   CHECK(curve[2].phase > 0.5 * std::numbers::pi);
 }
@@ -313,7 +315,7 @@ TEST_CASE(
 }
 
 TEST_CASE("a search whose panels are split thousands of times each ends too") {
-  // 150 searches took 0.6 s: a mass that rings on a stiff contact for a hundred thousand oscillations in a period.
+  // A mass that oscillates on a stiff contact a hundred thousand times in a period: 150 searches take 0.6 s.
   sim::Model model;
   model.oscillator = {.mass = 0.0034313611325045286, .stiffness = 0.05705331160642706, .damping = 0.00028};
   model.excitation = {
@@ -328,7 +330,7 @@ TEST_CASE("a search whose panels are split thousands of times each ends too") {
 
 TEST_CASE("a mass that creeps to where friction holds it rests, and is no subharmonic") {
   // A drive below the friction force that begins with a stretched spring: each period ends nearer to the place
-  // where spring and drive together just do not move the mass, k x + k3 x^3 = -(F0 - A), and none reaches it.
+  // where spring and drive together just do not move the mass, k x + k3 x^3 = -(F0 - A), but never reaches it.
   for (const double cubic : {0.0, 3.598}) {
     CAPTURE(cubic);
     sim::Model model;
@@ -356,7 +358,7 @@ TEST_CASE("a mass that creeps to where friction holds it rests, and is no subhar
 }
 
 TEST_CASE("a mass whose slips of many periods rounding hides rests, and is no subharmonic") {
-  // Each of 64 slips is hidden, and their sum is not: 7.7e-12 m of 0.073 m.
+  // Each of 64 slips is below the tolerance, but their sum is not: 7.7e-12 m of 0.073 m.
   sim::Model model;
   model.oscillator = {.mass = 1.0, .stiffness = 1.0, .damping = 0.7008, .cubic_stiffness = 2.1232};
   model.excitation = {.type = sim::ExcitationType::force_harmonic, .amplitude = 0.04961, .frequency = 3.3242};

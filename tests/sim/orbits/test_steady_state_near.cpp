@@ -1,4 +1,4 @@
-/// Steady states sought next to a known one.
+/// Steady states found near a known one.
 
 #include "sim/orbits/steady_state_near.hpp"
 

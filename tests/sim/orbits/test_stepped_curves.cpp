@@ -1,4 +1,4 @@
-// Curves that are stepped through, against an integration of the motion level by level with code of its own.
+// Curves that are stepped through, against an integration of the motion level by level with independent code.
 
 #include "sim/orbits/stepped_curves.hpp"
 
@@ -28,8 +28,8 @@ std::vector<double> levels(double from, double to, int count) {
   return list;
 }
 
-/// The motion of `duffing()` by fourth-order Runge-Kutta steps, handed from level to level at the end of a forcing
-/// period.
+/// The motion of `duffing()` by fourth-order Runge-Kutta steps, continued from level to level at the end of a
+/// forcing period.
 class Integration {
  public:
   explicit Integration(const sim::Model& model) : o_(model.oscillator), amplitude_(model.excitation.amplitude) {}

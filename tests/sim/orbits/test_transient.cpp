@@ -66,7 +66,7 @@ TEST_CASE("transient: a subharmonic motion settles over its own period, not over
 }
 
 TEST_CASE("transient: a motion that winds slowly about its orbit has not settled where it turns", "[transient]") {
-  // Multipliers 0.9855 exp(+-0.0121 i): one turn takes 519 periods.
+  // Floquet multipliers 0.9855 exp(+-0.0121 i): one turn takes 519 periods.
   sim::Model winding;
   winding.oscillator = {.mass = 18.51781894093475, .stiffness = 2466043.1789296954, .damping = 0.23379331987142407};
   winding.excitation = {.type = sim::ExcitationType::base_harmonic,

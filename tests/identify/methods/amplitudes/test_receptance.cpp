@@ -87,7 +87,7 @@ TEST_CASE("The exact motion is read with the bias of harmonic balance, which the
   CHECK(e.others[1].value / natural - 1.0 == Approx(-0.027).margin(0.002));
   CHECK(e.usable);
   REQUIRE_FALSE(e.warnings.empty());
-  CHECK(mentions(e.warnings[0], "would misread its own estimate"));
+  CHECK(mentions(e.warnings[0], "from exact data with this estimate"));
   CHECK_FALSE(e.lack_of_fit->fired);
 
   // The limacon wants a wide range of phases: over 28 % it reads 11.36 and 3.60.

@@ -1,6 +1,6 @@
 #pragma once
-/// What following the advice of `design` is worth, on a random rig: eight levels of amplitudes are followed by
-/// eight states more, either those advised or eight equally spaced levels again.
+/// The value of the advice of `design` on a random rig: a record of eight levels of amplitudes is continued by
+/// eight more states, either those advised or eight equally spaced levels again.
 
 #include <array>
 #include <cstdint>
@@ -21,7 +21,7 @@ struct Followed {
   std::array<bool, 2> held{};
 };
 
-/// Nothing where one of the records has no answer.
+/// Nothing if one of the records has no answer.
 [[nodiscard]] std::optional<Followed> followed_advice(const LawRig& rig, const identify::rigs::Rig& departure,
                                                       double severity, std::uint64_t seed);
 

@@ -20,7 +20,7 @@ using Curves = std::vector<std::vector<SeverityPoint>>;
 
 double below(double z) { return 0.5 * std::erfc(-z / std::numbers::sqrt2); }
 
-/// int Phi(1.645 - d) over the values that laws with a distance below `reach` have.
+/// int Phi(1.645 - d) over the values of laws with a distance below `reach`.
 double least_length(const Curves& curves, double SeverityPoint::* value, double SeverityPoint::* deviation) {
   constexpr double reach = 6.0;
   constexpr double one_sided = 1.6448536269514722;

@@ -1,11 +1,11 @@
 #pragma once
-/// How narrow any interval can be that holds the truth in 95 % under every law of the library.
+/// Lower bound of the length of intervals that hold the truth in 95 % under every law of the library.
 ///
-/// Let d(theta) be the least distance, in standard deviations of the readings, between what plain friction with the
-/// true zeta and F0 reads and what any law of the library reads whose own zeta (or F0) is theta; priors of
-/// nuisances count as readings. An interval that holds theta in 95 % where theta is true leaves it out in 5 %
-/// there, and so, by the lemma of Neyman and Pearson, in at most Phi(d - 1.645) where plain friction is true. The
-/// expected length is the integral of the probability to hold theta (pratt1961length):
+/// Let d(theta) be the least distance, in standard deviations of the readings, between the readings of plain
+/// friction with the true zeta and F0 and those of any law of the library whose own zeta (or F0) is theta; priors
+/// of nuisances count as readings. An interval holds theta in 95 % if theta is true, and leaves it out in 5 %. By
+/// the lemma of Neyman and Pearson it then leaves theta out in at most Phi(d - 1.645) if plain friction is true.
+/// The expected length is the integral of the probability to hold theta (pratt1961length):
 ///
 ///   expected length >= int Phi(1.645 - d(theta)) dtheta
 ///

@@ -18,7 +18,7 @@ namespace dualdamp::identify::testing {
 
 namespace {
 
-/// Beyond it the contact hardly slides, and a drag is all there is to see.
+/// Severity. Beyond it, contacts hardly slide, and a drag hides all other friction.
 constexpr double strong = 1.0;
 
 Record three_sweeps(const LawRig& rig, const identify::rigs::Rig& departure, double severity, std::uint64_t seed) {
@@ -41,7 +41,7 @@ Identification identified(Record record, const KnownConstants& constants) {
   static_cast<void>(complete(record, constants.frequency));
   Ledger ledger = ledger_of(record, constants);
   std::vector<Estimate> estimates;
-  // Where it can be used the joint model's own estimate answers: the other methods need not run.
+  // If the estimate of the joint model is usable it answers, and the other methods need not run.
   if (ledger.joint && ledger.joint->usable && ledger.joint->interval95) {
     estimates.push_back(*ledger.joint);
     return concluded(std::move(estimates), std::move(ledger));

@@ -1,4 +1,4 @@
-/// How often the ranges over laws hold the truth when the law that made the record is not in their library, by
+/// How often the ranges over laws hold the truth if the law that made the record is left out of the library, by
 /// random rigs. usage: any_law_rates RECORDS FIRST_SEED [KIND[/DEPARTURE]]...   e.g. phases/lugre. One line a row.
 
 #include <algorithm>
@@ -40,7 +40,7 @@ std::unique_ptr<const ReadingModel> readings_of(const Record& record, const Know
   return nullptr;
 }
 
-/// By how much plain friction errs, in zeta or F0, whichever is worse; nothing where it has no answer.
+/// Relative error of plain friction in zeta or F0, the larger of both; nothing if it has no answer.
 std::optional<double> bias_of(const LawRig& rig, const Record& record) {
   const auto model = readings_of(record, rig.constants);
   if (!model) return std::nullopt;
@@ -51,8 +51,8 @@ std::optional<double> bias_of(const LawRig& rig, const Record& record) {
   return std::max(std::abs(F0 - 1.0), std::abs(c - 1.0));
 }
 
-/// A record whose plain fit errs by about `wanted`, or by as much as the largest severity gives. Nothing where that
-/// is too little, or where plain friction has no answer.
+/// A record whose plain fit errs by about `wanted`, or by what the largest severity gives. Nothing if that is too
+/// little, or if plain friction has no answer.
 struct Departed {
   Record record;
   double severity = 0.0;
@@ -75,8 +75,8 @@ std::optional<Departed> departed_by(double wanted, LawRecord kind, const LawRig&
   return best;
 }
 
-/// What a law of the library is called that plays this departure, of either sign. A drag beside the damper is the
-/// negative side of a film beside it.
+/// Names to leave out: the departure, and the law of the library of which it is one side. A drag beside the damper
+/// is the negative side of a film beside it.
 std::vector<std::string> without(const identify::rigs::Rig& departure) {
   static const std::map<std::string, std::string> twins = {{"detuned_below", "detuning"},
                                                            {"quadratic_drag", "film_beside_damper"},
@@ -87,8 +87,7 @@ std::vector<std::string> without(const identify::rigs::Rig& departure) {
   return twin == twins.end() ? std::vector{name} : std::vector{name, twin->second};
 }
 
-/// Means over records. Width and misses of an interval over the truth (Gneiting and Raftery's interval score at 95
-/// %).
+/// Means over records: coverage, interval score at 95 % (Gneiting and Raftery) and half width, over the truth.
 struct Tally {
   int held = 0;
   double score = 0.0;
@@ -104,7 +103,7 @@ struct Tally {
   }
 };
 
-/// Of zeta and of F0.
+/// For zeta and for F0.
 using Two = std::array<Tally, 2>;
 
 struct Row {
@@ -184,7 +183,7 @@ void print(const std::string& name, const identify::rigs::Rig* departure, const 
   const double n = std::max(row.records, 1);
   std::printf("%-36s n %3d harmless %3d failed %2d bias %4.1f %% |", name.c_str(), row.records, row.harmless,
               row.failed, 100.0 * row.bias / n);
-  // What a departure has not got cannot be held.
+  // A value that the departure does not have cannot be held.
   if (departure != nullptr && !(departure->has_zeta && departure->has_F0))
     std::printf(" (no %s of its own)", departure->has_zeta ? "F0" : "zeta and no F0");
   for (const auto& [what, two] :
@@ -198,7 +197,7 @@ void print(const std::string& name, const identify::rigs::Rig* departure, const 
   std::fflush(stdout);
 }
 
-/// Means over departures: each counts alike, where it has records and a value of its own to hold.
+/// Means over departures with equal weights, for those that have records and a value of their own.
 class Means {
  public:
   void add(const identify::rigs::Rig& departure, const Row& row) {
@@ -241,7 +240,7 @@ class Means {
   int records_ = 0;
 };
 
-/// Friction that departs, with plain friction first.
+/// The departures to play; plain friction first.
 std::vector<const identify::rigs::Rig*> played(LawRecord kind) {
   std::vector<const identify::rigs::Rig*> list = {nullptr};
   const bool free = kind == LawRecord::extremes || kind == LawRecord::history;

@@ -18,7 +18,7 @@ using std::numbers::pi;
 
 namespace {
 
-/// Of the motions, relative; noise is thirty thousand times larger.
+/// Relative accuracy of the motions; the noise is thirty thousand times larger.
 constexpr double accuracy = 1e-7;
 
 double natural_frequency(const identify::rigs::Truth& truth) {
@@ -33,7 +33,7 @@ sim::Model model_of(const LawRig& rig, const identify::rigs::Truth& truth, const
   return model;
 }
 
-/// The base's amplitude that moves the mass by x at resonance.
+/// Input amplitude that gives the output amplitude x at resonance.
 double level_for(const LawRig& rig, double x) {
   return 2.0 * rig.zeta * x + 4.0 / pi * rig.truth.F0 / rig.truth.model.oscillator.stiffness;
 }
@@ -150,7 +150,7 @@ LawRig law_rig(LawRecord kind, std::uint64_t seed) {
   rig.zeta = ratio_between(0.02, 0.12) * (free ? 0.25 : 1.0);
   oscillator.damping = 2.0 * rig.zeta * std::sqrt(oscillator.mass * oscillator.stiffness);
   const double X = ratio_between(1e-3, 2e-2);
-  // Friction in the equivalent damping of the amplitude X.
+  // Share of friction in the equivalent damping at the amplitude X.
   const double share = between(0.25, 0.6);
   const double viscous = 2.0 * rig.zeta * oscillator.stiffness * X;
   rig.truth.F0 = 0.25 * pi * viscous * share / (1.0 - share);

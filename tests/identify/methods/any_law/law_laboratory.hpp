@@ -1,7 +1,7 @@
 #pragma once
-/// Records of random rigs whose friction departs from Coulomb and viscous friction in a known way, to find out how
-/// often the ranges over laws hold the truth. The engines make the motions; the rigs, their severities and their
-/// noise are drawn.
+/// Records of random rigs whose friction departs from Coulomb and viscous friction in a known way, to measure how
+/// often the ranges over laws hold the truth. The engines compute the motions; rigs, severities and noise are
+/// random.
 
 #include <cstdint>
 #include <string_view>
@@ -37,12 +37,12 @@ struct LawRig {
 /// (released), a friction that takes 0.25 to 0.6 of the drive in the middle of the tests.
 [[nodiscard]] LawRig law_rig(LawRecord kind, std::uint64_t seed);
 
-/// What the rig reads under a departure of this severity; nullptr: under plain friction. The same seed gives the
-/// same noise under every law. Empty where a state was not found.
+/// A record of the rig under a departure of this severity; nullptr: under plain friction. The same seed gives the
+/// same noise under every law. Empty if a state was not found.
 [[nodiscard]] Record law_record(LawRecord kind, const LawRig& rig, const identify::rigs::Rig* departure,
                                 double severity, std::uint64_t seed);
 
-/// The same of given states.
+/// The same for given states.
 [[nodiscard]] Record states_record(const LawRig& rig, const identify::rigs::Rig* departure, double severity,
                                    const std::vector<PlannedState>& states, bool phases, std::uint64_t seed);
 

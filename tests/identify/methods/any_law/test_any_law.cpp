@@ -45,7 +45,7 @@ sim::Model departed(const identify::rigs::Truth& truth, const char* law, double 
   return identify::rigs::departed(*identify::rigs::find_departure(law), truth, reference, severity);
 }
 
-/// Eight levels at resonance, with an error of 0.3 % of X and of a radian.
+/// Eight levels at resonance, with noise of 0.3 % of X and 0.003 rad.
 Record states(const char* law, double severity, bool phases, Normal& normal) {
   constexpr double sigma = 0.003;
   Record record;
@@ -109,7 +109,7 @@ TEST_CASE("any_law: a compliant contact rejects plain friction, and the hull hol
   CHECK_FALSE(law_of(estimate, "contact_compliance").rejected);
   CHECK(law_of(estimate, "contact_compliance").severity == Approx(0.2).margin(0.08));
   CHECK(estimate.laws->inflation == 1.0);
-  // A bound below the truth's severity is the user's word against the data.
+  // A stated bound below the true severity contradicts the data.
   const Estimate bounded =
       any_law(states("contact_compliance", 0.2, true, normal), known, {.largest_severity = 0.02});
   REQUIRE(bounded.outcome.ok());
@@ -128,12 +128,12 @@ TEST_CASE(
     CHECK(law_of(estimate, "coulomb_viscous").rejected);
     const LawAnswer& drag = law_of(estimate, "film_beside_damper");
     CHECK_FALSE(drag.rejected);
-    // Of the speeds that the record has, half of the reference's.
+    // Severities of the library refer to the speed of the record, half of the reference speed.
     CHECK(drag.severity == Approx(-1.0).margin(0.4));
     CHECK(std::abs(drag.largest) > std::abs(drag.severity));
     CHECK(holds(estimate.laws->zeta_hull, zeta));
     CHECK(holds(estimate.laws->F0_hull, F0));
-    // A severity that the user states is a bound, and a law that ends there is told.
+    // A severity that the user states is a bound; a warning names the laws that end there.
     const Estimate bounded = any_law(record, known, {.largest_severity = 0.3});
     REQUIRE(bounded.outcome.ok());
     for (const LawAnswer& law : bounded.laws->laws) CHECK(std::abs(law.severity) <= 0.3);
@@ -147,7 +147,7 @@ TEST_CASE("any_law: a law that the user leaves out is not in the library") {
   const Estimate estimate = any_law(record, known, {.without = {"contact_compliance", "dahl"}});
   REQUIRE(estimate.outcome.ok());
   for (const LawAnswer& law : estimate.laws->laws) CHECK((law.name != "contact_compliance" && law.name != "dahl"));
-  // Others yield before they slip too.
+  // Other laws also yield before they slip.
   CHECK(law_of(estimate, "coulomb_viscous").rejected);
   CHECK(holds(estimate.laws->F0_hull, F0));
 }
@@ -183,7 +183,7 @@ TEST_CASE("any_law: extremes of a free vibration") {
   REQUIRE(estimate.outcome.ok());
   CHECK(holds(estimate.laws->zeta_hull, 0.25 * zeta));
   CHECK(holds(estimate.laws->F0_hull, rig.F0));
-  // What lies in the drive does not exist here.
+  // Without a drive there are no departures of the drive.
   CHECK(std::ranges::find(estimate.laws->laws, "base_distortion", &LawAnswer::name) == estimate.laws->laws.end());
 }
 
@@ -197,8 +197,7 @@ TEST_CASE("any_law: what it cannot read is refused with a reason") {
 }
 
 TEST_CASE("any_law: next to no Coulomb friction has a range that begins at zero") {
-  // By the straight line of viscous friction at resonance, x = Y/(2 zeta); every other record fits with a negative
-  // F0.
+  // The straight line of viscous friction at resonance, x = Y/(2 zeta). Every other record fits with a negative F0.
   int given = 0;
   for (const std::uint64_t seed : {1, 3, 4, 5, 6, 7}) {
     Normal normal(seed);
@@ -273,7 +272,7 @@ TEST_CASE("any_law: uncertain constants widen its ranges, hull and average alike
 
 TEST_CASE("any_law: constants that scale all forces move F0 and c by as much, whatever departs") {
   Normal normal(16);
-  // Every force over the mass stays as it is where mass and stiffness err alike: only the two in proportion.
+  // If mass and stiffness have the same relative error, all forces over the mass stay the same.
   const Record record = states("contact_compliance", 0.2, true, normal);
   const double relative = 0.01;
   const Estimate by_mass = moved_by_constants(record, known, {.mass = relative * mass});
@@ -287,7 +286,7 @@ TEST_CASE("any_law: constants that scale all forces move F0 and c by as much, wh
   };
   CHECK(both(1.0 + relative).F0 / both(1.0).F0 - 1.0 == Approx(relative).epsilon(0.01));
   CHECK(both(1.0 + relative).zeta == Approx(both(1.0).zeta).epsilon(1e-4));
-  // What the mass alone and the stiffness alone move, of either sign, makes up what both together do.
+  // The changes by the mass alone and by the stiffness alone, of either sign, add up to that by both together.
   const double together = relative * both(1.0).F0;
   const double apart = std::abs(by_mass.std->F0 - together);
   CHECK(apart == Approx(by_stiffness.std->F0).margin(0.02 * together));
@@ -309,9 +308,9 @@ TEST_CASE("any_law: what constants do is never left out without a word") {
 }
 
 TEST_CASE("any_law: small steps of a constant do not end in another valley") {
-  // A mass stated 7.4 % too large beside a spring stated 1.1 % too soft: each reading begun anew found the spring
-  // with some masses and strong friction beside no damping with others, and moved F0 by four times the mass's
-  // share.
+  // A mass stated 7.4 % too large and a spring stated 1.1 % too soft. If each fit began anew, it would find the
+  // right spring with some masses, and strong friction without damping with others: F0 would change by four times
+  // the share of the mass.
   Record record;
   record.pairs.emplace();
   for (const auto& [Y, x, phase] : {std::array<double, 3>{6.36136e-04, 2.50113e-03, 1.6020},
@@ -329,8 +328,8 @@ TEST_CASE("any_law: small steps of a constant do not end in another valley") {
   const KnownConstants constants{3.57352, 20220.31, 2.0 * std::numbers::pi * 12.47986};
   const Estimate moved = moved_by_constants(record, constants, {.mass = 0.03 * constants.mass});
   REQUIRE(moved.outcome.ok());
-  // The phases tell the spring over the mass: all forces are in proportion to the mass, and c/(2 sqrt(k m)) with
-  // the stated k to its root.
+  // The phases determine k/m, so all forces are proportional to the mass, and c/(2 sqrt(k m)) with the stated k to
+  // its square root.
   CHECK(moved.std->F0 / moved.value.F0 == Approx(0.03).epsilon(0.05));
   CHECK(moved.std->zeta / moved.value.zeta == Approx(0.015).epsilon(0.1));
 }

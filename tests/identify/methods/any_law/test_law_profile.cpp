@@ -118,7 +118,7 @@ TEST_CASE("any_law: fits that share derivatives are those that take their own") 
 }
 
 TEST_CASE("any_law: the noise of phases is not taken for larger where contacts yield") {
-  // Less noise than usual: what the smooth curve does not follow shows the more.
+  // With little noise, the misfit of the smooth curve is easier to see.
   constexpr double noise = 0.0006;
   for (const char* law : {"contact_compliance", "dahl", "elasto_plastic", "free_play"}) {
     INFO(law);
@@ -132,7 +132,7 @@ TEST_CASE("any_law: laws err by a share of what the departure does to the readin
   const Case plain = case_of("contact_compliance", 1e-6);
   const std::optional<PlainFit> none = with_law_error(*plain.model, plain.plain, 0.25);
   REQUIRE(none);
-  // Plain friction is exact: what it leaves is noise.
+  // The truth is plain friction: what it leaves is noise.
   for (std::size_t i = 0; i < 2; ++i)
     CHECK(none->noise.deviations[i] == Approx(plain.plain.noise.deviations[i]).epsilon(0.05));
   const Case far = case_of("contact_compliance", 0.2);
@@ -206,6 +206,6 @@ TEST_CASE("any_law: a film that levels off is held by other viscous laws when it
     return hull[0] <= one.rig.zeta && one.rig.zeta <= hull[1];
   };
   CHECK(held_without({"viscous_saturating"}));
-  // No other law has the damping of low speeds beside one that falls.
+  // No other law has the damping of low speeds and a damping that falls with speed.
   CHECK_FALSE(held_without({"film_beside_damper", "viscous_saturating"}));
 }

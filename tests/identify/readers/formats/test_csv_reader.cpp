@@ -190,7 +190,7 @@ TEST_CASE("Texts without data") {
 
 TEST_CASE("Bytes that are not text") {
   only_problem(std::string("Y,x\n1,\0 2\n", 11), 2, 3, "control character");
-  only_problem("\xFF\xFEY", 0, 0, "no sound UTF-16");
+  only_problem("\xFF\xFEY", 0, 0, "not valid UTF-16");
   // What is no UTF-8 is Windows-1252, whose letters are no numbers: a surrogate, an overlong form, one cut off.
   for (const char* bytes : {"\xED\xA0\x80", "\xC0\xAF", "\xF5\x80\x80\x80", "2\xC3"})
     only_problem(std::string("Y,x\n1,") + bytes, 2, 3, "is not a number");
