@@ -1,4 +1,5 @@
-/// Quantities, uncertain quantities and unit factors from any text: the first byte chooses dimension and coordinate.
+/// Quantities, uncertain quantities and unit factors from any text: the first byte chooses dimension and
+/// coordinate.
 
 #include <array>
 #include <cmath>

@@ -242,7 +242,8 @@ TEST_CASE("Where a term of friction is nearly seen the intervals reach over the 
     const Ledger ledger = ledger_of(m.record, m.constants);
     if (!ledger.joint || !ledger.joint->interval95) continue;
     ++answered;
-    const bool noted = ledger.entry(Assumption::friction_velocity).reason.find("nearly significant") != std::string::npos;
+    const bool noted =
+        ledger.entry(Assumption::friction_velocity).reason.find("nearly significant") != std::string::npos;
     if (!noted) continue;
     ++near;
     // The standard error of the estimate with the term free is larger than half the distance of both estimates.
