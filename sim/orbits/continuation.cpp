@@ -52,12 +52,16 @@ ChangeKind crossing_of(const SteadyState& a, const SteadyState& b) {
 BranchPoint Continuation::describe(const Node& node) const {
   BranchPoint point{node.parameter, {}};
   const Model model = at(node.parameter);
-  CountedMap map(model, ratio_, count_);
+  CountedMap map(model, ratio_, effort_);
   point.state.period_ratio = ratio_;
   point.state.period = ratio_ * 2.0 * std::numbers::pi / model.excitation.frequency;
   point.state.start = node.period.begin;
   point.state.multipliers = node.period.multipliers();
   account_for_orbit(model, map, false, point.state);
+  // The derivative costs more than the motion, and a motion beside the orbit may cost more than the orbit.
+  constexpr long times = 40;
+  constexpr long least = 50;
+  effort_.of_period = times * std::max(least, map.engine().work());
   return point;
 }
 
@@ -193,10 +197,15 @@ Branch Continuation::run() {
   const Model first = at(from_);
   const SteadyState start = steady_state(first, {.tolerance = options_.tolerance, .full_account = false});
   branch_.outcome = start.outcome;
-  count_ += start.certificate;
+  effort_.count += start.certificate;
   if (!start.outcome.ok()) return std::move(branch_);
   ratio_ = start.period_ratio;
-  Node node{from_, period(from_, start.start), {}};
+  std::optional<ForcingPeriod> begin = period(from_, start.start);
+  if (!begin) {
+    branch_.outcome = {core::OutcomeKind::event_limit, "the period of the first orbit could not be followed"};
+    return std::move(branch_);
+  }
+  Node node{from_, std::move(*begin), {}};
   branch_.points.push_back(describe(node));
   const Index n = node.period.monodromy.cols();
   const VectorXd onward = (to_ >= from_ ? 1.0 : -1.0) * VectorXd::Unit(n + 1, n);
@@ -204,6 +213,9 @@ Branch Continuation::run() {
   double step = 0.1 * options_.largest_step;
   while (static_cast<int>(branch_.points.size()) < options_.max_points) {
     std::optional<Node> next = advance(node, step);
+    if (is_exhausted())
+      return ended(BranchEnd::work,
+                   "the branch is not complete: it stops where the search for its orbits takes too long");
     if (!next) {
       add_change(ChangeKind::end, branch_.points.back(), branch_.points.back());
       return ended(BranchEnd::orbit, "the branch ends inside the range: no orbit continues it");
@@ -271,6 +283,8 @@ std::string_view name(BranchEnd end) {
       return "points";
     case BranchEnd::edge:
       return "edge";
+    case BranchEnd::work:
+      return "work";
   }
   return "";
 }

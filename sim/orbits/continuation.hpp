@@ -58,9 +58,10 @@ enum class BranchEnd {
   orbit,   ///< no orbit continues it
   points,  ///< it has max_points points
   edge,    ///< it left the range, but no orbit was found exactly at the end of the range
+  work,    ///< the search for its orbits took too long
 };
 
-/// "range", "orbit", "points", "edge".
+/// "range", "orbit", "points", "edge", "work".
 [[nodiscard]] std::string_view name(BranchEnd end);
 
 struct Branch {
@@ -78,6 +79,7 @@ struct BranchOptions {
   double tolerance = 1e-13;  ///< closure of each orbit
   double location = 1e-9;    ///< of changes, relative to the larger end of the range
   int max_points = 5000;
+  long most_work = 12'000'000;  ///< `Engine::work` of all attempts together; some twenty seconds
 };
 
 /// The branch from the steady state at `from` that the motion from the model's initial state approaches. It is

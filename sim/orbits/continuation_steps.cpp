@@ -46,9 +46,12 @@ Model Continuation::at(double parameter) const {
 
 double Continuation::omega(double parameter) const { return at(parameter).excitation.frequency; }
 
-ForcingPeriod Continuation::period(double parameter, const State& start) const {
-  CountedMap map(at(parameter), ratio_, count_);
-  return map.from(start, Monodromy::with);
+/// None if the motion was not followed over the whole period.
+std::optional<ForcingPeriod> Continuation::period(double parameter, const State& start) const {
+  CountedMap map(at(parameter), ratio_, effort_);
+  ForcingPeriod result = map.from(start, Monodromy::with);
+  if (!map.outcome().ok()) return std::nullopt;
+  return result;
 }
 
 /// Scale of the parameter. The range may span decades, so at its lower end the scale is the parameter itself.
@@ -67,7 +70,7 @@ VectorXd Continuation::scale(const Node& node) const {
 /// d(end)/d(parameter), by a difference; none if the changed parameter leads to another mode.
 std::optional<VectorXd> Continuation::by_parameter(const Node& node) const {
   for (const double step : {nudge * node.parameter, -nudge * node.parameter}) {
-    CountedMap map(at(node.parameter + step), ratio_, count_);
+    CountedMap map(at(node.parameter + step), ratio_, effort_);
     const ForcingPeriod moved = map.from(node.period.begin, Monodromy::without);
     if (map.outcome().ok() && same_mode(moved.end, node.period.end))
       return (coordinates(moved.end) - coordinates(node.period.end)) / step;
@@ -92,7 +95,7 @@ std::optional<VectorXd> Continuation::tangent(const Node& node, const VectorXd& 
 
 /// The orbit at a fixed parameter nearest to `guess`.
 std::optional<Node> Continuation::orbit(double parameter, const State& guess) const {
-  CountedMap map(at(parameter), ratio_, count_);
+  CountedMap map(at(parameter), ratio_, effort_);
   ForcingPeriod trial = map.from(guess, Monodromy::with);
   for (int i = 0; i < max_corrections && map.outcome().ok(); ++i) {
     if (trial.closure(omega(parameter)) <= options_.tolerance) return Node{parameter, std::move(trial), {}};
@@ -111,8 +114,9 @@ std::optional<Node> Continuation::correct(const Node& from, double step) const {
   State start = displaced(from.period.begin, predicted.head(n));
   for (int i = 0; i < max_corrections; ++i) {
     if (!(node.parameter > 0.0)) return std::nullopt;
-    node.period = period(node.parameter, start);
-    if (!node.period.ends_in_its_mode()) return std::nullopt;
+    std::optional<ForcingPeriod> trial = period(node.parameter, start);
+    if (!trial || !trial->ends_in_its_mode()) return std::nullopt;
+    node.period = std::move(*trial);
     const VectorXd gap = coordinates(node.period.end) - coordinates(node.period.begin);
     if (node.period.closure(omega(node.parameter)) <= options_.tolerance) return node;
     const std::optional<VectorXd> slope = by_parameter(node);
@@ -142,7 +146,7 @@ std::optional<Node> Continuation::cross_modes(const Node& from, double step) con
   const VectorXd predicted = step * from.tangent.cwiseProduct(size);
   const double parameter = from.parameter + predicted[n];
   if (!(parameter > 0.0)) return std::nullopt;
-  CountedMap map(at(parameter), ratio_, count_);
+  CountedMap map(at(parameter), ratio_, effort_);
   ForcingPeriod trial = map.from(displaced(from.period.begin, predicted.head(n)), Monodromy::without);
   for (int i = 1; i <= settling_periods && map.outcome().ok(); ++i) {
     std::optional<Node> node = orbit(parameter, trial.end);
@@ -182,7 +186,7 @@ bool Continuation::turns_too_far(const Node& from, const Node& node, const Vecto
 
 /// The next point with its tangent; halves `step` as often as needed. None: the branch ends.
 std::optional<Node> Continuation::advance(const Node& from, double& step) const {
-  for (; step >= options_.smallest_step; step *= 0.5) {
+  for (; step >= options_.smallest_step && !is_exhausted(); step *= 0.5) {
     std::optional<Node> node = correct(from, step);
     if (!node) node = cross_modes(from, step);
     if (!node) continue;

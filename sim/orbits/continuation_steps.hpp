@@ -3,6 +3,7 @@
 /// mode.
 
 #include <Eigen/Core>
+#include <limits>
 #include <optional>
 #include <string>
 
@@ -18,17 +19,40 @@ struct Node {
   Eigen::VectorXd tangent;  ///< scaled: coordinates, then the parameter; empty before the first step
 };
 
-/// A period map that adds its searches to the count of a branch.
+/// What a branch has cost so far, including failed attempts, and what one period of an attempt may cost.
+struct Effort {
+  core::SearchCount count;
+  long work = 0;                                      ///< Engine::work
+  long of_period = std::numeric_limits<long>::max();  ///< an attempt that exceeds it has run away from every orbit
+};
+
+/// A period map that adds its cost to that of a branch.
 class CountedMap : public PeriodMap {
  public:
-  CountedMap(const Model& model, int periods, core::SearchCount& total)
-      : PeriodMap(model, periods), total_(total) {}
-  ~CountedMap() { total_ += engine().count(); }
+  CountedMap(const Model& model, int periods, Effort& total) : PeriodMap(model, periods), total_(total) {}
+  ~CountedMap() {
+    total_.count += engine().count();
+    total_.work += engine().work();
+  }
   CountedMap(const CountedMap&) = delete;
   CountedMap& operator=(const CountedMap&) = delete;
 
+  [[nodiscard]] ForcingPeriod from(const State& state, Monodromy monodromy) {
+    renew_limit();
+    return PeriodMap::from(state, monodromy);
+  }
+  [[nodiscard]] ForcingPeriod next(Monodromy monodromy) {
+    renew_limit();
+    return PeriodMap::next(monodromy);
+  }
+
  private:
-  core::SearchCount& total_;
+  void renew_limit() {
+    const long most = std::numeric_limits<long>::max();
+    limit(total_.of_period < most ? engine().work() + total_.of_period : most);
+  }
+
+  Effort& total_;
 };
 
 class Continuation {
@@ -42,11 +66,11 @@ class Continuation {
         range_(std::max(std::abs(to - from), 1e-12 * std::abs(from))) {}
 
   Branch run();
-  [[nodiscard]] const core::SearchCount& count() const { return count_; }
+  [[nodiscard]] const core::SearchCount& count() const { return effort_.count; }
 
  private:
   [[nodiscard]] Model at(double parameter) const;
-  [[nodiscard]] ForcingPeriod period(double parameter, const State& start) const;
+  [[nodiscard]] std::optional<ForcingPeriod> period(double parameter, const State& start) const;
   [[nodiscard]] double omega(double parameter) const;
   [[nodiscard]] double parameter_scale(double parameter) const;
   [[nodiscard]] Eigen::VectorXd scale(const Node& node) const;
@@ -61,6 +85,7 @@ class Continuation {
   [[nodiscard]] std::optional<Node> advance(const Node& from, double& step) const;
   [[nodiscard]] BranchPoint describe(const Node& node) const;
   [[nodiscard]] bool inside(double parameter) const;
+  [[nodiscard]] bool is_exhausted() const { return effort_.work > options_.most_work; }
   [[nodiscard]] Branch ended(BranchEnd end, const std::string& warning);
   void record(const Node& before, const Node& after);
   void locate_stability(const Node& before, const BranchPoint& last);
@@ -78,7 +103,7 @@ class Continuation {
   double range_;
   int ratio_ = 1;  ///< forcing periods in a period of the motion
   Branch branch_;
-  mutable core::SearchCount count_;  ///< of all maps, including failed attempts
+  mutable Effort effort_;
 };
 
 }  // namespace dualdamp::sim

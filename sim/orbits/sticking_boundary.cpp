@@ -1,7 +1,8 @@
 #include "sim/orbits/sticking_boundary.hpp"
 
-#include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
 
 #include "sim/analytic/den_hartog.hpp"
 #include "sim/orbits/steady_state.hpp"
@@ -58,30 +59,76 @@ SteadyState at(Model& model, double amplitude) {
   return steady_state(model, {.full_account = false});
 }
 
+bool sticks(const SteadyState& state) { return !state.sticks.empty(); }
+
+/// Where the search begins: the amplitude whose spring or drive force equals the friction. No bound: a damper to
+/// the base, harmonics or an offset move the mass at less. A law without force at the start (free play) says
+/// nothing.
+double first_amplitude(const Model& model, const ForceLimits& limits) {
+  const bool base = model.excitation.type == ExcitationType::base_harmonic;
+  const double force = limits.holding > 0.0 ? limits.holding : limits.kinetic;
+  if (force > 0.0) return force / (base ? model.oscillator.stiffness : 1.0);
+  return model.excitation.amplitude > 0.0 ? model.excitation.amplitude : 1.0;
+}
+
+/// Two amplitudes with the boundary between them.
+struct Bracket {
+  double low = 0.0;   ///< the mass sticks
+  double high = 0.0;  ///< it does not
+  SteadyState above;  ///< at `high`
+};
+
+/// Doubles the amplitude while the mass sticks, or halves it while the mass does not.
+core::Outcome bracket(Model& model, double amplitude, Bracket& found) {
+  SteadyState state = at(model, amplitude);
+  const bool up = sticks(state);
+  for (int i = 0; i < max_doublings && state.outcome.ok(); ++i) {
+    if (sticks(state)) {
+      found.low = amplitude;
+    } else {
+      found.high = amplitude;
+      found.above = state;
+    }
+    if (sticks(state) != up) return {};
+    amplitude *= up ? 2.0 : 0.5;
+    state = at(model, amplitude);
+  }
+  if (!state.outcome.ok()) return state.outcome;
+  return {core::OutcomeKind::no_steady_state,
+          up ? "the mass sticks at every amplitude" : "even the weakest drive moves the mass without a stick"};
+}
+
+/// Halves the bracket. Where a steady state at its middle is not found, one beside the middle will do.
+core::Outcome narrow(Model& model, Bracket& found) {
+  constexpr std::array<double, 3> places = {0.5, 0.4, 0.6};
+  while (found.high - found.low > precision * found.high) {
+    core::Outcome outcome;
+    for (const double place : places) {
+      const double amplitude = found.low + place * (found.high - found.low);
+      SteadyState state = at(model, amplitude);
+      outcome = state.outcome;
+      if (!outcome.ok()) continue;
+      if (sticks(state)) {
+        found.low = amplitude;
+      } else {
+        found.high = amplitude;
+        found.above = std::move(state);
+      }
+      break;
+    }
+    if (!outcome.ok()) return outcome;
+  }
+  return {};
+}
+
 BoundaryPoint find(Model model, const ForceLimits& limits, double omega) {
   model.excitation.frequency = omega;
   BoundaryPoint point{.omega = omega};
-  const bool base = model.excitation.type == ExcitationType::base_harmonic;
-  // This drive is too weak to move the mass.
-  double low = limits.holding / (base ? model.oscillator.stiffness : 1.0);
-  double high = 2.0 * low;
-  SteadyState state = at(model, high);
-  for (int i = 0; i < max_doublings && state.outcome.ok() && !state.sticks.empty(); ++i) {
-    low = high;
-    high *= 2.0;
-    state = at(model, high);
-  }
-  while (state.outcome.ok() && high - low > precision * high) {
-    const double middle = 0.5 * (low + high);
-    SteadyState trial = at(model, middle);
-    (trial.outcome.ok() && trial.sticks.empty() ? high : low) = middle;
-    if (!trial.outcome.ok() || trial.sticks.empty()) state = std::move(trial);
-  }
-  point.outcome = state.outcome;
-  if (point.outcome.ok() && !state.sticks.empty())
-    point.outcome = {core::OutcomeKind::no_steady_state, "the mass sticks at every amplitude"};
-  point.amplitude = high;
-  point.x = state.amplitude;
+  Bracket found;
+  point.outcome = bracket(model, first_amplitude(model, limits), found);
+  if (point.outcome.ok()) point.outcome = narrow(model, found);
+  point.amplitude = found.high;
+  point.x = found.above.amplitude;
   if (point.outcome.ok()) point.closed_form = den_hartogs(model, limits);
   return point;
 }

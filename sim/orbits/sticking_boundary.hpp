@@ -1,10 +1,11 @@
 #pragma once
 /// The sticking boundary: at each frequency the smallest excitation amplitude whose steady state never sticks.
 ///
-/// The engine finds it by bisection, for any law: below it every orbit sticks somewhere in the forcing period. For
-/// the oscillator of denhartog1931 (only Coulomb friction with static = kinetic, one harmonic, damper to ground)
-/// the result also has Den Hartog's closed form (`sim/analytic/den_hartog.hpp`), which shares no code with the
-/// engine.
+/// The engine finds it by bisection, for any law, between an amplitude at which the mass sticks somewhere in the
+/// forcing period and one at which it does not; both are computed. If several amplitudes divide sticking from
+/// sliding (harmonics, offset, several steady states), it is one of them. For the oscillator of denhartog1931 (only
+/// Coulomb friction with static = kinetic, one harmonic, damper to ground) the result also has Den Hartog's closed
+/// form (`sim/analytic/den_hartog.hpp`), which shares no code with the engine.
 ///
 /// Cost: some fifty steady states a frequency.
 

@@ -115,7 +115,7 @@ class Run(Case):
     def test_expectations(self):
         self.write("off.yaml", BASE + "expect:\n  - {value: peak, equals: 0.2, within: 1.0e-3, source: page 7}\n")
         result = self.run_program("run", "off.yaml", status=1)
-        self.assertRegex(result.stdout, r"value +paper +here +difference")
+        self.assertRegex(result.stdout, r"value +expected +found +difference")
         self.assertRegex(result.stdout, r"peak +0\.2 +0\.18\d+ +-0\.0139 +NO +page 7")
         self.assertTrue((self.folder / "results/off/result.json").exists())
         self.document("run", "off.yaml", "--json", status=1)

@@ -85,7 +85,7 @@ def test_answers_that_are_none(answer, error, message):
 def test_refusals(tmp_path):
     with pytest.raises(dd.InvalidScenario, match="asks for no stress test"):
         dd.benchmark("scenarios/examples/coulomb.yaml", {})
-    with pytest.raises(dd.InvalidScenario, match="under one name"):
+    with pytest.raises(dd.InvalidScenario, match="two entries have the same name"):
         dd.benchmark(SMALL, {INSIDE: lambda case: None})
     dd.stress_export(SMALL, tmp_path, seed=7)
     with pytest.raises(dd.InvalidScenario, match="that of another stress test"):

@@ -259,3 +259,23 @@ TEST_CASE("a branch that is cut short says so") {
   REQUIRE(branch.warnings.size() == 1);
   CHECK(branch.warnings[0].find("7 points") != std::string::npos);
 }
+
+TEST_CASE("a branch whose search takes too long ends with a warning") {
+  const sim::Branch branch = continue_branch(coulomb_driven(0.1, 1.0, 1.0, 0.5), BranchParameter::amplitude, 4.0,
+                                             1.05, {.most_work = 500});
+  REQUIRE(branch.outcome.ok());
+  CHECK(branch.end == sim::BranchEnd::work);
+  REQUIRE(branch.warnings.size() == 1);
+  CHECK(branch.warnings[0].find("takes too long") != std::string::npos);
+}
+
+TEST_CASE("attempts that run away over the hilltop of a softening spring do not hold up its branch") {
+  sim::Model model = coulomb_driven(0.02, 0.25, 0.25, 8.0);
+  model.oscillator = {.mass = 1.0, .stiffness = 100.0, .damping = 0.4, .cubic_stiffness = -1200.0};
+  model.excitation = {.type = sim::ExcitationType::force_harmonic, .amplitude = 2.7, .frequency = 8.0};
+  const sim::Branch branch = continue_branch(model, BranchParameter::frequency, 7.5, 8.5, {.most_work = 3'000'000});
+  REQUIRE(branch.outcome.ok());
+  CHECK(branch.end != sim::BranchEnd::work);
+  REQUIRE(count(branch, ChangeKind::fold) == 1);
+  CHECK(branch.changes[0].parameter == Approx(8.0905).epsilon(1e-4));
+}

@@ -5,6 +5,8 @@
 #include <catch2/catch.hpp>
 
 #include "friction_models/laws/coulomb.hpp"
+#include "friction_models/laws/free_play.hpp"
+#include "sim/orbits/steady_state.hpp"
 
 using namespace dualdamp;
 
@@ -16,6 +18,23 @@ sim::Model model(double zeta, double kinetic, double holding) {
   result.excitation = {.type = sim::ExcitationType::base_harmonic, .amplitude = 1.0, .frequency = 1.0};
   result.friction.emplace_back(friction::Coulomb(kinetic, holding));
   return result;
+}
+
+bool sticks(sim::Model model, double omega, double amplitude) {
+  model.excitation.frequency = omega;
+  model.excitation.amplitude = amplitude;
+  const sim::SteadyState state = sim::steady_state(model);
+  REQUIRE(state.outcome.ok());
+  return !state.sticks.empty();
+}
+
+/// The mass sticks just below the boundary, and does not just above it.
+void check_sides(const sim::Model& model, double omega) {
+  const sim::BoundaryPoint point = sim::sticking_boundary(model, std::vector{omega})[0];
+  CAPTURE(omega, point.amplitude, point.outcome.reason);
+  REQUIRE(point.outcome.ok());
+  CHECK(sticks(model, omega, 0.999 * point.amplitude));
+  CHECK_FALSE(sticks(model, omega, 1.001 * point.amplitude));
 }
 
 }  // namespace
@@ -45,4 +64,38 @@ TEST_CASE("static friction above kinetic raises the boundary, and no closed form
   REQUIRE(above.outcome.ok());
   CHECK(above.amplitude > 1.01 * equal.amplitude);
   CHECK_FALSE(above.closed_form.has_value());
+}
+
+TEST_CASE("A drive that moves the mass at less than friction over stiffness has its boundary there") {
+  // x_f = 1: each boundary lies below it, where an earlier search did not look.
+  sim::Model damped = model(1.5, 1.0, 1.0);
+  damped.oscillator.damper_to = sim::DamperTo::base;
+  for (const double omega : {1.4, 4.0, 10.0}) check_sides(damped, omega);
+  // By an independent integration with events: 2.180 and 0.7119 of x_f/100.
+  const auto boundary = sim::sticking_boundary(damped, std::vector{4.0, 10.0});
+  CHECK(boundary[0].amplitude == Approx(0.2180).epsilon(2e-3));
+  CHECK(boundary[1].amplitude == Approx(0.07119).epsilon(2e-3));
+
+  sim::Model structural = model(0.0, 1.0, 1.0);
+  structural.oscillator.loss_factor = 2.0;
+  check_sides(structural, 4.0);
+
+  sim::Model displaced = model(0.0, 1.0, 2.0);
+  displaced.oscillator.damping = 0.1;
+  displaced.initial.position = 20.0;
+  check_sides(displaced, 1.0);
+}
+
+TEST_CASE("a mass that slides at the weakest drive has no sticking boundary, and the reason says so") {
+  sim::Model harmonics = model(0.1, 1.0, 1.0);
+  harmonics.excitation.harmonics = {{.order = 3, .amplitude = 40.0}};
+  const sim::BoundaryPoint moved = sim::sticking_boundary(harmonics, std::vector{0.3})[0];
+  CHECK(moved.outcome.reason == "even the weakest drive moves the mass without a stick");
+
+  sim::Model play = model(0.1, 1.0, 1.0);
+  play.friction.clear();
+  play.friction.emplace_back(friction::FreePlay(1.0, 1.0, 2.0));
+  play.excitation.amplitude = 0.1;
+  const sim::BoundaryPoint free = sim::sticking_boundary(play, std::vector{0.67})[0];
+  CHECK(free.outcome.reason == "even the weakest drive moves the mass without a stick");
 }
