@@ -104,6 +104,24 @@ void check_excitation(CheckedFile& file) {
   }
 }
 
+/// A scenario may state the amplitude that a list replaces; an option or a sweep that names it would have no
+/// effect.
+void check_replaced(CheckedFile& file) {
+  for (const auto& [key, list] : {std::pair{"amplitude", "analysis.amplitudes"},
+                                  {"amplitude", "analysis.measurement.amplitudes"},
+                                  {"frequency", "analysis.frequencies"},
+                                  {"frequency", "analysis.measurement.frequencies"}}) {
+    const std::string path = std::string("excitation.") + key;
+    // The uncertainty of a frequency has an effect where lists replace its value.
+    if (!file.is_given(list) || !file.is_chosen(path) || file.has("excitation", uncertainty_key(key))) continue;
+    const Node* section = file.node("excitation");
+    const Entry* entry = section == nullptr ? nullptr : section->find(key);
+    file.complain(entry == nullptr ? file.place_of(path) : entry->place,
+                  "'" + path + "' has no effect: '" + list + "' replaces it",
+                  "values in '" + std::string(list) + "'");
+  }
+}
+
 /// Converts a damping ratio into a damping; a damped frequency needs both.
 void resolve_damping(CheckedFile& file) {
   const auto m = file.number_at("system", "mass");
@@ -267,6 +285,7 @@ Checked check(const Document& document, Reading& reading, const Section& format,
   if (file.needs() != nullptr) {
     check_sections(file);
     check_excitation(file);
+    check_replaced(file);
     if (!file.needs()->excitations.empty()) check_verification(file, *analysis, analyses);
   }
   if (file.needs() != nullptr) check_uncertainties(file, *analysis, analyses);

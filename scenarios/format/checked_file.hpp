@@ -96,6 +96,9 @@ class CheckedFile {
   /// Whether the file has a value at exactly this path, readable or not.
   [[nodiscard]] bool is_given(const std::string& path) const { return reading_.places.contains(path); }
 
+  /// Whether an option or a sweep names exactly this path.
+  [[nodiscard]] bool is_chosen(const std::string& path) const { return document_.is_chosen(path); }
+
   /// A section without its key; nullptr when it is not there.
   [[nodiscard]] const Node* node(std::string_view section) const;
 

@@ -177,10 +177,14 @@ void Document::set(std::string_view assignment, std::string origin, bool replace
                                 std::move(*earlier),
                                 {}});
   put(path, std::move(value), [this, source](std::size_t offset) { return place_at(source, offset); });
+  if (!replaceable) chosen_.emplace_back(path);
 }
+
+bool Document::is_chosen(std::string_view path) const { return std::ranges::find(chosen_, path) != chosen_.end(); }
 
 void Document::put(std::string_view path, Place place, Node value) {
   put(path, std::move(value), [place](std::size_t) { return place; });
+  chosen_.emplace_back(path);
 }
 
 void Document::put(std::string_view path, Node value, const std::function<Place(std::size_t)>& place_of) {

@@ -72,6 +72,8 @@ class Document {
   void set(std::string_view assignment, std::string origin, bool replaceable = false);
   /// The assignment that states a value at this path or below it, with its origin; nothing if the file states it.
   [[nodiscard]] std::optional<std::string> assigned(std::string_view path) const;
+  /// Whether an option or a sweep names exactly this path, and not a section that contains it.
+  [[nodiscard]] bool is_chosen(std::string_view path) const;
 
   /// The same with a value that is already a node; `place` is that of PATH, for messages.
   void put(std::string_view path, Place place, Node value);
@@ -106,6 +108,7 @@ class Document {
   std::vector<Source> sources_;
   Node root_;
   std::vector<core::Diagnostic> problems_;
+  std::vector<std::string> chosen_;  ///< paths that options and sweeps name
 };
 
 }  // namespace dualdamp::scenarios

@@ -45,6 +45,18 @@ class Ignored(case.Case):
                 self.assertIn(f"found: {found}", result.stderr)
         self.run_program("run", "base.yaml", "--set", "system.friction={law: coulomb, kinetic: 1 N}", "--set", "system.friction.static=2 N")
 
+    def test_an_amplitude_that_a_list_replaces(self):
+        """As an option of its own; beside the list in the file, or as a part of a section, it says what is replaced."""
+        curve = ["run", self.write("curve.yaml", BASE.replace("{type: steady_state}", "{type: xy_curve, amplitudes: [0.1 m, 0.2 m]}"))]
+        error = self.run_program(*curve, "--set", "excitation.amplitude=7 m", status=3).stderr
+        self.assertIn("--set:1:12: error: 'excitation.amplitude' has no effect: 'analysis.amplitudes' replaces it", error)
+        response = ["--set", "analysis={type: frequency_response, frequencies: [9 rad/s, 10 rad/s]}"]
+        error = self.run_program(*curve, *response, "--set", "excitation.frequency=7 Hz", status=3).stderr
+        self.assertIn("'excitation.frequency' has no effect: 'analysis.frequencies' replaces it", error)
+        self.run_program(*curve)
+        self.run_program(*curve, *response, "--set", "excitation.amplitude=0.2 m")
+        self.run_program(*curve, "--set", "excitation={type: base_harmonic, amplitude: 7 m, frequency: 9 rad/s}")
+
     def test_a_gain_of_a_sensor_that_is_not_there(self):
         data = self.write("data.csv", "Y [mm],x [mm]\n4.5,4.7\n5,7.21\n5.5,9.76\n6,12.2\n")
         result = self.run_program("identify", data, "--mass", "1.042 kg", "--stiffness", "1568 N/m", "--frequency", "6.17 Hz", "--gain-uncertainty", "a=1 %", status=3)

@@ -249,3 +249,30 @@ TEST_CASE("sweep: expectations are of its own result", "[scenarios][sweep]") {
   CHECK(problem_of(sweep + "expect: [{value: \"sweep[2].result.peak\", equals: 1}]").message.find("no such item") !=
         std::string::npos);
 }
+
+TEST_CASE("sweep: a key that a list of the analysis replaces is refused, and may stand in the file",
+          "[scenarios][sweep]") {
+  const auto [analysis, key, values, list] = GENERATE(table<std::string, std::string, std::string, std::string>(
+      {{"{type: xy_curve, amplitudes: [0.1 m, 0.2 m]}", "excitation.amplitude", "[0.3 m, 0.4 m]",
+        "analysis.amplitudes"},
+       {"{type: xy_branch, amplitudes: {from: 0.1 m, to: 0.2 m}}", "excitation.amplitude", "[0.3 m, 0.4 m]",
+        "analysis.amplitudes"},
+       {"{type: frequency_response, frequencies: [9 rad/s, 10 rad/s]}", "excitation.frequency",
+        "[8 rad/s, 9 rad/s]", "analysis.frequencies"},
+       {"{type: regime_map, frequencies: [9 rad/s, 10 rad/s], amplitudes: [0.1 m]}", "excitation.frequency",
+        "[8 rad/s, 9 rad/s]", "analysis.frequencies"},
+       {"{type: identify, measurement: {type: xy_curve, amplitudes: [0.2 m, 0.3 m, 0.4 m]}, methods: "
+        "[resonance_least_squares]}",
+        "excitation.amplitude", "[0.3 m, 0.4 m]", "analysis.measurement.amplitudes"},
+       {"{type: identify, measurement: {type: frequency_response, frequencies: [9 rad/s, 10 rad/s, 11 rad/s]}}",
+        "excitation.frequency", "[8 rad/s, 9 rad/s]", "analysis.measurement.frequencies"}}));
+  CAPTURE(analysis, key);
+  const core::Diagnostic problem = problem_of("sweep: {" + key + ": " + values + "}", analysis);
+  CHECK(problem.message == "'" + key + "' has no effect: '" + list + "' replaces it");
+  CHECK(problem.place.line == 5);
+  CHECK(problem.place.column == 9);
+  CHECK_NOTHROW(scenario_of(analysis));
+  // The frequency of these curves has an effect.
+  if (key == "excitation.amplitude")
+    CHECK_NOTHROW(scenario_of(analysis, "sweep: {excitation.frequency: [8 rad/s, 9 rad/s]}"));
+}
