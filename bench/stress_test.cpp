@@ -250,6 +250,8 @@ void check_stress_test(CheckedFile& file) {
   check_names(file, "ranges");
   check_names(file, "sensors");
   check_samples(file, analysis);
+  for (std::size_t i = 0; i < analysis.value("sensors", Json::array()).size(); ++i)
+    scenarios::check_outliers(file, "analysis.sensors[" + std::to_string(i) + "]");
   check_random_response(file);
   if (!file.stands_in_file("analysis", "laws")) {
     Json all = Json::array();

@@ -85,12 +85,72 @@ double longest_period(const CheckedFile& file) {
   return slowest > 0.0 ? two_pi / slowest : 0.0;
 }
 
+/// Whether time histories have a signal that may be left out: v or a.
+bool records(const CheckedFile& file, const char* signal) {
+  if (!file.measurement()->contains("signals")) return true;
+  const Json& signals = file.measurement()->at("signals");
+  return std::ranges::find(signals, signal) != signals.end();
+}
+
 void check_lags(CheckedFile& file) {
   if (!file.has("analysis", "sensors") || file.text_at("excitation", "type").ends_with("_harmonic")) return;
   for (const auto& [name, sensor] : file.values().at("analysis").at("sensors").items())
     if (sensor.is_object() && sensor.contains("phase_lag"))
       file.complain("analysis.sensors." + name + ".phase_lag",
                     "a phase lag needs a harmonic excitation: it is an angle at the forcing frequency", "a delay");
+}
+
+/// Signals of which a measurement takes readings; nothing if the file is too faulty for it.
+std::vector<std::string> read_signals(const CheckedFile& file) {
+  const auto type = file.measurement()->at("type").get<std::string>();
+  if (type == "free_decay") return {"x"};
+  const bool is_sampled = file.is_given("analysis.sensors.sample_rate");
+  // Without samples, a sensor of v reads the mean square speed of a steady state.
+  if (type != "simulate")
+    return is_sampled ? std::vector<std::string>{"y", "x", "v", "a"} : std::vector<std::string>{"y", "x", "v"};
+  const auto drive = file.text_at("excitation", "type");
+  if (drive.empty() && file.node("excitation") != nullptr) return {};
+  std::vector<std::string> signals = {"x"};
+  if (moves_base(drive))
+    signals.insert(signals.begin(), "y");
+  else if (!drive.empty() && drive != "none")
+    signals.emplace_back("force");
+  for (const char* signal : {"v", "a"})
+    if (records(file, signal)) signals.emplace_back(signal);
+  return signals;
+}
+
+/// Refuses sensors, and keys of sensors, that do not affect the record.
+void check_sensors(CheckedFile& file) {
+  const std::string path = "analysis.sensors";
+  check_outliers(file, path);
+  const std::vector<std::string> signals = read_signals(file);
+  for (const char* signal : {"y", "x", "v", "a", "force"})
+    if (const std::string sensor = path + "." + signal;
+        file.is_given(sensor) && !signals.empty() && std::ranges::find(signals, signal) == signals.end())
+      file.complain(sensor, "'" + sensor + "' has no effect: the measurement takes no readings of " + signal,
+                    "sensors of " + core::joined(signals));
+  const auto type = file.measurement()->at("type").get<std::string>();
+  const bool is_curve = type != "free_decay" && type != "simulate";
+  if (!is_curve && sensor_number(file, "average_cycles").value_or(1.0) != 1.0)
+    file.complain(
+        path + ".average_cycles",
+        "'" + path + ".average_cycles' has no effect: the measurement reads no amplitudes of steady states",
+        "a measurement 'xy_curve' or 'frequency_response'");
+  if (type == "free_decay" && file.is_given(path + ".x.delay"))
+    file.complain(path + ".x.delay", "'" + path + ".x.delay' has no effect: the times of extremes are exact",
+                  "a measurement 'simulate' without excitation");
+  for (const std::string& lag : {path + ".v.phase_lag", path + ".v.delay"})
+    if (is_curve && file.is_given(lag) && !file.is_given(path + ".sample_rate"))
+      file.complain(lag, "'" + lag + "' has no effect: without samples the sensor reads the mean square speed",
+                    "with a sample_rate");
+}
+
+/// Refuses a drift between sweeps if there is only one.
+void check_drift(CheckedFile& file) {
+  const std::string path = "analysis.measurement.friction_drift";
+  if (file.is_given(path) && !file.is_given("analysis.measurement.sweeps"))
+    file.complain(path, "'" + path + "' has no effect: the measurement has one sweep", "with two or more 'sweeps'");
 }
 
 /// Refuses amplitudes if the drive has no amplitude.
@@ -130,13 +190,8 @@ identify::History outline_history(const CheckedFile& file) {
   else if (!type.empty() && type != "none")
     history.force = {0.0};
   history.x = {0.0};
-  const auto records = [&](const char* signal) {
-    if (!file.measurement()->contains("signals")) return true;
-    const Json& signals = file.measurement()->at("signals");
-    return std::ranges::find(signals, signal) != signals.end();
-  };
-  if (records("v")) history.v = {0.0};
-  if (records("a")) history.a = {0.0};
+  if (records(file, "v")) history.v = {0.0};
+  if (records(file, "a")) history.a = {0.0};
   return history;
 }
 
@@ -186,6 +241,8 @@ void check_measurement(CheckedFile& file) {
                   "at most " + core::format_number(max_points, 7) + " in all sweeps",
                   core::format_number(tests(file), 7));
   check_lags(file);
+  check_sensors(file);
+  check_drift(file);
   check_amplitudes(file);
   const auto type = file.measurement()->at("type").get<std::string>();
   const auto rate = sensor_number(file, "sample_rate");

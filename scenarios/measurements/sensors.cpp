@@ -1,5 +1,7 @@
 #include "scenarios/measurements/sensors.hpp"
 
+#include <utility>
+
 #include "scenarios/format/common_keys.hpp"
 #include "scenarios/format/values.hpp"
 
@@ -49,6 +51,17 @@ std::vector<Field> sensor_fields() {
       sensor("v", "m/s", "the mass's velocity"),
       sensor("a", "m/s^2", "the mass's acceleration"),
       sensor("force", "N", "the force on the mass")};
+}
+
+void check_outliers(CheckedFile& file, const std::string& path) {
+  for (const char* signal : {"y", "x", "v", "a", "force"}) {
+    const std::string sensor = path + "." + signal;
+    const std::string every = sensor + ".outlier_every";
+    const std::string size = sensor + ".outlier_size";
+    for (const auto& [given, missing] : {std::pair(every, size), std::pair(size, every)})
+      if (file.is_given(given) && !file.is_given(missing))
+        file.complain(given, "'" + given + "' has no effect without '" + missing + "'", "both or none");
+  }
 }
 
 identify::Sensors sensors_of(const Json& section) {
