@@ -14,6 +14,7 @@
 #include "scenarios/format/values.hpp"
 #include "scenarios/measurements/drives.hpp"
 #include "scenarios/results/files.hpp"
+#include "scenarios/results/motion.hpp"
 #include "scenarios/scenario_format.hpp"
 #include "scenarios/scenario_reading.hpp"
 #include "scenarios/sweep.hpp"
@@ -249,8 +250,10 @@ Scenario scenario_of(const Document& document, Reading reading, const std::strin
   scenario.analysis_name = std::string(checked.analysis->name);
   scenario.result_rows = checked.result_rows;
   scenario.result_fields = result_fields(*checked.analysis, section);
-  for (ResultField& field : scenario.result_fields)
+  for (ResultField& field : scenario.result_fields) {
+    if (field.unit == "m or N") field.unit = amplitude_unit(scenario.model.excitation);
     field.unit = core::unit_for(scenario.model.oscillator.coordinate, field.unit);
+  }
   scenario.question = checked.analysis->ask(
       {section, values.value("system", Json()), values.value("excitation", Json()), scenario.model,
        std::move(checked.data), std::move(checked.files), values.contains("initial"), std::move(checked.compared)});

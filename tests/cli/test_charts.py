@@ -147,6 +147,15 @@ class Charts(Case):
             self.assertAlmostEqual(float(row["output amplitude x [cm]"]), 100 * float(line["x [m]"]), delta=1e-12)
         self.assertIn("system.friction.kinetic", (self.folder / "both/compare.html").read_text())
 
+    def test_compare_a_sweep_of_curves_with_a_curve(self):
+        self.run_program("run", "curve.yaml", "--out", "one")
+        self.run_program("run", "curve.yaml", "--out", "sweep", "--set", "sweep={system.mass: [1, 2]}", "--plot", "sweep.svg")
+        self.assertIn("input amplitude Y [cm]", self.drawing("sweep.svg")[0])
+        self.run_program("compare", "one", "sweep", "--out", "both")
+        texts, series = self.drawing("both/compare.svg")
+        self.assertIn("input amplitude Y [cm]", texts)
+        self.assertEqual(len(series), 3)
+
     def test_compare_by_title(self):
         self.compare("title=one", "title=another")
         texts, _ = self.drawing("both/compare.svg")

@@ -276,3 +276,34 @@ TEST_CASE("sweep: a key that a list of the analysis replaces is refused, and may
   if (key == "excitation.amplitude")
     CHECK_NOTHROW(scenario_of(analysis, "sweep: {excitation.frequency: [8 rad/s, 9 rad/s]}"));
 }
+
+TEST_CASE("sweep: an input amplitude has the unit of its drive in the tables", "[scenarios][sweep]") {
+  const auto unit_of = [](const scenarios::RunResult& result, const std::string& table, const std::string& column) {
+    const scenarios::Table& rows = file_table(result, table);
+    const auto found = std::ranges::find(rows.columns, column, &scenarios::Column::name);
+    REQUIRE(found != rows.columns.end());
+    return found->unit;
+  };
+  const auto swept = [](const std::string& system, const std::string& excitation, const std::string& analysis) {
+    return scenarios::run(scenarios::parse_scenario(
+        "schema: dualdamp/1\nsystem: {" + system + ", friction: {law: coulomb, kinetic: 2}}\nexcitation: " +
+            excitation + "\nanalysis: " + analysis + "\nsweep: {system.damping: [4, 5]}\n",
+        "units.yaml"));
+  };
+  const std::string line = "mass: 1 kg, stiffness: 100 N/m, damping: 4";
+  const std::string turn = "mass: 1 kg.m^2, stiffness: 100 N.m/rad, damping: 4";
+  const std::string base = "{type: base_harmonic, frequency: 10 rad/s}";
+  const std::string force = "{type: force_harmonic, frequency: 10 rad/s}";
+  const std::string curve = "{type: xy_curve, amplitudes: [8, 9]}";
+  CHECK(unit_of(swept(line, base, curve), "sweep_points", "Y") == "m");
+  CHECK(unit_of(swept(line, force, curve), "sweep_points", "Y") == "N");
+  CHECK(unit_of(swept(turn, base, curve), "sweep_points", "Y") == "rad");
+  CHECK(unit_of(swept(turn, force, curve), "sweep_points", "Y") == "N.m");
+  CHECK(unit_of(swept(line, force, "{type: xy_branch, amplitudes: {from: 8, to: 9}}"), "sweep_points", "Y") == "N");
+  const auto map =
+      swept(line, force, "{type: regime_map, frequencies: [9 rad/s], amplitudes: [8, 9], sticking_boundary: true}");
+  CHECK(unit_of(map, "sweep_points", "Y") == "N");
+  CHECK(unit_of(map, "sweep_regimes", "Y_from") == "N");
+  CHECK(unit_of(map, "sweep_regimes", "Y_to") == "N");
+  CHECK(unit_of(map, "sweep_boundary", "Y") == "N");
+}
