@@ -35,7 +35,8 @@ Block block(const scenarios::Column& column, std::size_t rows, const scenarios::
     for (std::size_t i = 0; i < rows; ++i)
       if (std::isfinite(column.numbers[i])) largest = std::max(largest, std::abs(column.numbers[i]));
   const scenarios::ShownUnit shown =
-      scenarios::shown_unit(units, column.unit, largest).value_or(scenarios::ShownUnit{column.unit});
+      scenarios::shown_unit(units, scenarios::kind_of(column.unit, column.name), largest)
+          .value_or(scenarios::ShownUnit{column.unit});
   result.cells.push_back(shown.unit.empty() ? column.name : column.name + " [" + shown.unit + "]");
   for (std::size_t i = 0; i < rows; ++i) {
     if (!result.is_number)

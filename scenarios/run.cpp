@@ -36,7 +36,7 @@ void summarise(const Scenario& scenario, const Json& result, Table& table) {
     constexpr int digits = 9;
     table.columns[0].texts.push_back(name);
     const double number = value.is_number_float() ? value.get<double>() : 0.0;
-    const ShownUnit shown = shown_unit(units, unit, std::abs(number)).value_or(ShownUnit{unit});
+    const ShownUnit shown = shown_unit(units, kind_of(unit, name), std::abs(number)).value_or(ShownUnit{unit});
     table.columns[1].texts.push_back(value.is_number_float() ? core::format_number(number * shown.factor, digits)
                                      : value.is_string()     ? value.get<std::string>()
                                                              : value.dump());

@@ -40,7 +40,7 @@ function isGeometric(list) {
 /** x and y in readable units, the axes' labels with them. */
 function scaled(spec) {
   const axisOf = (axis, lists) => {
-    const { unit, factor } = axis.asWritten ? { unit: axis.unit, factor: 1 } : readable(axis.unit, largest(lists));
+    const { unit, factor } = axis.asWritten ? { unit: axis.unit, factor: 1 } : readable(axis.unit, largest(lists), axis.column);
     const shown = unit && unit !== "1" ? unit : "";
     return { unit: shown, factor, text: axis.label + (shown ? ` [${shown}]` : ""), log: axis.log ?? false, whole: axis.whole ?? false };
   };

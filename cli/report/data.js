@@ -61,16 +61,19 @@ function short(value, digits = 6) {
 
 const prefixes = [[1, ""], [1e-3, "m"], [1e-6, "µ"], [1e-9, "n"]];
 
+/** The SI unit of a quantity, but "angular velocity" for that of an angle: its SI unit is also that of a frequency. */
+const kindOf = (unit, name) => (unit === "rad/s" && /(^|\.)(v|max_speed)$/.test(name) ? "angular velocity" : unit);
+
 /** The unit that the user wrote for such quantities, if numbers up to `largest` are legible in it. */
-function written(unit, largest) {
-  const told = run.shown_units?.[unit];
+function written(unit, largest, name = "") {
+  const told = run.shown_units?.[kindOf(unit, name)];
   const most = told ? largest * told.factor : 0;
   return told && (told.asked || most === 0 || (most >= 1e-3 && most < 1e6)) ? told : null;
 }
 
 /** Unit and factor for numbers up to `largest`: the unit that the user wrote, else a prefix: 0.004 m becomes 4 mm. */
-function readable(unit, largest) {
-  const told = written(unit, largest);
+function readable(unit, largest, name) {
+  const told = written(unit, largest, name);
   if (told) return told;
   if (!["m", "m/s", "s", "N", "N.m", "J"].includes(unit) || !(largest > 0)) return { unit, factor: 1 };
   const [size, prefix] = prefixes.find(([scale]) => largest >= scale) ?? prefixes[prefixes.length - 1];

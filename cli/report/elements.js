@@ -17,7 +17,7 @@ const heading = (text) => make("h2", {}, text);
 /** Name, value and unit in boxes; each item {name, value, unit, path}. */
 function numbers(items) {
   return make("dl", { class: "numbers" }, items.map(({ name, value, unit, path }) => {
-    const shown = (typeof value === "number" && written(unit, Math.abs(value))) || { unit, factor: 1 };
+    const shown = (typeof value === "number" && written(unit, Math.abs(value), path ?? name)) || { unit, factor: 1 };
     return make("div", {}, make("dt", {}, name),
       make("dd", { "data-path": path, "data-value": JSON.stringify(value), title: `${value}${unit && unit !== "1" ? ` ${unit}` : ""}` },
         short(typeof value === "number" ? value * shown.factor : value), shown.unit && shown.unit !== "1" ? ` ${shown.unit}` : ""));
@@ -49,7 +49,7 @@ function folded(name, { columns, rows, step }, most = 500) {
   const shown = Math.min(columns[0]?.values.length ?? 0, most);
   const all = shown === rows;
   const note = all ? "" : ` The page shows ${shown} of ${rows} rows${step > 1 ? `, every ${step}th` : ""}; all are in ${name}.csv.`;
-  const units = columns.map(({ unit, values: list, isText }) => (!isText && written(unit, largest([list]))) || { unit, factor: 1 });
+  const units = columns.map(({ name: column, unit, values: list, isText }) => (!isText && written(unit, largest([list]), column)) || { unit, factor: 1 });
   const body = Array.from({ length: shown }, (_, i) => columns.map(({ isText, texts, values: list }, j) =>
     (isText ? texts[i] : { text: list[i] === null ? null : list[i] * units[j].factor, title: texts[i] })));
   return make("details", {}, make("summary", {}, `${name}.csv, ${rows} row${rows === 1 ? "" : "s"}`),

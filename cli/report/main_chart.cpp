@@ -125,9 +125,10 @@ class ChartMaker {
   }
 
   /// Converts numbers in SI to the unit that is shown.
-  void show(ChartAxis& axis, const std::string& unit, std::vector<double> ChartSeries::* list) {
+  void show(ChartAxis& axis, const StoredColumn& column, std::vector<double> ChartSeries::* list) {
+    const std::string unit = unit_of(column);
     axis.unit = unit;
-    const auto shown = units_.find(unit);
+    const auto shown = units_.find(scenarios::kind_of(unit, column.name));
     if (shown == units_.end()) return;
     axis.unit = shown->second.unit;
     axis.written_for = {unit, shown->second.factor};
@@ -196,8 +197,8 @@ class ChartMaker {
     chart_.x.is_log = is_geometric(all_of(chart_.series, &ChartSeries::x));
     chart_.y.is_log =
         chart_.series.front().kind == SeriesKind::cells && is_geometric(all_of(chart_.series, &ChartSeries::y));
-    show(chart_.x, unit_of(x), &ChartSeries::x);
-    show(chart_.y, unit_of(y), &ChartSeries::y);
+    show(chart_.x, x, &ChartSeries::x);
+    show(chart_.y, y, &ChartSeries::y);
   }
 
   /// The chart of an analysis that names none: the first two columns of numbers of its first table.
@@ -287,7 +288,7 @@ class ChartMaker {
     chart_.x.is_log = is_geometric(x.numbers);
     chart_.x.unit = x.unit;
     chart_.x.written_for = {x.unit, 1.0};
-    show(chart_.y, y->unit, &ChartSeries::y);
+    show(chart_.y, *y, &ChartSeries::y);
     return true;
   }
 

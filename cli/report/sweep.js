@@ -47,7 +47,7 @@ function mapOf({ name, unit, values: list }, keys) {
   const [low, high] = [Math.min(...list.filter(isNumber)), Math.max(...list.filter(isNumber))];
   const steps = Math.min(9, distinct(list.filter(isNumber)).length);
   const step = (v) => (high > low ? Math.min(steps - 1, Math.floor((steps * (v - low)) / (high - low))) : 0);
-  const { unit: shown, factor } = readable(unit, largest([list]));
+  const { unit: shown, factor } = readable(unit, largest([list]), name);
   const edge = (i) => short(factor * (low + (i * (high - low)) / steps), 3);
   const cells = (keep, more) => {
     const rows = list.map((_, i) => i).filter((i) => keep(list[i]));

@@ -31,7 +31,7 @@ function broken({ x, y, ...more }) {
 }
 
 const unitOf = (name, column) => tables[name]?.get(column)?.unit ?? "";
-const axis = (name, column, label = column) => ({ label, unit: unitOf(name, column) });
+const axis = (name, column, label = column) => ({ label, unit: unitOf(name, column), column });
 
 /** A stepped curve: the way up and the way down, with their points. */
 function steppedView(name, over, label) {

@@ -24,6 +24,19 @@ void add(const std::string& unit, std::span<const char* const> kinds, bool is_as
 constexpr std::array all_kinds = {"m", "rad", "rad/s", "m/s", "s",     "N",     "N.m",  "J",
                                   "W", "kg",  "N/m",   "N/s", "N.s/m", "m/s^2", "N/m^3"};
 
+constexpr const char* angular_velocity = "angular velocity";
+
+void add_angular_velocity(const std::string& unit, bool is_asked, ShownUnits& units) {
+  const auto factor = core::unit_factor(unit, "m/s", core::Coordinate::angle).value;
+  if (factor && *factor > 0.0) units.emplace(angular_velocity, ShownUnit{unit, 1.0 / *factor, is_asked});
+}
+
+/// Hz and rpm are of frequencies, deg/s is of velocities, and rad/s is of both.
+void add_asked(const std::string& unit, ShownUnits& units) {
+  add(unit, all_kinds, true, units);
+  if (unit == "rad/s" || !core::unit_factor(unit, "rad/s").value) add_angular_velocity(unit, true, units);
+}
+
 }  // namespace
 
 std::string ask_for_units(std::string_view list, std::map<std::string, std::string>& written) {
@@ -34,7 +47,7 @@ std::string ask_for_units(std::string_view list, std::map<std::string, std::stri
     std::string unit(list.substr(begin, end - begin));
     std::erase(unit, ' ');
     ShownUnits known;
-    if (!unit.empty()) add(unit, all_kinds, true, known);
+    if (!unit.empty()) add_asked(unit, known);
     if (known.empty())
       return "'" + unit + "' is no unit of a result; such as mm, um, Hz, rpm, ms, mm/s, deg, kN, N/mm";
     for (const auto& [kind, shown] : known)
@@ -45,6 +58,11 @@ std::string ask_for_units(std::string_view list, std::map<std::string, std::stri
     begin = end + 1;
   }
   return {};
+}
+
+std::string kind_of(const std::string& unit, std::string_view name) {
+  const std::string_view last = name.substr(name.find_last_of('.') + 1);
+  return unit == "rad/s" && (last == "v" || last == "max_speed") ? angular_velocity : unit;
 }
 
 bool is_asked_for(std::string_view path) { return path.starts_with(asked); }
@@ -70,11 +88,13 @@ ShownUnits shown_units(const std::map<std::string, std::string>& written) {
                                      "system.friction.kinetic"};
   ShownUnits units;
   for (const auto& [path, unit] : written)
-    if (is_asked_for(path)) add(unit, all_kinds, true, units);
+    if (is_asked_for(path)) add_asked(unit, units);
   for (const std::string quantity : quantities)
     for (const std::string& path : {quantity, quantity + ".from"}) {
       const auto unit = written.find(path);
-      if (unit != written.end()) add(unit->second, kinds, false, units);
+      if (unit == written.end()) continue;
+      add(unit->second, kinds, false, units);
+      if (quantity == "data.v" || quantity == "initial.velocity") add_angular_velocity(unit->second, false, units);
     }
   return units;
 }
@@ -86,8 +106,8 @@ bool is_legible(double largest, const ShownUnit& unit) {
   return unit.is_asked || largest == 0.0 || (number >= least && number < most);
 }
 
-std::optional<ShownUnit> shown_unit(const ShownUnits& units, const std::string& unit, double largest) {
-  const auto found = units.find(unit);
+std::optional<ShownUnit> shown_unit(const ShownUnits& units, const std::string& kind, double largest) {
+  const auto found = units.find(kind);
   if (found == units.end() || !is_legible(largest, found->second)) return std::nullopt;
   return found->second;
 }

@@ -15,7 +15,11 @@ struct ShownUnit {
   bool is_asked = false;  ///< requested by name, for numbers of any size
 };
 
-using ShownUnits = std::map<std::string, ShownUnit, std::less<>>;  ///< by SI unit
+using ShownUnits = std::map<std::string, ShownUnit, std::less<>>;  ///< by kind of quantity
+
+/// The kind of a quantity: its SI unit, but "angular velocity" for that of an angle, whose SI unit is also that of
+/// a frequency. `name`: of its column, or its path in the result.
+[[nodiscard]] std::string kind_of(const std::string& unit, std::string_view name);
 
 /// `written`: `Scenario::written_units`. Order of preference: units of measured data, of varied quantities, of the
 /// excitation, of the initial state.
@@ -32,7 +36,7 @@ using ShownUnits = std::map<std::string, ShownUnit, std::less<>>;  ///< by SI un
 /// are.
 [[nodiscard]] bool is_legible(double largest, const ShownUnit& unit);
 
-/// The unit for numbers up to `largest` whose SI unit is `unit`; nothing: SI.
-[[nodiscard]] std::optional<ShownUnit> shown_unit(const ShownUnits& units, const std::string& unit, double largest);
+/// The unit for numbers up to `largest` of this kind; nothing: SI.
+[[nodiscard]] std::optional<ShownUnit> shown_unit(const ShownUnits& units, const std::string& kind, double largest);
 
 }  // namespace dualdamp::scenarios

@@ -220,6 +220,7 @@ class Page(unittest.TestCase):
             self.assertIn(text, dom)
         self.assertIn("x_f [rad],", (out / "estimates.csv").read_text())
         self.assertIn("F0 [N.m],", (out / "estimates.csv").read_text())
+        self.assertEqual(self.ask("formula", '(run.shown_units = {"rad/s": {unit: "Hz", factor: 0.5, asked: true}}, [...["final.v", "max_speed", "omega"].map((path) => numbers([{path, name: "", value: 1, unit: "rad/s"}]).textContent), ...["v", "omega"].map((name) => folded("t", {columns: [{name, unit: "rad/s", values: [1], texts: ["1"]}], rows: 1}).querySelector("th").textContent), ...["v", "omega"].map((column) => scaled({x: {unit: "rad/s", column}, y: {unit: ""}, series: [{x: [1], y: [1]}]}).x.unit)])'), ["1 rad/s", "1 rad/s", "0.5 Hz", "v [rad/s]", "omega [Hz]", "rad/s", "Hz"])
 
     def test_the_labels_of_an_axis_differ(self):
         labels = self.ask("formula", "tickTexts([13.999990, 13.999992, 13.999994, 13.999996])")

@@ -7,6 +7,7 @@
 #include "answers.hpp"
 #include "files.hpp"
 #include "scenarios/format/si_units.hpp"
+#include "scenarios/results/shown_units.hpp"
 #include "scenarios/scenario_format.hpp"
 #include "tests/support/problems.hpp"
 
@@ -199,4 +200,33 @@ TEST_CASE("rotation: identification from columns in degrees and N.m", "[scenario
   CHECK_THROWS_AS(identified("x [deg]", 1.0, "{mass: 0.3 kg, stiffness: 12 N/m}"), core::InputError);
   CHECK_THROWS_AS(identified("x", 1.0, "{mass: 0.3 kg.m^2, stiffness: 12 N.m/rad}"), core::InputError);
   std::filesystem::remove_all(directory);
+}
+
+TEST_CASE("rotation: a velocity is not shown in the unit of a frequency", "[scenarios][rotation]") {
+  const std::string drive = "excitation: {type: base_harmonic, amplitude: 10 deg, frequency: 1 Hz}\n";
+  const auto result = scenarios::run(scenario_from(system_of_angle + drive + "analysis: {type: steady_state}\n"));
+  const auto& names = result.summary.columns.at(0).texts;
+  const auto row = static_cast<std::size_t>(std::ranges::find(names, "max_speed") - names.begin());
+  REQUIRE(row < names.size());
+  CHECK(result.summary.columns.at(2).texts.at(row) == "rad/s");
+  const double speed = testing::result_of(result).at("max_speed").get<double>();
+  CHECK(std::stod(result.summary.columns.at(1).texts.at(row)) == Approx(speed).epsilon(1e-8));
+
+  using scenarios::kind_of;
+  const auto shown = [](const scenarios::ShownUnits& units, const char* name) {
+    const auto unit = scenarios::shown_unit(units, kind_of("rad/s", name), 1.0);
+    return unit ? unit->unit : "rad/s";
+  };
+  const auto stated = scenarios::shown_units({{"excitation.frequency", "Hz"}, {"initial.velocity", "deg/s"}});
+  CHECK(shown(stated, "omega") == "Hz");
+  CHECK(shown(stated, "final.v") == "deg/s");
+  const auto asked = [](const std::string& list) {
+    std::map<std::string, std::string> written;
+    CHECK(scenarios::ask_for_units(list, written).empty());
+    return scenarios::shown_units(written);
+  };
+  CHECK(shown(asked("Hz"), "omega") == "Hz");
+  CHECK(shown(asked("Hz"), "v") == "rad/s");
+  CHECK(shown(asked("rpm, deg/s"), "omega") == "rpm");
+  CHECK(shown(asked("rpm, deg/s"), "max_speed") == "deg/s");
 }
