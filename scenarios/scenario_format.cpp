@@ -21,7 +21,8 @@ Section system_section() {
                 "spring k between mass and base; with measured data it is optional, or 0 for a mass on a rail")
            .at_least(0)
            .with_uncertainty(),
-       uncertainty_of("stiffness", {"N/m"}), quantity("damping", {"N.s/m"}, "viscous damping c, of any sign"),
+       uncertainty_of("stiffness", {"N/m"}),
+       quantity("damping", {"N.s/m"}, "viscous damping c, of any sign; a motion needs it or 'damping_ratio'"),
        quantity("damping_ratio", {"1"}, "zeta, which gives c = 2 zeta sqrt(m k)"),
        quantity("cubic_stiffness", {"N/m^3"}, "coefficient of the cube of the spring's elongation; any sign")
            .with_fallback(0.0),

@@ -125,11 +125,11 @@ class Comparison {
     const auto heading = [](const ChartAxis& axis) {
       return field(axis.unit.empty() ? axis.label : axis.label + " [" + axis.unit + "]");
     };
-    out << "result," << heading(chart_.x) << "," << heading(chart_.y) << "\n";
+    out << "result," << heading(numbers_.x) << "," << heading(numbers_.y) << "\n";
     const auto number = [](double value) {
       return std::isfinite(value) ? core::format_number(value) : std::string();
     };
-    for (const ChartSeries& series : chart_.series)
+    for (const ChartSeries& series : numbers_.series)
       for (std::size_t i = 0; i < series.x.size(); ++i)
         out << field(series.label) << "," << number(series.x[i]) << "," << number(series.y[i]) << "\n";
   }
@@ -262,13 +262,15 @@ class Comparison {
       }
       ++colour;
     }
+    numbers_ = chart_;
     make_readable(chart_);
   }
 
   Json analysis_;  ///< its name
   std::vector<Compared> compared_;
   std::vector<std::string> differing_;  ///< paths
-  Chart chart_;
+  Chart numbers_;                       ///< in the units that are stated, else in SI
+  Chart chart_;                         ///< in readable units
 };
 
 }  // namespace

@@ -147,6 +147,16 @@ class Charts(Case):
             self.assertAlmostEqual(float(row["output amplitude x [cm]"]), 100 * float(line["x [m]"]), delta=1e-12)
         self.assertIn("system.friction.kinetic", (self.folder / "both/compare.html").read_text())
 
+    def test_compare_writes_si_where_no_unit_is_stated(self):
+        """The chart may then have a prefix, the table has none."""
+        bare = CURVE.replace("{from: 10 cm, to: 30 cm, count: 5}", "[0.05, 0.06]").replace("kinetic: 2 N", "kinetic: 1 N")
+        (self.folder / "curve.yaml").write_text(bare)
+        self.compare("system.mass=1", "system.mass=2")
+        lines = [line for line in (self.folder / "both/compare.csv").read_text().splitlines() if not line.startswith("#")]
+        self.assertEqual(lines[0], "result,input amplitude Y [m],output amplitude x [m]")
+        self.assertEqual([float(line.split(",")[-2]) for line in lines[1:]], [0.05, 0.06] * 2)
+        self.assertIn("input amplitude Y [mm]", self.drawing("both/compare.svg")[0])
+
     def test_compare_a_sweep_of_curves_with_a_curve(self):
         self.run_program("run", "curve.yaml", "--out", "one")
         self.run_program("run", "curve.yaml", "--out", "sweep", "--set", "sweep={system.mass: [1, 2]}", "--plot", "sweep.svg")
