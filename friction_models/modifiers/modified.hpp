@@ -1,8 +1,8 @@
 #pragma once
 /// A law under modifiers. Every force limit of the law, nominally L, becomes
 ///
-///   max(0, max(0, 1 + drift t) max(0, 1 + ratio n) exp(-p/power) N L + position_slope |x|) where N > 0, 0
-///   elsewhere N = max(0, 1 + load_gradient x) (1 + modulation cos(order w t + phase))
+///   max(0, max(0, 1 + drift t) max(0, 1 + ratio n) exp(-p/power) N L + position_slope |x|) if N > 0, else 0  [N]
+///   N = max(0, 1 + load_gradient x) (1 + modulation cos(order w t + phase))
 ///
 /// The factors act first, then the slope. N is the load of the contact; where it is lost there is no friction,
 /// whatever the slope. w is the frequency of a harmonic excitation. n is the process of `fluctuation.hpp`, either
