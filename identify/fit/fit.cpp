@@ -6,6 +6,8 @@
 #include <utility>
 
 #include "core/constants.hpp"
+#include "core/diagnostics.hpp"
+#include "friction_models/law_fault.hpp"
 #include "identify/fit/residual_test.hpp"
 #include "identify/fit/search.hpp"
 #include "identify/fit/serial_test.hpp"
@@ -56,6 +58,28 @@ void describe_signals(const FitProblem& problem, const Eigen::VectorXd& misses, 
     result.signals.push_back(signal);
   }
   if (count > 0.0) result.noise_units = std::sqrt(sum / count);
+}
+
+/// Why a law cannot be computed at the start values; empty if it can. What is wrong with a plugin is so at all
+/// values.
+std::string law_fault(const Rig& rig, const std::vector<FitParameter>& parameters, const std::vector<double>& sizes,
+                      const Experiments& experiments) {
+  Eigen::VectorXd values(static_cast<Eigen::Index>(parameters.size()));
+  for (std::size_t i = 0; i < parameters.size(); ++i)
+    values[static_cast<Eigen::Index>(i)] = std::isnan(parameters[i].stated) ? sizes[i] : parameters[i].stated;
+  try {
+    const std::optional<Rig> there = with_values(rig, parameters, values);
+    const std::optional<sim::Model> model = there ? model_of(*there) : std::nullopt;
+    Eigen::VectorXd outputs;
+    if (model)
+      for (const auto& experiment : experiments)
+        static_cast<void>(experiment->predict(*model, experiment->own_start, outputs));
+  } catch (const friction::LawFault& fault) {
+    return fault.what();
+  } catch (const core::InputError&) {
+    return {};
+  }
+  return {};
 }
 
 struct Request {
@@ -112,8 +136,10 @@ Fit fit_rig(const Rig& rig, std::vector<FitParameter> parameters, const Experime
       .points = result.starts, .most_starts = all_stated ? 2U : 3U, .robust = options.robust};
   std::optional<SearchResult> found = search_parameters(problem, parameters, sizes, search);
   if (!found) {
-    result.outcome = {core::OutcomeKind::not_identifiable,
-                      "the rig has no such motion with any of " + std::to_string(result.starts) + " starts"};
+    const std::string fault = law_fault(rig, parameters, sizes, experiments);
+    result.outcome = {core::OutcomeKind::not_identifiable, "the rig has no such motion with any of " +
+                                                               std::to_string(result.starts) + " starts" +
+                                                               (fault.empty() ? "" : ": " + fault)};
     return result;
   }
   constexpr int most_rounds = 4;

@@ -225,10 +225,11 @@ def _row(number, answer):
         raise TypeError(f"a method returns a mapping or None, not {type(answer).__name__}")
     if unknown := set(answer) - set(_COLUMNS):
         raise TypeError(f"an answer has no {', '.join(map(repr, sorted(unknown)))}; it may have {', '.join(_COLUMNS)}")
-    return [number, *(_cell(answer.get(column)) for column in _COLUMNS)]
+    return [number, *(_cell(column, answer.get(column)) for column in _COLUMNS)]
 
 
-def _cell(value):
+def _cell(column, value):
     if value is None:
         return ""
-    return ("yes" if value else "no") if isinstance(value, (bool, np.bool_)) else repr(float(value))
+    is_truth = isinstance(value, (bool, np.bool_)) or (column == "usable" and value in (0, 1))
+    return ("yes" if value else "no") if is_truth else repr(float(value))

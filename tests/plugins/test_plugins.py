@@ -214,6 +214,13 @@ class Broken(Case):
                 self.assertIn(part, document["errors"][0]["message"])
                 self.assertIsNone(document["result"])
 
+    def test_a_fit_says_which_law_fails_and_how(self):
+        self.write("decay.csv", "x [mm]\n30\n-28\n26\n-24\n22\n-20\n18\n-16\n")
+        rig = ("--mass", "1 kg", "--stiffness", "100 N/m", "--damping", "0 N.s/m", "--no-profile", "--plugin", TEST_LAW)
+        for fault in ("status", "throws"):
+            failed = self.run_program("fit", "test_slider", "decay.csv", *rig, status=4, fault=fault).stderr
+            self.assertIn(FAILED[fault], failed)
+
     def test_one_law_that_fails_spoils_no_other_file(self):
         self.write("good.yaml", SCENARIO.replace("test_slider", "contact_compliance"))
         documents = self.document("slider.yaml", "good.yaml", "--jobs", "2", status=4, fault="throws")

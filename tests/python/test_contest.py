@@ -24,6 +24,14 @@ def again(case):
     return {"zeta": estimate.zeta, "F0": estimate.F0, **ends, "p_value": lack.p_value, "usable": not lack.fired}
 
 
+def test_a_truth_may_be_a_number():
+    from dualdamp._contest import _row
+
+    assert [_row(1, {"usable": value})[-1] for value in (1, 0, 1.0, np.int64(1), np.bool_(False), True, None)] == ["yes", "no", "yes", "yes", "no", "yes", ""]
+    assert _row(1, {"usable": 2})[-1] == "2.0"  # refused by the reader of the answers
+    assert _row(1, {"zeta": 1})[1] == "1.0"
+
+
 def test_a_method_of_the_program_scores_as_itself():
     scored = dd.benchmark(SMALL, {"again": again}, seed=11)
     inside, outside = ({k: v for k, v in row.items() if k != "method"} for name in (INSIDE, "again") for row in scored.result.ranking if row.method == name)
