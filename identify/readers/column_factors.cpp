@@ -85,9 +85,9 @@ double ColumnFactors::refuse(const core::Diagnostic& where, std::string message,
   return 1.0;
 }
 
-double ColumnFactors::factor_of(const KnownColumn& known, const std::string& stated,
-                                const core::Diagnostic& where) {
+double ColumnFactors::factor_of(KnownColumn known, const std::string& stated, const core::Diagnostic& where) {
   const std::string name(known.name);
+  if (options_.force_levels && name == "Y") known.unit = "N";
   const std::string* given = find_for(options_.units, known);
   const std::string& unit = given != nullptr ? *given : stated;
   if (known.unit.empty())
@@ -113,7 +113,9 @@ double ColumnFactors::factor_of(const KnownColumn& known, const std::string& sta
   }
   core::Diagnostic fault = where;
   if (given != nullptr) fault.found = *given;
-  return refuse(fault, "the unit of column " + name + ": " + factor.fault,
+  return refuse(fault,
+                "the unit of column " + name +
+                    (known.unit == "N" && name == "Y" ? ", the amplitude of the force" : "") + ": " + factor.fault,
                 core::describe_dimension(known.unit, options_.coordinate) + "; in the file as '" + name +
                     " [unit]', or as --unit " + name + "=UNIT",
                 factor.suggestion);

@@ -36,7 +36,7 @@ class ColumnFactors {
 
   /// The factor from numbers of the column to SI. `stated`: the unit in the file; may be empty. A fault is added to
   /// the problems, with place and text from `where`.
-  double factor_of(const KnownColumn& known, const std::string& stated, const core::Diagnostic& where);
+  double factor_of(KnownColumn known, const std::string& stated, const core::Diagnostic& where);
 
   /// The units of all columns. Adds one warning for all columns without a unit.
   ColumnUnits take_units();

@@ -35,6 +35,7 @@ struct ReadOptions {
   std::map<std::string, std::string> scales = {};
   char decimal = '.';                                            ///< decimal mark of a CSV file: a point or a comma
   core::Coordinate coordinate = core::Coordinate::displacement;  ///< what x is
+  bool force_levels = false;                                     ///< Y is the amplitude of a force [N]
   bool no_header = false;  ///< the first row of a CSV file holds numbers; `columns` has the number of each column
   /// Names of the columns to be read, without aliases; others are not read. Empty: all.
   std::vector<std::string> only = {};

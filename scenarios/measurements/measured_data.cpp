@@ -49,8 +49,9 @@ identify::MeasuredRecord read(const DataTexts& texts, const std::string& path,
 
 /// If the scenario does not determine the coordinate, the units of the columns do.
 identify::MeasuredRecord read_by_units(CheckedFile& file, const std::string& path, const std::string& name,
-                                       const Json& section) {
+                                       const Json& section, bool by_force = false) {
   identify::ReadOptions options = read_options(section, file.coordinate(), name);
+  options.force_levels = by_force;
   try {
     return read(file.data_place().texts, path, options);
   } catch (const core::InputError& fault) {
@@ -218,6 +219,7 @@ void read_data_list(CheckedFile& file, const std::string& name) {
   Json list = file.values().at("analysis").at(name);
   const bool is_list = list.is_array();
   if (!is_list) list = Json::array({list});
+  const bool by_force = file.text_at("excitation", "type") == "force_harmonic";
   for (std::size_t i = 0; i < list.size(); ++i) {
     if (!list[i].contains("file")) continue;
     const std::string key = "analysis." + name + (is_list ? "[" + std::to_string(i) + "]" : "");
@@ -225,11 +227,13 @@ void read_data_list(CheckedFile& file, const std::string& name) {
     const auto path = path_of_data(file, key, data_name);
     if (!path) continue;
     try {
-      identify::MeasuredRecord data = read_by_units(file, *path, data_name, list[i]);
+      identify::MeasuredRecord data = read_by_units(file, *path, data_name, list[i], by_force);
       file.note_units(data.units);
       refuse_repeated(file, key, data, list[i]);
       std::ranges::move(identify::repeated_readings(data.record), std::back_inserter(data.warnings));
-      if (!list[i].value("loop", false)) refuse_gross_faults(file, data, stated_frequency(file), data_name);
+      // The checks of pairs compare x with the motion of the base.
+      const bool is_checked = !list[i].value("loop", false) && !(by_force && data.record.pairs);
+      if (is_checked) refuse_gross_faults(file, data, stated_frequency(file), data_name);
       file.files.push_back({data_name, name, i, std::move(data)});
     } catch (const core::InputError& error) {
       file.take_over(error.diagnostics());
