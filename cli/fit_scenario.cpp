@@ -140,14 +140,9 @@ scenarios::Scenario prediction_by(const Json& document, const PredictCommand& co
   scenarios::LoadOptions options;
   options.data_anywhere = true;
   options.set = {{"analysis=" + prediction_of(result, command), "DATA"}};
-  const Json& scenario = document.at("scenario");
-  // If the fit had no drive, the drive of the fitted scenario is that of one of its readings, not that of other
-  // records.
-  const std::string drive = scenario.contains("excitation") ? scenario.at("excitation").dump() : "{type: none}";
-  options.set.push_back({"excitation=" + drive, "RESULT", true});
   add_drive(command, options);
   scenarios::Scenario prediction =
-      scenarios::parse_scenario(result.at("scenario").get<std::string>(), command.result, options);
+      scenarios::parse_scenario(result.at("rig").get<std::string>(), command.result, options);
   prediction.file = command.data.front();
   return prediction;
 }

@@ -312,6 +312,7 @@ Checked check(const Document& document, Reading& reading, const Section& format,
           .files = std::move(file.files),
           .compared = std::move(file.compared),
           .drive = std::move(file.drive),
+          .drive_start = file.drive_start,
           .sha256 = std::move(file.sha256),
           .warnings = std::move(file.warnings)};
 }

@@ -22,6 +22,7 @@ struct Checked {
   std::vector<DataFile> files;                   ///< of an analysis that takes several
   std::optional<identify::MeasuredSignal> compared;
   std::shared_ptr<const sim::SampledSignal> drive;
+  double drive_start = 0.0;
   std::vector<std::string> sha256;  ///< of the files read
   std::vector<std::string> warnings;
 };

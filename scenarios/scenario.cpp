@@ -254,9 +254,10 @@ Scenario scenario_of(const Document& document, Reading reading, const std::strin
     if (field.unit == "m or N") field.unit = amplitude_unit(scenario.model.excitation);
     field.unit = core::unit_for(scenario.model.oscillator.coordinate, field.unit);
   }
-  scenario.question = checked.analysis->ask(
-      {section, values.value("system", Json()), values.value("excitation", Json()), scenario.model,
-       std::move(checked.data), std::move(checked.files), values.contains("initial"), std::move(checked.compared)});
+  scenario.question =
+      checked.analysis->ask({section, values.value("system", Json()), values.value("excitation", Json()),
+                             scenario.model, std::move(checked.data), std::move(checked.files),
+                             values.contains("initial"), std::move(checked.compared), checked.drive_start});
   scenario.expect = expectations(values, document, reading);
   scenario.written_units = std::move(reading.written_units);
   return scenario;
@@ -265,7 +266,7 @@ Scenario scenario_of(const Document& document, Reading reading, const std::strin
 Scenario parse_scenario(const std::string& text, const std::string& name, const LoadOptions& options) {
   Document document(name, text);
   const std::string left_out = ask_instead(document, options);
-  for (const Override& item : options.set) document.set(item.assignment, item.origin, item.replaceable);
+  for (const Override& item : options.set) document.set(item.assignment, item.origin);
   refuse_other_schema(document);
   const bool is_sweep = document.root().find("sweep") != nullptr;
   Scenario scenario = is_sweep

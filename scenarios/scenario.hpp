@@ -56,7 +56,6 @@ struct Scenario {
 struct Override {
   std::string assignment;
   std::string origin = "--set";
-  bool replaceable = false;  ///< a later one may state the same value
 };
 
 struct LoadOptions {

@@ -37,15 +37,10 @@ std::unique_ptr<Neighbours> Experiment::neighbours(const sim::Model& /*model*/) 
 }
 
 FitParameter own_parameter(const Experiment& experiment, std::size_t index, Own own, bool is_alone) {
-  struct Naming {
-    const char* name;
-    const char* unit;
-  };
-  static constexpr std::array<Naming, own_count> namings = {
-      {{"position", "m"}, {"velocity", "m/s"}, {"offset", "m"}, {"release", "s"}}};
+  static constexpr std::array<const char*, own_count> units = {"m", "m/s", "m", "s"};
   const auto at = static_cast<std::size_t>(own);
-  return {.name = namings[at].name + (is_alone ? std::string() : "[" + std::to_string(index) + "]"),
-          .unit = namings[at].unit,
+  return {.name = std::string(own_names[at]) + (is_alone ? std::string() : "[" + std::to_string(index) + "]"),
+          .unit = units[at],
           .owner = Owner::record,
           .index = index,
           .own = own,

@@ -3,6 +3,7 @@
 #include <numbers>
 #include <utility>
 
+#include "identify/fit/drive_values.hpp"
 #include "identify/fit/experiments.hpp"
 #include "identify/fit/starts.hpp"
 #include "identify/fit/tie.hpp"
@@ -119,9 +120,8 @@ class MeasuredMotion final : public Experiment {
                              Eigen::VectorXd& outputs) const override {
     sim::Model there = model;
     there.initial = {own[static_cast<std::size_t>(Own::position)], own[static_cast<std::size_t>(Own::velocity)]};
-    there.excitation.phase += there.excitation.frequency * start_;
-    for (sim::Harmonic& harmonic : there.excitation.harmonics)
-      harmonic.phase += harmonic.order * there.excitation.frequency * start_;
+    const double end = static_cast<double>(samples_ - 1) / rate_;
+    there.excitation = drive_from(model.excitation, start_, end);
     if (tie_) {
       std::optional<sim::Model> tied = tie_->tied(there, own);
       if (!tied) return false;
@@ -129,7 +129,6 @@ class MeasuredMotion final : public Experiment {
     }
     outputs.resize(size());
     const std::unique_ptr<sim::Engine> engine = sim::make_engine(there);
-    const double end = static_cast<double>(samples_ - 1) / rate_;
     const double offset = own[static_cast<std::size_t>(Own::offset)];
     std::size_t next = 0;
     const auto take_until = [&](const sim::Interval& interval, double until) {

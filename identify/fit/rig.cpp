@@ -252,7 +252,9 @@ void arrange(const Rig& rig, std::vector<FitParameter>& parameters) {
   for (FitParameter& parameter : parameters) {
     if (parameter.owner == Owner::record) continue;
     const auto same = std::ranges::count(all, parameter.name, &FitParameter::name);
-    if (same > 1) parameter.name = qualified(parameter, rig.laws.size());
+    const std::string_view head = std::string_view(parameter.name).substr(0, parameter.name.find_first_of(".["));
+    const bool is_like_own = parameter.owner == Owner::law && std::ranges::find(own_names, head) != own_names.end();
+    if (same > 1 || is_like_own) parameter.name = qualified(parameter, rig.laws.size());
     if (parameter.at_least.empty()) continue;
     for (std::size_t j = 0; j < parameters.size(); ++j)
       if (parameters[j].owner == Owner::law && parameters[j].index == parameter.index &&
@@ -306,12 +308,10 @@ std::optional<Rig> with_values(const Rig& rig, const std::vector<FitParameter>& 
   }
   if (ratio) o.damping = 2.0 * *ratio * std::sqrt(o.mass * o.stiffness);
   for (std::size_t i = 0; i < result.laws.size(); ++i) {
-    RigLaw& law = result.laws[i];
     const bool sought = std::ranges::any_of(parameters, [&](const FitParameter& parameter) {
       return parameter.owner == Owner::law && parameter.index == i && !list_of_share(parameter.path).empty();
     });
-    if (sought && !complete_shares(law.values)) return std::nullopt;
-    if (!friction::complete(*law.entry, law.values).empty()) return std::nullopt;
+    if (sought && !complete_shares(result.laws[i].values)) return std::nullopt;
   }
   return result;
 }

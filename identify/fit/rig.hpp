@@ -6,7 +6,7 @@
 /// path into lists and records ("elements[1].stiffness", "warming.power"). If two parameters have the same name,
 /// "system." or "friction." ("friction[1]." for laws in parallel) is put before it. Each record adds its own
 /// parameters: position and velocity at its first sample, offset (the reading of x at rest), release (the time of
-/// the first extreme).
+/// the first extreme). A law's parameter with such a name also gets "friction." before it.
 ///
 /// Ranges are those of the laws' tables. The last `share` of a list of elements is 1 minus the sum of the others.
 
@@ -16,6 +16,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "friction_models/law_entry.hpp"
@@ -33,6 +34,7 @@ struct RigLaw {
 /// The parameters of a single record, in this order.
 enum class Own { position, velocity, offset, release };
 inline constexpr std::size_t own_count = 4;
+inline constexpr std::array<std::string_view, own_count> own_names = {"position", "velocity", "offset", "release"};
 /// m, m/s, m, s
 using OwnValues = std::array<double, own_count>;
 
@@ -85,7 +87,9 @@ struct Rig {
 /// as short as possible.
 void arrange(const Rig& rig, std::vector<FitParameter>& parameters);
 
-/// The rig with these values; parameters of records are ignored. Nothing if a law refuses the values.
+/// The rig with these values; parameters of records are ignored. Numbers that are neither stated nor sought are
+/// left out: if their default is the value of another number, it has to follow that number in later fits. Nothing
+/// if the shares of a list leave nothing for its last item.
 [[nodiscard]] std::optional<Rig> with_values(const Rig& rig, const std::vector<FitParameter>& parameters,
                                              const Eigen::VectorXd& values);
 

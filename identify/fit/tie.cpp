@@ -6,9 +6,9 @@
 #include <numbers>
 #include <utility>
 
+#include "identify/fit/drive_values.hpp"
 #include "identify/records/signals.hpp"
 #include "identify/statistics/decompositions.hpp"
-#include "sim/engine/drive.hpp"
 #include "sim/sampled_signal.hpp"
 
 namespace dualdamp::identify {
@@ -33,16 +33,11 @@ std::pair<double, double> parabola_at(const std::vector<double>& signal, double 
 
 /// Force of the drive on the mass at increasing times.
 std::vector<double> drive_force(const sim::Model& model, const std::vector<double>& times) {
-  sim::Drive drive(model.oscillator, model.excitation);
   const double through_damper = model.oscillator.damper_to == sim::DamperTo::base ? model.oscillator.damping : 0.0;
-  std::vector<double> force;
-  for (const double t : times) {
-    if (drive.has_pieces())
-      while (drive.begin_of(drive.piece()) + drive.period() <= t) drive.enter(drive.piece() + 1);
-    const sim::Drive::Value value = drive.at(drive.has_pieces() ? t - drive.begin_of(drive.piece()) : t);
-    force.push_back(model.oscillator.stiffness * value.y + through_damper * value.y_rate + value.external);
-  }
-  return force;
+  DriveValues drive = drive_values(model, times);
+  for (std::size_t i = 0; i < times.size(); ++i)
+    drive.force[i] += model.oscillator.stiffness * drive.y[i] + through_damper * drive.y_rate[i];
+  return std::move(drive.force);
 }
 
 }  // namespace

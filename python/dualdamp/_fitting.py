@@ -132,10 +132,9 @@ def predict(fitted, data, *, excitation=None, record=None, out=None, threads=0):
     if shared:
         analysis["free"] = ", ".join(found.parameters[i]["name"] for i in shared)
         analysis["covariance"] = [found.covariance[i][j] for i in shared for j in shared]
-    drive = fitted.scenario.get("excitation") if excitation is None else as_mapping(excitation)
-    changes = {"analysis": analysis, **({} if drive is None else {"excitation": drive})}
+    changes = {"analysis": analysis, **({} if excitation is None else {"excitation": as_mapping(excitation)})}
     set_ = [f"{key}={flow(plain(value))}" for key, value in changes.items()]
-    source = core.Source(found.scenario, "fit", data_anywhere=True, data=texts, set=set_)
+    source = core.Source(found.rig, "fit", data_anywhere=True, data=texts, set=set_)
     return run_source(source, out=out, threads=threads)
 
 

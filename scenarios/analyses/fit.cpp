@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "friction_models/registry.hpp"
+#include "scenarios/analyses/shared/record_drive.hpp"
 #include "scenarios/format/excitations.hpp"
 #include "scenarios/format/values.hpp"
 #include "scenarios/measurements/measured_data.hpp"
@@ -122,6 +123,10 @@ std::unique_ptr<const Question> ask_fit(CheckedValues&& values) {
   std::vector<SetupFault> faults;
   Setup setup =
       setup_of(values.analysis, values.system, values.model, values.initial_is_stated, values.files, faults);
+  for (const std::string key : {"data", "validate"})
+    refuse_other_drives(items_of(values.analysis, values.files, key), key, values.model, values.drive_start,
+                        sought_of(values.analysis, false).free, faults);
+  refuse(faults);
   std::vector<std::string> warnings = drive_warnings(values.model);
   for (const DataFile& file : values.files)
     for (const std::string& warning : file.data.warnings) warnings.push_back(file.name + ": " + warning);
@@ -197,6 +202,7 @@ Answer FitQuestion::run(const RunContext& /*context*/) const {
     if (prediction.outcome.ok()) add_curves(prediction.fit, validation_, "prediction", answer);
     answer.result["verdict"] = prediction.text;
   }
+  answer.result["rig"] = rig_text(best, {laws_text(best.rig) + " fitted to " + data_.front()->label, excitation_});
   answer.result["scenarios"] = Json::array();
   for (std::size_t e = 0; e < data_.size(); ++e)
     answer.result["scenarios"].push_back(

@@ -33,6 +33,6 @@ function fittedNumbers({ parameters, residual }) {
     make("p", { class: "soft" }, `Residuals: ${short(residual.rms, 4)} ${residual.unit}${noise}.`)];
 }
 
-views.fit = { shown: ["scenario", "residual"], before: fittedNumbers, charts: () => [...overlays("fit", "fitted"), ...overlays("prediction", "predicted")], after: (result) => [scenarioBox(result)] };
+views.fit = { shown: ["rig", "scenario", "residual"], before: fittedNumbers, charts: () => [...overlays("fit", "fitted"), ...overlays("prediction", "predicted")], after: (result) => [scenarioBox(result)] };
 
 views.predict = { charts: () => overlays("prediction", "predicted") };

@@ -5,8 +5,11 @@
 #include <iterator>
 #include <utility>
 
+#include "friction_models/registry.hpp"
 #include "identify/fit/prediction.hpp"
+#include "scenarios/analyses/shared/record_drive.hpp"
 #include "scenarios/format/excitations.hpp"
+#include "scenarios/format/law_values.hpp"
 #include "scenarios/format/values.hpp"
 #include "scenarios/measurements/measured_data.hpp"
 #include "scenarios/results/fits.hpp"
@@ -57,12 +60,39 @@ Eigen::MatrixXd covariance_of(const Json& analysis, std::size_t count) {
   return covariance;
 }
 
+/// The reader asks for no number of a law, because the fit to the data themselves seeks those that were fitted, and
+/// those whose default is the value of another one have to follow it there.
+void check_laws(CheckedFile& file) {
+  if (!file.has("system", "friction")) return;
+  const Json& friction = file.values().at("system").at("friction");
+  const Json list = friction.is_array() ? friction : Json::array({friction});
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    const std::string path = "system.friction" + (friction.is_array() ? "[" + std::to_string(i) + "]" : "");
+    if (!list[i].is_object() || !list[i].contains("law")) continue;  // reported
+    const friction::LawEntry& law = *friction::find_law(list[i].at("law").get<std::string>());
+    friction::ParameterValues values = law_values(law.parameters, list[i], file.coordinate());
+    for (const friction::ParameterFault& fault : friction::complete(law, values))
+      if (fault.is_missing)
+        file.complain(path,
+                      "'" + path + "." + fault.name + "' is missing: a prediction needs the friction's numbers",
+                      fault.allowed);
+  }
+}
+
 void check_predict(CheckedFile& file) {
   read_data_list(file, "data");
-  const bool whole = file.has("system", "mass") && file.has("system", "stiffness") && file.has("system", "damping");
-  if (!whole)
-    file.complain("system",
-                  "a prediction needs the whole rig: mass, stiffness, damping and the friction's numbers");
+  check_laws(file);
+  // A loop compares forces: a constant that the fit lacked has no part in them.
+  const auto is_loop = [&](const DataItem& item) {
+    return item.keys.is_object() && item.keys.value("loop", false);
+  };
+  if (std::ranges::all_of(items_of(file.values().at("analysis"), file.files, "data"), is_loop)) return;
+  std::string lacking;
+  for (const char* key : {"mass", "stiffness", "damping"})
+    if (!file.has("system", key)) lacking += (lacking.empty() ? "" : ", ") + std::string(key);
+  if (!lacking.empty())
+    file.complain("system", "the prediction of a motion needs the whole rig, and 'system' lacks " + lacking,
+                  "mass, stiffness, damping, on the command line --set system.mass='2 kg'");
 }
 
 std::unique_ptr<const Question> ask_predict(CheckedValues&& values) {
@@ -72,12 +102,8 @@ std::unique_ptr<const Question> ask_predict(CheckedValues&& values) {
   std::vector<DataItem> items = items_of(values.analysis, values.files, "data");
   std::vector<std::string> warnings = remove_zeros(items, values.model, {});
   identify::Experiments data = experiments_from(items, "data", values.model, false, faults);
-  if (!faults.empty()) {
-    std::vector<core::Diagnostic> problems;
-    for (const SetupFault& fault : faults)
-      problems.push_back({.message = "'analysis." + fault.path + "': " + fault.message});
-    throw core::InputError(std::move(problems));
-  }
+  refuse_other_drives(items, "data", values.model, values.drive_start, {}, faults);
+  refuse(faults);
   std::ranges::move(drive_warnings(values.model), std::back_inserter(warnings));
   for (const DataFile& file : values.files)
     for (const std::string& warning : file.data.warnings) warnings.push_back(file.name + ": " + warning);
@@ -106,6 +132,7 @@ const Analysis& predict_analysis() {
       .keys = predict_keys(),
       .needs = {{"", excitations().names(), {}, false, ""}},
       .results = joined(validation_fields("validation."), {{"verdict", "", "what that means"}}),
+      .seeks_laws = true,
       .check = check_predict,
       .ask = ask_predict};
   return analysis;

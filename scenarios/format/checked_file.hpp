@@ -48,6 +48,8 @@ class CheckedFile {
   std::vector<DataFile> files;
   /// The samples of the excitation, once they have been read or listed.
   std::shared_ptr<const sim::SampledSignal> drive;
+  /// Time of the first of these samples on the clock of their file [s].
+  double drive_start = 0.0;
   /// A measured signal with which the analysis compares its result, once it has been read.
   std::optional<identify::MeasuredSignal> compared;
   /// Digests of the files read, except that of `data`.

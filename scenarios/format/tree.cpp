@@ -108,7 +108,7 @@ int last_source(const Node& node) {
 }  // namespace
 
 Document::Document(std::string name, const std::string& text) {
-  sources_.push_back({std::move(name), normalised(text), {}, true});
+  sources_.push_back({std::move(name), normalised(text), {}});
   sources_.front().line_starts = starts_of_lines(sources_.front().text);
   const std::string& content = sources_.front().text;
   if (content.size() > max_bytes)
@@ -149,13 +149,13 @@ std::optional<std::string> Document::assigned(std::string_view path) const {
   const Node* node = steps ? find(root_, *steps) : nullptr;
   const int last = node == nullptr ? 0 : last_source(*node);
   const Source& source = sources_[static_cast<std::size_t>(last)];
-  if (last == 0 || source.replaceable) return std::nullopt;
+  if (last == 0) return std::nullopt;
   return source.name + ": " + shortened(source.text);
 }
 
-void Document::set(std::string_view assignment, std::string origin, bool replaceable) {
+void Document::set(std::string_view assignment, std::string origin) {
   const int source = static_cast<int>(sources_.size());
-  sources_.push_back({std::move(origin), std::string(assignment), {}, replaceable});
+  sources_.push_back({std::move(origin), std::string(assignment), {}});
   sources_.back().line_starts = starts_of_lines(assignment);
   const std::size_t equals = assignment.find('=');
   if (equals == std::string_view::npos || !split_path(assignment.substr(0, equals)))

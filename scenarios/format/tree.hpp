@@ -67,9 +67,9 @@ class Document {
   Document(std::string name, const std::string& text);
 
   /// Applies `PATH=VALUE`, PATH like `system.friction[0].kinetic`, VALUE in YAML. Keys on the way that do not exist
-  /// are created; list items must exist. `origin` is the name of the file in messages. A value of an earlier
-  /// assignment is replaced only if that assignment is `replaceable`; otherwise the new one is refused.
-  void set(std::string_view assignment, std::string origin, bool replaceable = false);
+  /// are created; list items must exist. `origin` is the name of the file in messages. A value that an
+  /// earlier assignment states is refused.
+  void set(std::string_view assignment, std::string origin);
   /// The assignment that states a value at this path or below it, with its origin; nothing if the file states it.
   [[nodiscard]] std::optional<std::string> assigned(std::string_view path) const;
   /// Whether an option or a sweep names exactly this path, and not a section that contains it.
@@ -94,7 +94,6 @@ class Document {
     std::string name;
     std::string text;
     std::vector<std::size_t> line_starts;
-    bool replaceable = true;
   };
 
   friend class TreeBuilder;

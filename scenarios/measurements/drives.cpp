@@ -87,8 +87,8 @@ struct Samples {
 std::optional<Samples> measured_samples(CheckedFile& file, const Json& section, bool is_base) {
   auto signal = read_signal(file, std::string(section_name), section, is_base ? "y" : "force");
   if (!signal) return std::nullopt;
-  const double start = signal->times.front();
-  for (double& time : signal->times) time -= start;
+  file.drive_start = signal->times.front();
+  for (double& time : signal->times) time -= file.drive_start;
   treat(section, signal->times, signal->values);
   return Samples{std::move(signal->times), std::move(signal->values)};
 }

@@ -166,6 +166,9 @@ ResultFields fit_fields() {
       {"laws[].rms", "", "rms of the residuals of the first signal"},
       {"laws[].noise_units", "1", "rms of all residuals over the noise of their sensors"},
       {"laws[].reason", "", "why there is no fit"},
+      {"rig", "",
+       "title, system and drive of the fitted rig as text, for predictions; constants that the fit lacked are left "
+       "out"},
       {"scenario", "", "the fitted rig as the text of a scenario, with the first record's curve"},
       {"scenarios[]", "", "the same for each record"}};
 }

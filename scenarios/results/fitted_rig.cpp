@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/numbers.hpp"
+#include "identify/fit/drive_values.hpp"
 #include "scenarios/format/law_values.hpp"
+#include "sim/sampled_signal.hpp"
 
 namespace dualdamp::scenarios {
 
@@ -79,36 +82,46 @@ void ask_for_states(const identify::Experiment& experiment, Json& scenario) {
   scenario["analysis"] = {{"type", "xy_curve"}, {"amplitudes", std::move(list)}};
 }
 
+/// The time of the scenario begins with the record.
+void begin_at(const sim::Excitation& drive, double start, double duration, Json& section) {
+  const sim::Excitation there = identify::drive_from(drive, start, duration);
+  if (drive.is_harmonic() || drive.is_chirp()) section["phase"] = there.phase;
+  if (section.contains("harmonics"))
+    for (std::size_t i = 0; i < there.harmonics.size(); ++i)
+      section["harmonics"][i]["phase"] = there.harmonics[i].phase;
+  if (drive.is_chirp()) {
+    section["from"] = in_rad_per_s(there.chirp.from);
+    section["duration"] = there.chirp.duration;
+  } else if (drive.is_ramp() && there.samples) {
+    section = {{"type", drive.moves_base() ? "base_table" : "force_table"},
+               {"times", there.samples->times()},
+               {"values", there.samples->values()}};
+  }
+}
+
 void ask_for_motion(const identify::Fit& fit, const identify::Experiment& experiment, std::size_t index,
                     Json& scenario) {
   const identify::OwnValues& own = fit.own[index];
   const std::vector<double>& t = experiment.signals.front().at;
   const double rate = static_cast<double>(t.size() - 1) / (t.back() - t.front());
-  const sim::Excitation& drive = fit.rig.known.excitation;
-  if (scenario.contains("excitation") && drive.is_harmonic()) {
-    // The time of the scenario begins with the record.
-    scenario["excitation"]["phase"] = drive.phase + drive.frequency * t.front();
-    if (scenario["excitation"].contains("harmonics"))
-      for (Json& harmonic : scenario["excitation"]["harmonics"])
-        harmonic["phase"] =
-            harmonic.at("phase").get<double>() + harmonic.at("order").get<int>() * drive.frequency * t.front();
-  }
+  if (scenario.contains("excitation"))
+    begin_at(fit.rig.known.excitation, t.front(), t.back() - t.front(), scenario["excitation"]);
   scenario["initial"] = {{"position", own[static_cast<std::size_t>(Own::position)]},
                          {"velocity", own[static_cast<std::size_t>(Own::velocity)]}};
   scenario["analysis"] = {{"type", "simulate"}, {"duration", t.back() - t.front()}, {"sample_rate", rate}};
 }
 
-}  // namespace
-
+/// Constants that the fit lacked are left out.
 Json system_json(const identify::Rig& rig) {
   const sim::Oscillator& o = rig.known.oscillator;
   Json system = Json::object();
   if (o.coordinate == core::Coordinate::angle) system["coordinate"] = core::name_of(o.coordinate);
-  system["mass"] = o.mass > 0.0 ? o.mass : 1.0;
-  system["stiffness"] = o.stiffness > 0.0 ? o.stiffness : 1.0;
-  system["damping"] = std::isnan(o.damping) ? 0.0 : o.damping;
-  if (o.cubic_stiffness != 0.0) system["cubic_stiffness"] = o.cubic_stiffness;
-  if (o.gravity_stiffness != 0.0) system["gravity_stiffness"] = o.gravity_stiffness;
+  for (const auto& [key, value] : {std::pair{"mass", o.mass}, {"stiffness", o.stiffness}, {"damping", o.damping}})
+    if (!std::isnan(value)) system[key] = value;
+  for (const auto& [key, value] : {std::pair{"cubic_stiffness", o.cubic_stiffness},
+                                   {"gravity_stiffness", o.gravity_stiffness},
+                                   {"loss_factor", o.loss_factor}})
+    if (value != 0.0) system[key] = value;
   system["damper_to"] = o.damper_to == sim::DamperTo::base ? "base" : "ground";
   Json laws = Json::array();
   for (const identify::RigLaw& law : rig.laws) {
@@ -123,17 +136,37 @@ Json system_json(const identify::Rig& rig) {
   return system;
 }
 
+/// Title, system and drive, with the fitted numbers.
+Json rig_json(const identify::Fit& fit, const RigText& text) {
+  Json rig = {{"schema", "dualdamp/1"}, {"title", text.title}, {"system", system_json(fit.rig)}};
+  if (!text.excitation.is_object()) return rig;
+  Json& excitation = rig["excitation"] = text.excitation;
+  excitation.erase("frequency_uncertainty");
+  const sim::Excitation& drive = fit.rig.known.excitation;
+  if (drive.is_harmonic()) excitation["phase"] = drive.phase;
+  if (drive.type == sim::ExcitationType::force_harmonic) excitation["offset"] = drive.offset;
+  return rig;
+}
+
+/// A motion needs mass and spring. True if the rig lacks one of them.
+bool fill_in_constants(Json& system) {
+  const auto lacks = [&](const char* key) { return system.value(key, 0.0) == 0.0; };
+  const bool is_friction_alone = lacks("mass") || lacks("stiffness");
+  for (const char* key : {"mass", "stiffness"})
+    if (lacks(key)) system[key] = 1.0;
+  if (!system.contains("damping")) system["damping"] = 0.0;
+  return is_friction_alone;
+}
+
+}  // namespace
+
+std::string rig_text(const identify::Fit& fit, const RigText& text) { return yaml(rig_json(fit, text)); }
+
 std::string scenario_text(const identify::Fit& fit, const identify::Experiments& experiments, std::size_t index,
                           const RigText& text) {
   const identify::Experiment& experiment = *experiments[index];
-  Json scenario = {{"schema", "dualdamp/1"}, {"title", text.title}, {"system", system_json(fit.rig)}};
-  if (text.excitation.is_object()) {
-    scenario["excitation"] = text.excitation;
-    for (const char* key : {"frequency_uncertainty"}) scenario["excitation"].erase(key);
-    const sim::Excitation& drive = fit.rig.known.excitation;
-    if (drive.is_harmonic()) scenario["excitation"]["phase"] = drive.phase;
-    if (drive.type == sim::ExcitationType::force_harmonic) scenario["excitation"]["offset"] = drive.offset;
-  }
+  Json scenario = rig_json(fit, text);
+  const bool is_friction_alone = fill_in_constants(scenario["system"]);
   const identify::OwnValues& own = fit.own[index];
   switch (experiment.kind) {
     case ExperimentKind::steady_states:
@@ -153,10 +186,9 @@ std::string scenario_text(const identify::Fit& fit, const identify::Experiments&
       scenario["analysis"] = {{"type", "free_decay"}, {"peaks", 10}};
       break;
   }
-  const sim::Oscillator& o = fit.rig.known.oscillator;
-  const bool lacks = !(o.mass > 0.0) || !(o.stiffness > 0.0);
-  return (lacks ? "# A loop shows the friction alone: replace mass, stiffness and initial by those of your rig.\n"
-                : "") +
+  return (is_friction_alone
+              ? "# A loop shows the friction alone: replace mass, stiffness and initial by those of your rig.\n"
+              : "") +
          yaml(scenario);
 }
 

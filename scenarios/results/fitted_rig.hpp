@@ -1,5 +1,5 @@
 #pragma once
-/// A fitted rig as the text of a scenario that computes the curves of the fit.
+/// A fitted rig as text: for predictions, and as scenarios that compute the curves of the fit.
 
 #include <string>
 
@@ -14,10 +14,12 @@ struct RigText {
   Json excitation;  ///< as the reader returned it; null: none
 };
 
-/// `system` with the values of the rig; a rig from a loop, without mass or spring, gets 1 kg and 1 N/m.
-[[nodiscard]] Json system_json(const identify::Rig& rig);
+/// Title, system and drive of the rig: YAML, to which a prediction adds its analysis. Constants that the fit lacked
+/// are left out.
+[[nodiscard]] std::string rig_text(const identify::Fit& fit, const RigText& text);
 
-/// A scenario that computes experiment `index` of the fit: YAML.
+/// A scenario that computes experiment `index` of the fit: YAML. A rig from a loop, without mass or spring, gets 1
+/// kg and 1 N/m.
 [[nodiscard]] std::string scenario_text(const identify::Fit& fit, const identify::Experiments& experiments,
                                         std::size_t index, const RigText& text);
 

@@ -10,6 +10,7 @@
 #include <string_view>
 #include <utility>
 
+#include "core/diagnostics.hpp"
 #include "core/numbers.hpp"
 #include "core/units.hpp"
 #include "friction_models/registry.hpp"
@@ -71,6 +72,8 @@ void take_bound(const Bound& bound, std::vector<FitParameter>& parameters, std::
     faults.push_back({"bounds", "'" + bound.name + "' has bounds and is not sought"});
     return;
   }
+  if (bound.low.empty() && bound.high.empty())
+    faults.push_back({"bounds", "the entry of '" + bound.name + "' states no bound: low, high or both"});
   for (const auto& [text, end] :
        {std::pair{&bound.low, &parameter->range.low}, {&bound.high, &parameter->range.high}}) {
     if (text->empty()) continue;
@@ -322,6 +325,14 @@ void refuse_idle_noise(const std::vector<DataItem>& items, const std::string& ke
 }
 
 }  // namespace
+
+void refuse(const std::vector<SetupFault>& faults) {
+  if (faults.empty()) return;
+  std::vector<core::Diagnostic> problems;
+  for (const SetupFault& fault : faults)
+    problems.push_back({.message = "'analysis." + fault.path + "': " + fault.message});
+  throw core::InputError(std::move(problems));
+}
 
 identify::Experiments experiments_from(const std::vector<DataItem>& items, const std::string& key,
                                        const sim::Model& model, bool initial_is_known,

@@ -48,11 +48,15 @@ struct Sought {
 /// Warning about a drive that was sampled too coarsely for straight lines between its samples.
 [[nodiscard]] std::vector<std::string> drive_warnings(const sim::Model& model);
 
-/// Experiments of all items; data that cannot be used are reported in `faults`, with the `index` of the item.
+/// What is wrong with the statements of a fit.
 struct SetupFault {
   std::string path;  ///< below `analysis`
   std::string message;
 };
+/// Throws `core::InputError` if there are faults.
+void refuse(const std::vector<SetupFault>& faults);
+
+/// Experiments of all items; data that cannot be used are reported in `faults`, with the `index` of the item.
 [[nodiscard]] identify::Experiments experiments_from(const std::vector<DataItem>& items, const std::string& key,
                                                      const sim::Model& model, bool initial_is_known,
                                                      std::vector<SetupFault>& faults);

@@ -1,0 +1,18 @@
+#pragma once
+/// Whether the drive of a fit is the drive of its records.
+
+#include <string>
+#include <vector>
+
+#include "scenarios/analyses/shared/fit_setup.hpp"
+
+namespace dualdamp::scenarios {
+
+/// Complains about histories that the drive of the model cannot have driven: it begins at another time or is over
+/// before, or the record holds another motion of the base, or another force, than the drive. `drive_start`: time of
+/// the first sample of the drive on the clock of its file [s]. `free`: names of parameters that are sought; a phase
+/// that is sought is not compared.
+void refuse_other_drives(const std::vector<DataItem>& items, const std::string& key, const sim::Model& model,
+                         double drive_start, const std::vector<std::string>& free, std::vector<SetupFault>& faults);
+
+}  // namespace dualdamp::scenarios

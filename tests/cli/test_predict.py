@@ -1,0 +1,146 @@
+#!/usr/bin/env python3
+"""A prediction knows all that the fit before it found, and what that fit lacked.
+
+usage: test_predict.py PROGRAM ROOT [TEST...]
+"""
+
+import csv
+import json
+import math
+import sys
+import unittest
+
+import case
+
+RIG = "system: {mass: 1 kg, stiffness: 1000 N/m, damping: 1 N.s/m, friction: {law: coulomb, kinetic: %s N}}\n"
+CONSTANTS = ("--mass", "1 kg", "--stiffness", "1000 N/m")
+
+
+class Prediction(case.Case):
+    def record(self, name, drive, kinetic=1.0, after=0.0, base=None):
+        """A motion of the rig, 400 samples a second from the time `after` on, with a rough error of 2 um; `base`: y [m] at t."""
+        text = f"schema: dualdamp/1\n{RIG % kinetic}excitation: {drive}\nanalysis: {{type: simulate, duration: 2 s, sample_rate: 400 Hz}}\n"
+        self.run_program("run", self.write("motion.yaml", text), "--out", "motion")
+        with open(self.folder / "motion/history.csv") as file:
+            rows = list(csv.DictReader(line for line in file if not line.startswith("#")))
+        column = {key.split(" ")[0]: key for key in rows[0]}
+        lines = ["t [s],x [m]" + (",y [m]" if base else "")]
+        for i, row in enumerate(rows):
+            t, x = float(row[column["t"]]), float(row[column["x"]]) + 2e-6 * math.sin(977.0 * i * i)
+            if t > after - 1e-9:
+                lines.append(f"{t!r},{x!r}" + (f",{base(t)!r}" if base else ""))
+        return self.write(name, "\n".join(lines) + "\n")
+
+    def predicted(self, *arguments, **options):
+        return json.loads(self.run_program("predict", *arguments, "--json", **options).stdout)["result"]["validation"]
+
+    def assert_right(self, validation):
+        self.assertFalse(validation["wrong"], validation["text"])
+        self.assertLess(validation["error"], 0.01)
+
+    def test_more_friction_than_in_the_fitted_record_is_a_changed_rig_and_no_wrong_law(self):
+        """The static level is by default the kinetic one: held at its old value it would keep the kinetic one below itself."""
+        drive = "{type: base_harmonic, amplitude: 5 mm, frequency: 4 Hz}"
+        driven = ("--frequency", "4 Hz", "--amplitude", "5 mm")
+        first, second = self.record("one.csv", drive), self.record("more.csv", drive, 1.3)
+        self.run_program("fit", "coulomb", first, *CONSTANTS, *driven, "--no-profile", "--validate", second, "--out", "fit")
+        fit = json.loads((self.folder / "fit/result.json").read_text())["result"]
+        self.assertNotIn("static", fit["scenario"])
+        for found in (fit["validation"], self.predicted("fit", second)):
+            self.assertTrue(found["wrong"])
+            self.assertIn("the rig has changed", found["text"])
+            self.assertLess(found["attainable"], 0.01)
+
+    def test_a_fitted_phase_and_a_fitted_force_are_those_of_the_prediction(self):
+        for drive, told, more, free in (
+            ("{type: base_harmonic, amplitude: %s mm, frequency: 4 Hz, phase: -0.9}", ("--frequency", "4 Hz", "--amplitude", "5 mm"), ("--amplitude", "8 mm"), "phase"),
+            ("{type: force_harmonic, amplitude: %s N, frequency: 4 Hz, offset: 2 N}", ("--set", "excitation={type: force_harmonic, amplitude: 5 N, frequency: 4 Hz}"), ("--amplitude", "8 N"), "force_offset"),
+        ):
+            with self.subTest(free):
+                first, second = self.record("first.csv", drive % 5), self.record("second.csv", drive % 8)
+                self.run_program("fit", "coulomb", first, *CONSTANTS, *told, "--free", free, "--no-profile", "--out", free)
+                self.assert_right(self.predicted(free, second, *more))
+
+    def test_a_fit_without_mass_and_spring_predicts_without_them(self):
+        def loop(name, amplitude):
+            rows = []
+            for i in range(1000):
+                t = i / 500
+                x, v = amplitude * math.sin(12 * t), 12 * amplitude * math.cos(12 * t)
+                rows.append(f"{t!r},{x!r},{v!r},{math.copysign(1.0, v) + 2.0 * v + 1e-3 * math.sin(977.0 * i * i)!r}")
+            return self.write(name, "\n".join(["t [s],x [m],v [m/s],force [N]", *rows]) + "\n")
+
+        first, second = loop("loop1.csv", 0.02), loop("loop2.csv", 0.03)
+        self.run_program("fit", "coulomb", first, "--loop", "--free", "damping", "--damping", "0 N.s/m", "--no-profile", "--out", "fit")
+        self.assert_right(self.predicted("fit", second, "--loop"))
+        motion = self.record("motion.csv", "{type: base_harmonic, amplitude: 5 mm, frequency: 4 Hz}")
+        refused = self.run_program("predict", "fit", motion, "--frequency", "4 Hz", "--amplitude", "5 mm", status=3).stderr
+        self.assertIn("'system' lacks mass, stiffness", refused)
+
+    def test_a_record_that_holds_another_drive_is_refused(self):
+        def moved(millimetres):
+            return lambda t: millimetres * 1e-3 * math.cos(8.0 * math.pi * t)
+
+        drive = "{type: base_harmonic, amplitude: %s mm, frequency: 4 Hz}"
+        first, second = self.record("y5.csv", drive % 5, base=moved(5)), self.record("y8.csv", drive % 8, base=moved(8))
+        measured = "excitation={type: measured_base, file: %s, column: y, interpolation: cubic}"
+        self.run_program("fit", "coulomb", first, *CONSTANTS, "--set", measured % "y5.csv", "--no-profile", "--out", "fit")
+        refused = self.run_program("predict", "fit", second, status=3).stderr
+        self.assertIn("the record holds y, and it differs from the drive by 37 % of y", refused)
+        self.assert_right(self.predicted("fit", second, "--set", measured % "y8.csv"))
+        for arguments in ([second, "--frequency", "4 Hz", "--amplitude", "5 mm"], [first, second, "--set", measured % "y5.csv"]):
+            self.assertIn("differs from the drive", self.run_program("fit", "coulomb", *arguments, *CONSTANTS, "--no-profile", status=3).stderr)
+        # The phase of the drive is found, not stated.
+        late = self.record("late.csv", "{type: base_harmonic, amplitude: 5 mm, frequency: 4 Hz, phase: 0.9}", base=lambda t: 5e-3 * math.cos(8.0 * math.pi * t + 0.9))
+        driven = (late, *CONSTANTS, "--frequency", "4 Hz", "--amplitude", "5 mm", "--no-profile")
+        self.run_program("fit", "coulomb", *driven, "--free", "phase")
+        self.assertIn("differs from the drive", self.run_program("fit", "coulomb", *driven, status=3).stderr)
+
+    def test_the_times_of_a_record_are_those_of_its_drive(self):
+        for drive in ("{type: base_chirp, amplitude: 5 mm, from: 2 Hz, to: 6 Hz, duration: 2 s}",
+                      "{type: base_chirp, amplitude: 5 mm, from: 2 Hz, to: 6 Hz, duration: 2 s, spacing: log}",
+                      "{type: force_ramp, rate: 3 N/s}"):
+            with self.subTest(drive):
+                record = self.record("late.csv", drive, after=0.5)
+                fit = self.run_program("fit", "coulomb", record, *CONSTANTS, "--set", f"excitation={drive}", "--no-profile", "--out", "late", "--json")
+                found = json.loads(fit.stdout)["result"]
+                self.assertLess(found["residual"]["rms"], 2e-6)
+                self.write("again.yaml", found["scenario"])
+                self.run_program("run", "again.yaml", "--out", "again")
+                with open(self.folder / "again/history.csv") as file:
+                    rows = list(csv.DictReader(line for line in file if not line.startswith("#")))
+                x = [float(value) for key in rows[0] if key.split(" ")[0] == "x" for value in (row[key] for row in rows)]
+                with open(self.folder / "late/fit_0_x.csv") as file:
+                    fitted = list(csv.DictReader(line for line in file if not line.startswith("#")))
+                key = next(key for key in fitted[0] if key.startswith("fitted"))
+                self.assertEqual(len(x), len(fitted))
+                self.assertLess(max(abs(a - float(row[key])) for a, row in zip(x, fitted)), 1e-7)
+        drive = self.record("drive.csv", "{type: base_harmonic, amplitude: 5 mm, frequency: 4 Hz}", base=lambda t: 5e-3 * math.cos(8.0 * math.pi * t))
+        late = self.record("late.csv", "{type: base_harmonic, amplitude: 5 mm, frequency: 4 Hz}", after=0.5)
+        measured = "excitation={type: measured_base, file: %s, column: y, interpolation: cubic}" % drive.name
+        refused = self.run_program("fit", "coulomb", late, *CONSTANTS, "--set", measured, "--no-profile", status=3).stderr
+        self.assertIn("the record begins at t = 0.5 s, and the drive at t = 0 s", refused)
+
+    def test_levels_under_a_force_are_forces(self):
+        """The curve of a rig under a force of k Y is that under a motion Y of its base."""
+        levels = ((4.5, 4.7), (5.0, 7.21), (5.5, 9.76), (6.0, 12.2))
+        lengths = self.write("lengths.csv", "Y [mm],x [mm]\n" + "".join(f"{Y},{x}\n" for Y, x in levels))
+        forces = self.write("forces.csv", "Y [N],x [mm]\n" + "".join(f"{1.568 * Y!r},{x}\n" for Y, x in levels))
+        rig = ("--mass", "1.042 kg", "--stiffness", "1568 N/m", "--no-profile")
+        by_force = ("--set", "excitation={type: force_harmonic, frequency: 6.17 Hz}")
+        found = [json.loads(self.run_program("fit", "coulomb", *arguments, *rig, "--json").stdout)["result"]["parameters"]
+                 for arguments in ((lengths, "--frequency", "6.17 Hz"), (forces, *by_force))]
+        for motion, force in zip(*found):
+            self.assertAlmostEqual(force["value"] / motion["value"], 1.0, delta=1e-6)
+        refused = self.run_program("fit", "coulomb", lengths, *by_force, *rig, status=3).stderr
+        self.assertIn("the unit of column Y, the amplitude of the force", refused)
+
+    def test_a_bound_without_an_end(self):
+        record = self.record("first.csv", "{type: base_harmonic, amplitude: 5 mm, frequency: 4 Hz}")
+        bounds = ("--set", "analysis.bounds=[{name: kinetic}]")
+        refused = self.run_program("fit", "coulomb", record, *CONSTANTS, "--frequency", "4 Hz", "--amplitude", "5 mm", *bounds, status=3).stderr
+        self.assertIn("the entry of 'kinetic' states no bound", refused)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=[sys.argv[0], *sys.argv[3:]])
