@@ -96,13 +96,21 @@ std::string prediction_of(const Json& result, const PredictCommand& command) {
     names += (names.empty() ? "" : ", ") + name;
     shared.push_back(i);
   }
+  const auto part_of = [&](const Json& row) {
+    std::string numbers;
+    for (const std::size_t j : shared)
+      numbers += (numbers.empty() ? "" : ", ") + core::format_number(row.at(j).get<double>());
+    return numbers;
+  };
   std::string numbers;
   for (const std::size_t i : shared)
-    for (const std::size_t j : shared)
-      numbers +=
-          (numbers.empty() ? "" : ", ") + core::format_number(result.at("covariance").at(i).at(j).get<double>());
+    numbers += (numbers.empty() ? "" : ", ") + part_of(result.at("covariance").at(i));
+  std::string undetermined;
+  for (const Json& row : result.value("undetermined", Json::array()))
+    undetermined += (undetermined.empty() ? "" : ", ") + part_of(row);
   std::string text = "{type: predict, data: " + data_of(command.data, command);
   if (!shared.empty()) text += ", free: " + in_quotes(names) + ", covariance: [" + numbers + "]";
+  if (!shared.empty() && !undetermined.empty()) text += ", undetermined: [" + undetermined + "]";
   return text + "}";
 }
 

@@ -87,7 +87,7 @@ double seconds_for_prediction() {
   std::vector<identify::FitParameter> parameters;
   for (const identify::FittedParameter& fitted : fit.parameters) parameters.push_back(fitted.parameter);
   return seconds_of([&] {
-    return identify::predict_records(fit.rig, parameters, identify::shared_covariance(fit), other).outcome.ok();
+    return identify::predict_records(fit.rig, parameters, identify::shared_uncertainty(fit), other).outcome.ok();
   });
 }
 

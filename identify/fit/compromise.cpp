@@ -99,33 +99,47 @@ class Compromiser {
     denominator_ = all_stated ? known : std::max(1.0, independent - static_cast<double>(size()));
   }
 
-  /// Sets W with W^T W = C_A^-1, over the parameters that A determines.
+  /// Sets W with W^T W = C_A^-1, over what A determines of the parameters.
   void whiten(const KnownRig& known) {
     const auto shared = static_cast<Eigen::Index>(known.parameters.size());
     whitening_.resize(0, size());
-    if (shared == 0 || known.covariance.rows() != shared || !known.covariance.allFinite()) return;
+    const Eigen::MatrixXd& of_values = known.uncertainty.covariance;
+    if (shared == 0 || of_values.rows() != shared || !of_values.allFinite()) return;
     const Eigen::MatrixXd inverse = inverse_of(problem_.slope(held_).topLeftCorner(shared, shared));
-    const Eigen::MatrixXd covariance = inverse * known.covariance * inverse.transpose();
+    const Eigen::MatrixXd covariance = inverse * of_values * inverse.transpose();
     std::vector<Eigen::Index> in;
     for (Eigen::Index i = 0; i < shared; ++i)
-      if (known.covariance(i, i) > 0.0 && covariance(i, i) > 0.0) in.push_back(i);
-    const auto count = static_cast<Eigen::Index>(in.size());
-    if (count == 0) return;
-    Eigen::MatrixXd part(count, count);
-    const auto deviation = [&](Eigen::Index a) {
-      return std::sqrt(covariance(in[static_cast<std::size_t>(a)], in[static_cast<std::size_t>(a)]));
-    };
-    for (Eigen::Index a = 0; a < count; ++a)
-      for (Eigen::Index b = 0; b < count; ++b)
-        part(a, b) = covariance(in[static_cast<std::size_t>(a)], in[static_cast<std::size_t>(b)]) /
-                     (deviation(a) * deviation(b));
-    const SymmetricSpectrum spectrum = symmetric_spectrum(part);
-    whitening_ = Eigen::MatrixXd::Zero(count, size());
+      if (of_values(i, i) > 0.0 && covariance(i, i) > 0.0) in.push_back(i);
+    if (in.empty()) return;
+    const Eigen::VectorXd scale = covariance.diagonal()(in).cwiseSqrt().cwiseInverse();
+    Eigen::MatrixXd open(static_cast<Eigen::Index>(in.size()), 0);
+    if (known.uncertainty.undetermined.rows() == shared)
+      open = scale.asDiagonal() * Eigen::MatrixXd(inverse * known.uncertainty.undetermined)(in, Eigen::all);
+    const Eigen::MatrixXd held = complement_of(open);
+    if (held.cols() == 0) return;
+    const Eigen::MatrixXd part = scale.asDiagonal() * covariance(in, in) * scale.asDiagonal();
+    const SymmetricSpectrum spectrum = symmetric_spectrum(held.transpose() * part * held);
     constexpr double rounding = 1e-10;
-    for (Eigen::Index row = 0; row < count; ++row)
-      for (Eigen::Index a = 0; a < count; ++a)
-        whitening_(row, in[static_cast<std::size_t>(a)]) =
-            spectrum.vectors(a, row) / deviation(a) / std::sqrt(std::max(spectrum.values[row], rounding));
+    const Eigen::VectorXd weights = spectrum.values.cwiseMax(rounding).cwiseSqrt().cwiseInverse();
+    whitening_ = Eigen::MatrixXd::Zero(held.cols(), size());
+    whitening_(Eigen::all, in) =
+        weights.asDiagonal() * spectrum.vectors.transpose() * held.transpose() * scale.asDiagonal();
+  }
+
+  /// An orthonormal basis of all that is orthogonal to the columns.
+  static Eigen::MatrixXd complement_of(const Eigen::MatrixXd& columns) {
+    const Eigen::Index size = columns.rows();
+    std::vector<Eigen::VectorXd> units;
+    for (const auto& column : columns.colwise())
+      if (column.norm() > 0.0) units.emplace_back(column.normalized());
+    if (units.empty()) return Eigen::MatrixXd::Identity(size, size);
+    Eigen::MatrixXd spanning(size, static_cast<Eigen::Index>(units.size()));
+    for (std::size_t j = 0; j < units.size(); ++j) spanning.col(static_cast<Eigen::Index>(j)) = units[j];
+    constexpr double dependent = 1e-6;
+    const Eigen::MatrixXd basis = orthonormal_basis(spanning, dependent);
+    const SymmetricSpectrum projector =
+        symmetric_spectrum(Eigen::MatrixXd::Identity(size, size) - basis * basis.transpose());
+    return projector.vectors.rightCols(size - basis.cols());
   }
 
   [[nodiscard]] double squares(const Eigen::VectorXd& q, bool both) const {

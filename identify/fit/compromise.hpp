@@ -9,7 +9,8 @@
 /// residuals of the rig fitted to B alone, or the stated noise; n' of the n samples count as independent. For one
 /// rig and normal errors, T is chi-square; its degrees of freedom f are the number of parameters that A determines.
 /// If the deviations are estimated, T/f is Fisher's F. The parameters of B itself, such as its first state, are
-/// free in both terms. A parameter that A does not determine may have any value.
+/// free in both terms. A parameter that A does not determine may have any value. If A determines only sums of
+/// parameters, C_A^-1 is zero along the directions that A does not determine.
 ///
 /// Source: wilks1938. Errors: `p_value` is `unknown` if A determines no parameter or B does not determine the rig.
 /// Cost: nine motions and up to two short searches. A search is skipped if T at its start, an upper bound, already
@@ -26,7 +27,7 @@ namespace dualdamp::identify {
 struct KnownRig {
   const Rig& rig;                               ///< with the fitted values
   const std::vector<FitParameter>& parameters;  ///< those of the rig; `stated` is the fitted value
-  const Eigen::MatrixXd& covariance;            ///< of these parameters
+  const SharedUncertainty& uncertainty;         ///< of these parameters
 };
 
 struct Compromise {

@@ -160,16 +160,11 @@ Fit fit_rig(const Rig& rig, std::vector<FitParameter> parameters, const Experime
   }
 }
 
-Eigen::MatrixXd shared_covariance(const Fit& fit) {
+SharedUncertainty shared_uncertainty(const Fit& fit) {
   std::vector<Eigen::Index> shared;
   for (std::size_t i = 0; i < fit.parameters.size(); ++i)
     if (fit.parameters[i].parameter.owner != Owner::record) shared.push_back(static_cast<Eigen::Index>(i));
-  const auto count = static_cast<Eigen::Index>(shared.size());
-  Eigen::MatrixXd part(count, count);
-  for (Eigen::Index i = 0; i < count; ++i)
-    for (Eigen::Index j = 0; j < count; ++j)
-      part(i, j) = fit.covariance(shared[static_cast<std::size_t>(i)], shared[static_cast<std::size_t>(j)]);
-  return part;
+  return {fit.covariance(shared, shared), fit.undetermined(shared, Eigen::all)};
 }
 
 namespace {

@@ -71,7 +71,11 @@ struct FittedSignal {
 struct Fit {
   core::Outcome outcome;
   std::vector<FittedParameter> parameters;
-  Eigen::MatrixXd covariance;  ///< of the values; rows of parameters without a covariance are zero
+  /// Of the values, without what they may change along `undetermined`. Rows of parameters without a covariance are
+  /// zero.
+  Eigen::MatrixXd covariance;
+  /// Columns: changes of the values that the data do not see. Along these the values have no variance.
+  Eigen::MatrixXd undetermined;
   std::vector<TradeOff> not_identifiable;
   std::vector<FittedSignal> signals;
   double noise_units = unknown;       ///< rms over noise, of all signals with known noise
@@ -92,8 +96,12 @@ using Experiments = std::vector<std::unique_ptr<Experiment>>;
 [[nodiscard]] Fit fit_rig(const Rig& rig, std::vector<FitParameter> parameters, const Experiments& experiments,
                           const FitOptions& options = {});
 
-/// The covariance of the parameters that do not belong to a single record, in their order.
-[[nodiscard]] Eigen::MatrixXd shared_covariance(const Fit& fit);
+/// The uncertainty of the parameters that do not belong to a single record, in their order.
+struct SharedUncertainty {
+  Eigen::MatrixXd covariance;    ///< as in `Fit`; empty: not known
+  Eigen::MatrixXd undetermined;  ///< as in `Fit`; empty: none
+};
+[[nodiscard]] SharedUncertainty shared_uncertainty(const Fit& fit);
 
 /// Sets AICc of each fit. All are fits of the same data. The number of independent samples is that of the fit with
 /// the least deviance.

@@ -34,14 +34,23 @@ double error_of(const Fit& fit) {
   return std::sqrt(sum / count);
 }
 
-/// rms error of the outputs from the covariance of the rig's parameters, relative to the signals.
+/// Whether a change of the parameters along a direction that the fit does not determine has an effect.
+bool shows_undetermined(const Eigen::MatrixXd& by_rig, const Eigen::MatrixXd& undetermined) {
+  constexpr double least = 1e-4;  // of the signals, for a change of 100 %
+  if (undetermined.rows() != by_rig.cols() || undetermined.cols() == 0) return false;
+  const double readings = std::sqrt(static_cast<double>(by_rig.rows()));
+  return (by_rig * undetermined).colwise().norm().maxCoeff() > least * readings;
+}
+
+/// rms error of the outputs from the uncertainty of the rig's parameters, relative to the signals.
 double uncertainty_of(const Fit& held, const Rig& rig, const std::vector<FitParameter>& parameters,
-                      const Eigen::MatrixXd& covariance, const Experiments& experiments) {
+                      const SharedUncertainty& known, const Experiments& experiments) {
   std::vector<FitParameter> all;
   for (const FitParameter& parameter : parameters)
     if (parameter.owner != Owner::record) all.push_back(parameter);
   const auto shared = static_cast<Eigen::Index>(all.size());
-  if (shared == 0 || covariance.rows() != shared) return 0.0;
+  if (shared == 0) return 0.0;
+  if (known.covariance.rows() != shared) return unknown;
   Eigen::VectorXd values(shared);
   std::vector<double> sizes;
   const std::vector<FitParameter> now = parameters_of(rig);
@@ -62,7 +71,7 @@ double uncertainty_of(const Fit& held, const Rig& rig, const std::vector<FitPara
   const Eigen::VectorXd q = problem.coordinates(values);
   Eigen::VectorXd outputs;
   Eigen::MatrixXd jacobian;
-  if (!problem.derivatives(q, outputs, jacobian)) return 0.0;
+  if (!problem.derivatives(q, outputs, jacobian)) return unknown;
   jacobian = (jacobian * inverse_of(problem.slope(q))).eval();
   // The record's own parameters are fitted, so the changes that they can compensate are no error.
   Eigen::MatrixXd by_rig = jacobian.leftCols(shared);
@@ -75,7 +84,9 @@ double uncertainty_of(const Fit& held, const Rig& rig, const std::vector<FitPara
   for (const FittedSignal& signal : held.signals)
     own.middleRows(signal.rows.begin, signal.rows.end - signal.rows.begin) /= signal.range;
   if (own.cols() > 0) by_rig -= own * own.colPivHouseholderQr().solve(by_rig);
-  for (Eigen::Index i = 0; i < by_rig.rows(); ++i) sum += by_rig.row(i) * covariance * by_rig.row(i).transpose();
+  if (shows_undetermined(by_rig, known.undetermined)) return unknown;
+  for (Eigen::Index i = 0; i < by_rig.rows(); ++i)
+    sum += by_rig.row(i) * known.covariance * by_rig.row(i).transpose();
   return std::sqrt(std::max(sum, 0.0) / static_cast<double>(by_rig.rows()));
 }
 
@@ -165,7 +176,7 @@ void judge(Prediction& found, const Fit& attainable) {
 }  // namespace
 
 Prediction predict_records(const Rig& rig, const std::vector<FitParameter>& parameters,
-                           const Eigen::MatrixXd& covariance, const Experiments& experiments,
+                           const SharedUncertainty& known, const Experiments& experiments,
                            const FitOptions& options) {
   Prediction found;
   FitOptions quick = options;
@@ -183,7 +194,7 @@ Prediction predict_records(const Rig& rig, const std::vector<FitParameter>& para
   }
   found.noise_units = found.fit.noise_units;
   found.bands = bands_of(found.fit, experiments);
-  found.uncertainty = uncertainty_of(found.fit, rig, parameters, covariance, experiments);
+  found.uncertainty = uncertainty_of(found.fit, rig, parameters, known, experiments);
   std::vector<FitParameter> all;
   const std::vector<FitParameter> now = parameters_of(rig);
   for (const FitParameter& parameter : parameters) {
@@ -204,7 +215,7 @@ Prediction predict_records(const Rig& rig, const std::vector<FitParameter>& para
   const Fit& best = error_of(attainable) < found.error ? attainable : found.fit;
   found.attainable = error_of(best);
   found.attainable_noise_units = best.noise_units;
-  found.compromise = compromise_of({rig, shared, covariance}, experiments, found.fit, attainable);
+  found.compromise = compromise_of({rig, shared, known}, experiments, found.fit, attainable);
   judge(found, best);
   return found;
 }

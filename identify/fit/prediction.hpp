@@ -31,7 +31,9 @@ struct Prediction {
   double noise_units = unknown;  ///< rms of the residuals over the noise
   double attainable = unknown;   ///< `error` of the rig fitted to this record
   double attainable_noise_units = unknown;
-  double uncertainty = unknown;  ///< part of `error` from the uncertainty of the parameters
+  /// Part of `error` from the uncertainty of the parameters; `unknown` if the record shows what the fit does not
+  /// determine.
+  double uncertainty = unknown;
   /// Test whether one rig made both records (`compromise.hpp`).
   Compromise compromise;
   bool is_wrong = false;
@@ -40,9 +42,9 @@ struct Prediction {
   Fit fit;                            ///< of the record's own parameters, with the rig held fixed
 };
 
-/// `parameters`: those that were fitted; `rig` has their fitted values. `covariance`: of `parameters`.
+/// `parameters`: those that were fitted; `rig` has their fitted values. `known`: uncertainty of `parameters`.
 [[nodiscard]] Prediction predict_records(const Rig& rig, const std::vector<FitParameter>& parameters,
-                                         const Eigen::MatrixXd& covariance, const Experiments& experiments,
+                                         const SharedUncertainty& known, const Experiments& experiments,
                                          const FitOptions& options = {});
 
 }  // namespace dualdamp::identify

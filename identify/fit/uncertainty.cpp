@@ -53,6 +53,7 @@ class Uncertainty {
     if (end_.profile) add_profiles(slope);
     for (Eigen::Index i = 0; i < size_; ++i) judge_profile(i);
     add_trade_offs(slope);
+    add_undetermined(slope);
   }
 
  private:
@@ -249,6 +250,15 @@ class Uncertainty {
     for (Eigen::Index j = size_ - 1; j >= 0; --j) {
       const double deviation = std::sqrt(std::max(spectrum.values[j], 0.0));
       if (quantile_ * deviation > 1.0) add(spectrum.vectors.col(j), deviation);
+    }
+  }
+
+  void add_undetermined(const Eigen::MatrixXd& slope) {
+    constexpr double rounding = 1e-4;  // of a direction of length 1
+    fit_.undetermined.resize(size_, static_cast<Eigen::Index>(lost_.size()));
+    for (std::size_t j = 0; j < lost_.size(); ++j) {
+      const Eigen::VectorXd direction = (lost_[j].array().abs() > rounding).select(lost_[j], 0.0);
+      fit_.undetermined.col(static_cast<Eigen::Index>(j)) = slope * whole_all().cwiseProduct(direction);
     }
   }
 

@@ -132,6 +132,8 @@ def predict(fitted, data, *, excitation=None, record=None, out=None, threads=0):
     if shared:
         analysis["free"] = ", ".join(found.parameters[i]["name"] for i in shared)
         analysis["covariance"] = [found.covariance[i][j] for i in shared for j in shared]
+        if found.undetermined:
+            analysis["undetermined"] = [row[j] for row in found.undetermined for j in shared]
     changes = {"analysis": analysis, **({} if excitation is None else {"excitation": as_mapping(excitation)})}
     set_ = [f"{key}={flow(plain(value))}" for key, value in changes.items()]
     source = core.Source(found.rig, "fit", data_anywhere=True, data=texts, set=set_)

@@ -197,7 +197,7 @@ Answer FitQuestion::run(const RunContext& /*context*/) const {
   add_curves(best, data_, "fit", answer);
   if (!validation_.empty()) {
     const identify::Prediction prediction = identify::predict_records(
-        best.rig, candidates_[order.front()].parameters, shared_covariance(best), validation_, options_);
+        best.rig, candidates_[order.front()].parameters, shared_uncertainty(best), validation_, options_);
     answer.result["validation"] = validation_json(prediction);
     if (prediction.outcome.ok()) add_curves(prediction.fit, validation_, "prediction", answer);
     answer.result["verdict"] = prediction.text;

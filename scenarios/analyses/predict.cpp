@@ -28,6 +28,10 @@ Section predict_keys() {
            quantities("covariance", {"1"},
                       "covariance of these numbers, row by row, SI; it gives the error that their uncertainty "
                       "explains")
+               .items(1, most_parameters * most_parameters),
+           quantities("undetermined", {"1"},
+                      "changes of these numbers that the fit does not determine, one after the other, SI; their "
+                      "size does not matter")
                .items(1, most_parameters * most_parameters)}};
 }
 
@@ -47,17 +51,23 @@ std::vector<identify::FitParameter> fitted_parameters(const identify::Rig& rig, 
     faults.push_back({"covariance", "'analysis.covariance' has " +
                                         std::to_string(analysis.at("covariance").size()) + " numbers, and " +
                                         std::to_string(size) + " parameters need " + std::to_string(size * size)});
+  if (analysis.contains("undetermined") && (size == 0 || analysis.at("undetermined").size() % size != 0))
+    faults.push_back({"undetermined", "'analysis.undetermined' has " +
+                                          std::to_string(analysis.at("undetermined").size()) +
+                                          " numbers, and each change of " + std::to_string(size) +
+                                          " parameters needs " + std::to_string(size)});
   return parameters;
 }
 
-Eigen::MatrixXd covariance_of(const Json& analysis, std::size_t count) {
-  if (!analysis.contains("covariance")) return {};
-  const auto size = static_cast<Eigen::Index>(count);
-  Eigen::MatrixXd covariance(size, size);
-  for (Eigen::Index i = 0; i < size; ++i)
-    for (Eigen::Index j = 0; j < size; ++j)
-      covariance(i, j) = number(analysis.at("covariance").at(static_cast<std::size_t>(i * size + j)));
-  return covariance;
+/// The numbers of a key as rows of `size`; empty without the key.
+Eigen::MatrixXd rows_of(const Json& analysis, const std::string& key, std::size_t size) {
+  if (!analysis.contains(key) || size == 0) return {};
+  const Json& numbers = analysis.at(key);
+  const std::size_t rows = numbers.size() / size;
+  Eigen::MatrixXd matrix(static_cast<Eigen::Index>(rows), static_cast<Eigen::Index>(size));
+  for (std::size_t i = 0; i < rows * size; ++i)
+    matrix(static_cast<Eigen::Index>(i / size), static_cast<Eigen::Index>(i % size)) = number(numbers.at(i));
+  return matrix;
 }
 
 /// The reader asks for no number of a law, because the fit to the data themselves seeks those that were fitted, and
@@ -107,15 +117,17 @@ std::unique_ptr<const Question> ask_predict(CheckedValues&& values) {
   std::ranges::move(drive_warnings(values.model), std::back_inserter(warnings));
   for (const DataFile& file : values.files)
     for (const std::string& warning : file.data.warnings) warnings.push_back(file.name + ": " + warning);
-  Eigen::MatrixXd covariance = covariance_of(values.analysis, parameters.size());
-  return std::make_unique<PredictQuestion>(std::move(rig), std::move(parameters), std::move(covariance),
+  identify::SharedUncertainty uncertainty = {
+      rows_of(values.analysis, "covariance", parameters.size()),
+      rows_of(values.analysis, "undetermined", parameters.size()).transpose()};
+  return std::make_unique<PredictQuestion>(std::move(rig), std::move(parameters), std::move(uncertainty),
                                            std::move(data), std::move(warnings));
 }
 
 }  // namespace
 
 Answer PredictQuestion::run(const RunContext& /*context*/) const {
-  const identify::Prediction prediction = identify::predict_records(rig_, parameters_, covariance_, data_);
+  const identify::Prediction prediction = identify::predict_records(rig_, parameters_, uncertainty_, data_);
   if (!prediction.outcome.ok()) return failed(prediction.outcome.reason);
   Answer answer;
   answer.warnings = warnings_;

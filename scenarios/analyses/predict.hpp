@@ -11,11 +11,12 @@ namespace dualdamp::scenarios {
 
 class PredictQuestion final : public Question {
  public:
-  PredictQuestion(identify::Rig rig, std::vector<identify::FitParameter> parameters, Eigen::MatrixXd covariance,
-                  identify::Experiments data, std::vector<std::string> warnings)
+  PredictQuestion(identify::Rig rig, std::vector<identify::FitParameter> parameters,
+                  identify::SharedUncertainty uncertainty, identify::Experiments data,
+                  std::vector<std::string> warnings)
       : rig_(std::move(rig)),
         parameters_(std::move(parameters)),
-        covariance_(std::move(covariance)),
+        uncertainty_(std::move(uncertainty)),
         data_(std::move(data)),
         warnings_(std::move(warnings)) {}
 
@@ -24,7 +25,7 @@ class PredictQuestion final : public Question {
  private:
   identify::Rig rig_;
   std::vector<identify::FitParameter> parameters_;  ///< those that were fitted
-  Eigen::MatrixXd covariance_;                      ///< of these; empty: not known
+  identify::SharedUncertainty uncertainty_;         ///< of these
   identify::Experiments data_;
   std::vector<std::string> warnings_;
 };

@@ -16,6 +16,12 @@ const identify::Signal& signal_of(const identify::FittedSignal& fitted, const id
   return experiments[fitted.rows.experiment]->signals[fitted.rows.signal];
 }
 
+Json rows_json(const Eigen::MatrixXd& matrix) {
+  Json rows = Json::array();
+  for (const auto& row : matrix.rowwise()) rows.push_back(std::vector<double>(row.begin(), row.end()));
+  return rows;
+}
+
 Table parameter_table(const identify::Fit& fit) {
   using identify::FittedParameter;
   const std::vector<FittedParameter>& list = fit.parameters;
@@ -75,12 +81,8 @@ void add_fit(const identify::Fit& fit, const identify::Experiments& experiments,
                                  {"noise_units", finite_or_null(signal.noise_units)},
                                  {"p_value", finite_or_null(signal.p_value)},
                                  {"chi2_per_freedom", finite_or_null(signal.chi2_per_freedom)}});
-  result["covariance"] = Json::array();
-  for (Eigen::Index i = 0; i < fit.covariance.rows(); ++i) {
-    Json row = Json::array();
-    for (Eigen::Index j = 0; j < fit.covariance.cols(); ++j) row.push_back(fit.covariance(i, j));
-    result["covariance"].push_back(std::move(row));
-  }
+  result["covariance"] = rows_json(fit.covariance);
+  result["undetermined"] = rows_json(fit.undetermined.transpose());
   result["starts"] = fit.starts;
   answer.tables.push_back(parameter_table(fit));
 }
@@ -157,7 +159,9 @@ ResultFields fit_fields() {
        "probability that the residuals are noise alone; null: too few readings, or no known noise"},
       {"signals[].chi2_per_freedom", "1",
        "variance of the residuals over that of the stated noise, per degree of freedom; null: no noise is stated"},
-      {"covariance[][]", "", "covariance of the parameters, in their order"},
+      {"covariance[][]", "",
+       "covariance of the parameters, in their order, without changes along 'undetermined'; 0: no covariance"},
+      {"undetermined[][]", "", "changes of the parameters, in their order, that the data do not show at any size"},
       {"starts", "1", "starts that were tried"},
       {"laws[].law", "", "laws that were compared, best first"},
       {"laws[].parameters", "1", "number of fitted parameters"},
@@ -178,7 +182,9 @@ ResultFields validation_fields(const std::string& prefix) {
           {prefix + "noise_units", "1", "the same over the noise of the sensors"},
           {prefix + "attainable", "1", "error that the same laws reach when they are fitted to this record itself"},
           {prefix + "attainable_noise_units", "1", "the same over the noise"},
-          {prefix + "uncertainty", "1", "error to be expected from the uncertainty of the fitted parameters"},
+          {prefix + "uncertainty", "1",
+           "error to be expected from the uncertainty of the fitted parameters; null: the fit does not determine "
+           "parameters that matter here"},
           {prefix + "compromise.statistic", "1",
            "-2 ln of the ratio of likelihoods: one set of parameters for the fitted records and these, over two "
            "sets"},

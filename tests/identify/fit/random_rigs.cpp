@@ -163,7 +163,7 @@ identify::Prediction predicted_by(const identify::Fit& fit, const RandomRig& sec
   rig.known.excitation = second.truth.known.excitation;
   std::vector<identify::FitParameter> parameters;
   for (const identify::FittedParameter& fitted : fit.parameters) parameters.push_back(fitted.parameter);
-  return identify::predict_records(rig, parameters, shared_covariance(fit), experiments_of(second));
+  return identify::predict_records(rig, parameters, shared_uncertainty(fit), experiments_of(second));
 }
 
 bool ends_at_noise(const RandomRig& rig, const identify::Fit& fit) {

@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "core/random.hpp"
 #include "friction_models/registry.hpp"
 #include "tests/identify/fit/random_rigs.hpp"
 #include "tests/identify/fit/synthetic.hpp"
@@ -34,7 +35,29 @@ identify::Prediction prediction_by(const std::string& law, std::vector<std::stri
   identify::Fit fit = identify::fit_rig(rig, parameters, first, {.profile = false});
   REQUIRE(fit.outcome.ok());
   fit.rig.known.excitation.amplitude *= 0.6;
-  return identify::predict_records(fit.rig, parameters, identify::shared_covariance(fit), second);
+  return identify::predict_records(fit.rig, parameters, identify::shared_uncertainty(fit), second);
+}
+
+/// A loop at a speed of constant size, with the force 2 N + 5 N.s/m |v| and noise of 0.01 N.
+identify::Experiments loop_at(double speed, std::uint64_t seed) {
+  identify::History loop{.sample_rate = 500.0};
+  const core::RandomStream draws{seed, 1};
+  constexpr std::uint64_t samples = 1000;
+  constexpr std::uint64_t stroke = 125;
+  double x = 0.0;
+  for (std::uint64_t i = 0; i < samples; ++i) {
+    const double sign = i / stroke % 2 == 0 ? 1.0 : -1.0;
+    loop.x.push_back(x);
+    loop.v.push_back(sign * speed);
+    loop.force.push_back(sign * (2.0 + 5.0 * speed) + 0.01 * draws.normal(i));
+    x += sign * speed / loop.sample_rate;
+  }
+  identify::Record record;
+  record.histories = {std::move(loop)};
+  std::string fault;
+  identify::Experiments experiments = identify::experiments_of(record, {.name = "loop", .loop = true}, fault);
+  REQUIRE(fault.empty());
+  return experiments;
 }
 
 }  // namespace
@@ -109,4 +132,35 @@ TEST_CASE("prediction: a record without motion is not judged", "[identify][fit]"
   const identify::Prediction found = identify::predict_records(held, {}, {}, experiments_of(still));
   CHECK(!found.is_wrong);
   CHECK_THAT(found.text, Catch::Contains("no motion"));
+}
+
+TEST_CASE("prediction: what the fit does not determine proves nothing against the law", "[identify][fit]") {
+  // At one speed V, the force shows the friction force F plus V times the damping c, and neither of the two.
+  identify::Rig rig = test::loop_alone({.laws = {{friction::find_law("coulomb"), {{"kinetic", 1.0}}}}});
+  rig.known.oscillator.damping = 20.0;
+  const std::vector<identify::FitParameter> parameters = test::sought_in(rig, {"kinetic", "damping"}, 1.0);
+  const identify::Fit fit = identify::fit_rig(rig, parameters, loop_at(0.1, 1), {.profile = false, .starts = 1});
+  REQUIRE(fit.outcome.ok());
+  REQUIRE(fit.undetermined.cols() == 1);
+  const double kinetic = fit.parameters[0].value;
+  const double damping = fit.parameters[1].value;
+  CHECK(kinetic + 0.1 * damping == Approx(2.5).epsilon(1e-3));
+  REQUIRE(std::abs(damping - 5.0) > 1.0);
+  CHECK(fit.undetermined(0, 0) == Approx(-0.1 * fit.undetermined(1, 0)).epsilon(1e-3));
+  const identify::SharedUncertainty known = identify::shared_uncertainty(fit);
+  const identify::Prediction faster = identify::predict_records(fit.rig, parameters, known, loop_at(0.3, 2));
+  CAPTURE(faster.text, faster.error, faster.compromise.statistic);
+  CHECK(faster.error > 0.1);
+  CHECK(faster.compromise.freedom == 1.0);
+  CHECK(faster.compromise.p_value > 1e-3);
+  CHECK(!faster.is_wrong);
+  CHECK(std::isnan(faster.uncertainty));
+  // At the speed of the fit, nothing is open; and what the fit does determine can prove a law wrong.
+  const identify::Prediction same = identify::predict_records(fit.rig, parameters, known, loop_at(0.1, 3));
+  CHECK(same.uncertainty < 0.01);
+  identify::Rig other = fit.rig;
+  other.laws[0].values = {{"kinetic", kinetic + 0.5}};
+  const identify::Prediction wrong = identify::predict_records(other, parameters, known, loop_at(0.1, 3));
+  CHECK(wrong.compromise.p_value < 1e-3);
+  CHECK(wrong.is_wrong);
 }
