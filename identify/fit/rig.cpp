@@ -311,7 +311,11 @@ std::optional<Rig> with_values(const Rig& rig, const std::vector<FitParameter>& 
     const bool sought = std::ranges::any_of(parameters, [&](const FitParameter& parameter) {
       return parameter.owner == Owner::law && parameter.index == i && !list_of_share(parameter.path).empty();
     });
-    if (sought && !complete_shares(result.laws[i].values)) return std::nullopt;
+    RigLaw& law = result.laws[i];
+    if (sought && !complete_shares(law.values)) return std::nullopt;
+    // A default that follows another value, such as static = kinetic, is not stated here: it keeps following.
+    ParameterValues completed = law.values;
+    if (!friction::complete(*law.entry, completed).empty()) return std::nullopt;
   }
   return result;
 }
