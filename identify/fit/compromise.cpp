@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/constants.hpp"
+#include "identify/fit/freedom.hpp"
 #include "identify/fit/problem.hpp"
 #include "identify/statistics/decompositions.hpp"
 #include "identify/statistics/distributions.hpp"
@@ -26,8 +27,11 @@ double size_of_stated(const FitParameter& parameter) {
 
 class Compromiser {
  public:
-  Compromiser(const KnownRig& known, const Experiments& second, const Fit& held, const Fit& alone)
-      : parameters_(all_of(known, held)),
+  /// `in_values`: the deviations from A's estimate are those of the values, not of the coordinates.
+  Compromiser(const KnownRig& known, const Experiments& second, const Fit& held, const Fit& alone, bool in_values)
+      : in_values_(in_values),
+        is_open_(known.uncertainty.undetermined.cols() > 0),
+        parameters_(all_of(known, held)),
         sizes_(sizes_of(parameters_)),
         alone_(alone),
         problem_(known.rig, parameters_, second, sizes_) {
@@ -86,8 +90,8 @@ class Compromiser {
     for (const FittedSignal& signal : alone.signals) {
       const Eigen::Index count = signal.rows.end - signal.rows.begin;
       const double share = signal.independent / static_cast<double>(count);
-      const double spent = static_cast<double>(size()) / static_cast<double>(problem_.rows());
-      const double own = signal.rms / std::sqrt(1.0 - std::min(spent, 0.9));
+      const double counted = problem_.counted().segment(signal.rows.begin, count).sum();
+      const double own = signal.rms * std::sqrt(counted / std::max(signal.freedom, least_freedom));
       // A stated noise is used unless the residuals are larger.
       const bool as_stated = problem_.signal(signal.rows).is_stated && own < signal.noise;
       const double deviation = std::max(as_stated ? signal.noise : own, std::numeric_limits<double>::min());
@@ -105,7 +109,8 @@ class Compromiser {
     whitening_.resize(0, size());
     const Eigen::MatrixXd& of_values = known.uncertainty.covariance;
     if (shared == 0 || of_values.rows() != shared || !of_values.allFinite()) return;
-    const Eigen::MatrixXd inverse = inverse_of(problem_.slope(held_).topLeftCorner(shared, shared));
+    const Eigen::MatrixXd inverse = in_values_ ? Eigen::MatrixXd::Identity(shared, shared)
+                                               : inverse_of(problem_.slope(held_).topLeftCorner(shared, shared));
     const Eigen::MatrixXd covariance = inverse * of_values * inverse.transpose();
     std::vector<Eigen::Index> in;
     for (Eigen::Index i = 0; i < shared; ++i)
@@ -142,11 +147,16 @@ class Compromiser {
     return projector.vectors.rightCols(size - basis.cols());
   }
 
+  /// Deviations from A's estimate, in standard deviations of what A determines.
+  [[nodiscard]] Eigen::VectorXd deviations(const Eigen::VectorXd& q) const {
+    return whitening_ * (in_values_ ? Eigen::VectorXd(problem_.values(q) - problem_.values(held_)) : q - held_);
+  }
+
   [[nodiscard]] double squares(const Eigen::VectorXd& q, bool both) const {
     Eigen::VectorXd outputs;
     if (!problem_.outputs(q, outputs)) return infinity;
     double sum = problem_.misses(outputs).cwiseProduct(weights_).squaredNorm();
-    if (both) sum += (whitening_ * (q - held_)).squaredNorm();
+    if (both) sum += deviations(q).squaredNorm();
     return std::isfinite(sum) ? sum : infinity;
   }
 
@@ -188,23 +198,27 @@ class Compromiser {
     }
     constexpr double fine = 1e-5;
     least.tolerance = fine;
-    least.most_iterations = 12;
+    // Along a direction that A leaves open, the way is long, and bent by the logarithms.
+    least.most_iterations = is_open_ ? 100 : 12;
     least.evaluate = [&](const Eigen::VectorXd& q, Eigen::VectorXd& residuals, Eigen::MatrixXd* jacobian) {
       Eigen::VectorXd outputs;
       Eigen::MatrixXd slopes;
       if (jacobian == nullptr ? !problem_.outputs(q, outputs) : !problem_.derivatives(q, outputs, slopes, true))
         return false;
       residuals.resize(least.residuals);
-      residuals << problem_.misses(outputs).cwiseProduct(weights_), whitening_ * (q - held_);
+      residuals << problem_.misses(outputs).cwiseProduct(weights_), deviations(q);
       if (jacobian == nullptr) return true;
       jacobian->resize(least.residuals, size());
-      *jacobian << weights_.cwiseProduct(problem_.counted()).asDiagonal() * slopes, whitening_;
+      *jacobian << weights_.cwiseProduct(problem_.counted()).asDiagonal() * slopes,
+          in_values_ ? Eigen::MatrixXd(whitening_ * problem_.slope(q)) : whitening_;
       return true;
     };
     const LeastSquaresFit found = fit(least);
     return found.parameters.size() == size() ? squares(found.parameters, true) : infinity;
   }
 
+  bool in_values_;
+  bool is_open_;
   std::vector<FitParameter> parameters_;  ///< those of the rig, then those of B itself
   std::vector<double> sizes_;
   const Fit& alone_;
@@ -219,7 +233,10 @@ class Compromiser {
 
 Compromise compromise_of(const KnownRig& known, const Experiments& second, const Fit& held, const Fit& alone) {
   if (alone.parameters.size() != known.parameters.size() + held.parameters.size()) return {};
-  return Compromiser(known, second, held, alone).run();
+  const Compromise found = Compromiser(known, second, held, alone, false).run();
+  if (known.uncertainty.undetermined.cols() == 0 || std::isnan(found.statistic)) return found;
+  const Compromise in_values = Compromiser(known, second, held, alone, true).run();
+  return in_values.statistic < found.statistic ? in_values : found;
 }
 
 }  // namespace dualdamp::identify

@@ -10,7 +10,9 @@
 /// rig and normal errors, T is chi-square; its degrees of freedom f are the number of parameters that A determines.
 /// If the deviations are estimated, T/f is Fisher's F. The parameters of B itself, such as its first state, are
 /// free in both terms. A parameter that A does not determine may have any value. If A determines only sums of
-/// parameters, C_A^-1 is zero along the directions that A does not determine.
+/// parameters, C_A^-1 is zero along the directions that A does not determine. B may then lead far away from p_A,
+/// where such a direction is straight in the values (forces that add up) or in their logarithms (factors). T is the
+/// smaller one of the two.
 ///
 /// Source: wilks1938. Errors: `p_value` is `unknown` if A determines no parameter or B does not determine the rig.
 /// Cost: nine motions and up to two short searches. A search is skipped if T at its start, an upper bound, already

@@ -8,6 +8,7 @@
 #include "core/constants.hpp"
 #include "core/diagnostics.hpp"
 #include "friction_models/law_fault.hpp"
+#include "identify/fit/freedom.hpp"
 #include "identify/fit/residual_test.hpp"
 #include "identify/fit/search.hpp"
 #include "identify/fit/serial_test.hpp"
@@ -28,14 +29,18 @@ double either_p_value(double first, double second) {
   return std::isnan(second) ? first : std::min(1.0, 2.0 * std::min(first, second));
 }
 
-void describe_signals(const FitProblem& problem, const Eigen::VectorXd& misses, Eigen::Index parameters,
-                      const SerialTest& serial, bool robust, Fit& result) {
+void describe_signals(const FitProblem& problem, const Eigen::VectorXd& weights, const Eigen::VectorXd& misses,
+                      const Eigen::MatrixXd& jacobian, bool robust, Fit& result) {
+  const SerialTest serial(problem, weights, misses, jacobian);
+  const std::vector<double> freedoms = freedoms_of(problem, weights.asDiagonal() * jacobian);
   double sum = 0.0;
   double count = 0.0;
-  for (const SignalRows& rows : problem.signals()) {
+  for (std::size_t s = 0; s < freedoms.size(); ++s) {
+    const SignalRows& rows = problem.signals()[s];
     const Eigen::Index size = rows.end - rows.begin;
+    const double counted = problem.counted().segment(rows.begin, size).sum();
     const Eigen::VectorXd measured = problem.measured().segment(rows.begin, size);
-    FittedSignal signal{.rows = rows, .rms = problem.rms(misses, rows)};
+    FittedSignal signal{.rows = rows, .rms = problem.rms(misses, rows), .freedom = freedoms[s]};
     signal.range = rms(measured.array() - measured.mean());
     if (problem.signal(rows).noise > 0.0) {
       signal.noise = problem.signal(rows).noise;
@@ -43,17 +48,17 @@ void describe_signals(const FitProblem& problem, const Eigen::VectorXd& misses, 
       sum += signal.noise_units * signal.noise_units * static_cast<double>(size);
       count += static_cast<double>(size);
     }
-    signal.p_value =
-        noise_p_value(problem.signal(rows), misses.segment(rows.begin, size), static_cast<std::size_t>(parameters));
+    const Eigen::VectorXd own = misses.segment(rows.begin, size);
+    const Eigen::VectorXd bounded = bounded_residuals(own, weights.segment(rows.begin, size));
+    signal.p_value = noise_p_value(problem.signal(rows), bounded, counted - signal.freedom);
     if (!robust && !problem.signal(rows).is_sampled)
       signal.p_value = either_p_value(signal.p_value, serial.p_value(rows));
-    signal.independent = independent_samples(misses.segment(rows.begin, size), problem.signal(rows).is_sampled);
+    signal.independent = independent_samples(own, problem.signal(rows).is_sampled);
     result.log_likelihood_count += signal.independent;
-    if (problem.signal(rows).is_stated) {
-      const double spent = static_cast<double>(parameters) / static_cast<double>(problem.rows());
-      const Eigen::VectorXd own = misses.segment(rows.begin, size);
-      compare_with_stated((robust ? robust_deviation(own) : signal.rms) / std::sqrt(1.0 - spent),
-                          signal.independent * (1.0 - spent), signal);
+    if (problem.signal(rows).is_stated && signal.freedom > least_freedom) {
+      const double share = signal.freedom / counted;
+      compare_with_stated((robust ? robust_deviation(own) : signal.rms) / std::sqrt(share),
+                          signal.independent * share, signal);
     }
     result.signals.push_back(signal);
   }
@@ -103,8 +108,7 @@ std::optional<Eigen::VectorXd> describe(const FitProblem& problem, const Request
   result.rig = with_values(request.rig, request.parameters, values).value_or(request.rig);
   result.own = problem.own(values);
   const Eigen::VectorXd misses = problem.misses(result.outputs);
-  const SerialTest serial(problem, found.weights, misses, jacobian);
-  describe_signals(problem, misses, q.size(), serial, request.options.robust, result);
+  describe_signals(problem, found.weights, misses, jacobian, request.options.robust, result);
   warn_of_residuals(request.experiments, result);
   for (std::size_t i = 0; i < request.parameters.size(); ++i)
     result.parameters.push_back(

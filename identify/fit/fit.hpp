@@ -10,8 +10,9 @@
 /// and its unit takes the place of the stated value. Robust fits use Huber's weights, by repeated fits.
 ///
 /// Uncertainty: the covariance is (J^T J)^-1 J^T S J (J^T J)^-1, where S has the autocovariances of the residuals
-/// (newey1987), because residuals may be correlated from sample to sample. For a profile, the parameter is held at
-/// a value and the others are fitted by Gauss-Newton steps with the derivatives at the estimate. Directions of the
+/// (newey1987), because residuals may be correlated from sample to sample. Each signal has degrees of freedom of
+/// its own (`freedom.hpp`), and so has each parameter (welch1947). For a profile, the parameter is held at a value
+/// and the others are fitted by Gauss-Newton steps with the derivatives at the estimate. Directions of the
 /// parameters along which the data allow a change of 100 % are described in words. Laws are compared by AICc
 /// (burnham2002) with the number of samples that count as independent.
 ///
@@ -61,6 +62,7 @@ struct FittedSignal {
   double noise = unknown;        ///< of the sensor, stated or from the roughness of the signal
   double noise_units = unknown;  ///< rms over noise
   double independent = 0.0;      ///< number of samples that count as independent
+  double freedom = 0.0;          ///< readings that count, minus the parameters they determine (`freedom.hpp`)
   double p_value = unknown;      ///< chance that the residuals are noise alone (`residual_test.hpp`)
   /// If the noise is stated: variance of the residuals over that of the noise, per degree of freedom; and the
   /// chance of a value so far from 1.

@@ -53,10 +53,11 @@ Eigen::VectorXd Profiler::step(Eigen::Index i, double value, const Way& way) con
       const Coordinate& c = problem_.coordinates()[static_cast<std::size_t>(j)];
       const double inside = std::clamp(q[j], c.low, c.high);
       constexpr double rounding = 1e-12;
-      if (std::abs(inside - q[j]) > rounding * (1.0 + std::abs(inside)) && j != i && leaving < 0) leaving = j;
+      const bool may_be_held = j != i || other_of(i, way.q) >= 0;
+      if (std::abs(inside - q[j]) > rounding * (1.0 + std::abs(inside)) && may_be_held && leaving < 0) leaving = j;
       q[j] = inside;
     }
-    if (leaving < 0 || held == size) return q;
+    if (leaving < 0 || held == size) return other_of(i, q) < 0 ? q : placed(i, value, q);
     const double shift = (q[leaving] - way.q[leaving]) / way.unit[leaving];
     right -= shift * bordered.col(leaving);
     bordered.row(leaving).setZero();
@@ -66,14 +67,26 @@ Eigen::VectorXd Profiler::step(Eigen::Index i, double value, const Way& way) con
   }
 }
 
+Eigen::Index Profiler::other_of(Eigen::Index i, const Eigen::VectorXd& q) const {
+  const Eigen::MatrixXd slope = problem_.slope(q);
+  for (Eigen::Index j = 0; j < q.size(); ++j)
+    if (j != i && slope(i, j) != 0.0) return j;
+  return -1;
+}
+
+Eigen::VectorXd Profiler::placed(Eigen::Index i, double value, const Eigen::VectorXd& q) const {
+  Eigen::VectorXd values = problem_.values(q);
+  values[i] = value;
+  if (const Eigen::Index other = other_of(i, q); other >= 0) values[other] = std::min(values[other], value);
+  return problem_.coordinates(values);
+}
+
 double Profiler::growth_of(const Eigen::VectorXd& residuals) const {
   return std::sqrt(std::max(residuals.squaredNorm() - squares_, 0.0));
 }
 
 std::optional<double> Profiler::alone(Eigen::Index i, double value, Way& way) const {
-  Eigen::VectorXd values = problem_.values(way.q);
-  values[i] = value;
-  Eigen::VectorXd q = problem_.coordinates(values);
+  Eigen::VectorXd q = placed(i, value, way.q);
   Eigen::VectorXd outputs;
   if (!problem_.outputs(q, outputs)) return std::nullopt;
   way.q = std::move(q);

@@ -48,6 +48,10 @@ class Profiler {
                        const Eigen::MatrixXd& rows) const;
   /// Least squares with parameter `i` held at `value`, by the derivatives of `way`.
   [[nodiscard]] Eigen::VectorXd step(Eigen::Index i, double value, const Way& way) const;
+  /// The parameter that `i` must not be below; -1: none.
+  [[nodiscard]] Eigen::Index other_of(Eigen::Index i, const Eigen::VectorXd& q) const;
+  /// `q` with parameter `i` at `value`. The parameter that it must not be below gives way.
+  [[nodiscard]] Eigen::VectorXd placed(Eigen::Index i, double value, const Eigen::VectorXd& q) const;
   /// The square root of the growth of the sum of squares with parameter `i` at `value`. Nothing: no motion.
   [[nodiscard]] std::optional<double> growth(Eigen::Index i, double value, double limit, Way& way) const;
   /// The same by Gauss-Newton steps from `way`.

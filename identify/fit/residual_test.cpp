@@ -68,7 +68,7 @@ double p_value_of_motion(const Eigen::VectorXd& measured, const Eigen::VectorXd&
 
 }  // namespace
 
-double noise_p_value(const Signal& signal, const Eigen::VectorXd& residuals, std::size_t parameters) {
+double noise_p_value(const Signal& signal, const Eigen::VectorXd& residuals, double spent) {
   const Eigen::VectorXd measured = Eigen::Map<const Eigen::VectorXd>(signal.measured.data(), residuals.size());
   // Residuals of exact data are errors of integration and rounding: neither noise nor motion.
   constexpr double exact = 1e-5;
@@ -76,11 +76,17 @@ double noise_p_value(const Signal& signal, const Eigen::VectorXd& residuals, std
   if (residuals.norm() <= exact * size) return unknown;
   if (signal.is_sampled)
     return residuals.size() < least_test_samples ? unknown : p_value_of_motion(measured, residuals);
-  const double freedom = static_cast<double>(residuals.size()) - static_cast<double>(parameters);
+  const double freedom = static_cast<double>(residuals.size()) - spent;
   if (!signal.is_stated || freedom < 1.0) return unknown;
   // F with infinitely many degrees of freedom in the denominator is chi-square.
   constexpr double known = 1e9;
   return f_test_p_value(residuals.squaredNorm() / (signal.noise * signal.noise * freedom), freedom, known);
+}
+
+Eigen::VectorXd bounded_residuals(const Eigen::VectorXd& residuals, const Eigen::VectorXd& weights) {
+  const double largest = weights.size() > 0 ? weights.maxCoeff() : 0.0;
+  if (!(largest > 0.0)) return residuals;
+  return residuals.cwiseProduct((weights / largest).cwiseAbs2());
 }
 
 bool is_noise(double p_value) {

@@ -9,7 +9,7 @@
 ///
 /// The test needs no noise level. It detects an error of the motion of a third of the noise, which the rms hardly
 /// shows. It also rejects noise that the sensor smoothed. Other readings with a stated noise s: chi-square test of
-/// sum r_i^2/s^2.
+/// sum r_i^2/s^2. A robust fit gives outliers little weight; its residuals enter as it counts them.
 ///
 /// A stated noise may be too small or too large: a two-sided chi-square test with the readings that count as
 /// independent. It is called wrong for a chance below 0.001 and a ratio of the deviations beyond a factor of 1.3.
@@ -24,8 +24,12 @@
 namespace dualdamp::identify {
 
 /// The chance that noise alone leaves such residuals. `unknown` for fewer than 64 samples, or for other readings
-/// without a stated noise. `parameters`: number of fitted parameters.
-[[nodiscard]] double noise_p_value(const Signal& signal, const Eigen::VectorXd& residuals, std::size_t parameters);
+/// without a stated noise. `spent`: number of parameters that these readings determine.
+[[nodiscard]] double noise_p_value(const Signal& signal, const Eigen::VectorXd& residuals, double spent);
+
+/// The residuals of a signal as a robust fit counts them: those beyond Huber's bound are at the bound. `weights`:
+/// at the end of the fit; equal weights leave the residuals unchanged.
+[[nodiscard]] Eigen::VectorXd bounded_residuals(const Eigen::VectorXd& residuals, const Eigen::VectorXd& weights);
 
 /// Whether a chance agrees with noise: it is at least 0.001, or `unknown`.
 [[nodiscard]] bool is_noise(double p_value);

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/constants.hpp"
+#include "identify/fit/freedom.hpp"
 #include "identify/fit/residual_test.hpp"
 #include "identify/fit/starts.hpp"
 #include "identify/statistics/least_squares.hpp"
@@ -58,17 +59,19 @@ class Search {
     return fit(least);
   }
 
-  /// Sets the weights from the residuals of a fit. Returns the largest relative change of a deviation.
-  double reweight(const Eigen::VectorXd& outputs, Eigen::Index parameters) {
+  /// Sets the weights from the residuals of a fit. `rows_of_fit`: weighted derivatives there. Returns the largest
+  /// relative change of a deviation.
+  double reweight(const Eigen::VectorXd& outputs, const Eigen::MatrixXd& rows_of_fit) {
     const Eigen::VectorXd misses = problem_.misses(outputs);
-    const double spent = static_cast<double>(parameters) / static_cast<double>(problem_.rows());
+    const std::vector<double> freedoms = freedoms_of(problem_, rows_of_fit);
     double change = 0.0;
     for (std::size_t s = 0; s < deviations_.size(); ++s) {
       const SignalRows& rows = problem_.signals()[s];
       const Eigen::VectorXd part = misses.segment(rows.begin, rows.end - rows.begin);
       const double own = options_.robust ? robust_deviation(part) : problem_.rms(misses, rows);
-      const double found =
-          problem_.signal(rows).is_stated ? deviations_[s] : own / std::sqrt(1.0 - std::min(spent, 0.9));
+      const double count = problem_.counted().segment(rows.begin, rows.end - rows.begin).sum();
+      if (problem_.signal(rows).is_stated || freedoms[s] < least_freedom) continue;
+      const double found = own * std::sqrt(count / freedoms[s]);
       if (!(found > 0.0)) continue;
       change = std::max(change, std::abs(std::log(found / deviations_[s])));
       deviations_[s] = found;
@@ -217,20 +220,22 @@ std::optional<LeastSquaresFit> finish(LeastSquaresFit found, Search& search, con
     LeastSquaresFit next = search.improve(found.parameters, fine, 100);
     if (next.jacobian.rows() == problem.rows() && next.jacobian.allFinite()) found = std::move(next);
     if (!problem.outputs(found.parameters, outputs)) return std::nullopt;
-    const double change = search.reweight(outputs, found.parameters.size());
+    const double change = search.reweight(outputs, found.jacobian);
     if (!several_weights || change < settled) break;
   }
   return found;
 }
 
 /// Whether the residuals of any signal are more than noise.
-bool holds_motion(const Eigen::VectorXd& q, const FitProblem& problem) {
+bool holds_motion(const SearchResult& found, const FitProblem& problem) {
   Eigen::VectorXd outputs;
-  if (!problem.outputs(q, outputs)) return false;
+  if (!problem.outputs(found.coordinates, outputs)) return false;
   const Eigen::VectorXd misses = problem.misses(outputs);
-  const auto parameters = static_cast<std::size_t>(q.size());
+  const auto parameters = static_cast<double>(found.coordinates.size());
   return std::ranges::any_of(problem.signals(), [&](const SignalRows& rows) {
-    const Eigen::VectorXd part = misses.segment(rows.begin, rows.end - rows.begin);
+    const Eigen::Index size = rows.end - rows.begin;
+    const Eigen::VectorXd part =
+        bounded_residuals(misses.segment(rows.begin, size), found.weights.segment(rows.begin, size));
     return !is_noise(noise_p_value(problem.signal(rows), part, parameters));
   });
 }
@@ -269,7 +274,7 @@ std::optional<SearchResult> search_parameters(const FitProblem& problem,
     if (found && (!best || alike.squares(found->parameters) < alike.squares(best->coordinates)))
       best = SearchResult{found->parameters, search.weights()};
   };
-  const auto is_at_end = [&] { return best && !holds_motion(best->coordinates, problem); };
+  const auto is_at_end = [&] { return best && !holds_motion(*best, problem); };
   take(search_roughly(points, rough_search, rough_problem, options));
   // From a distant start, as for a mass without a stated value, the first parts need more steps.
   if (best && !is_at_end()) take(search_growing({best->coordinates}, 0.1, rough_search, rough_problem, options));

@@ -13,19 +13,26 @@ namespace {
 
 std::string percent_of_size(double share) { return core::format_number(100.0 * std::abs(share), 2) + " %"; }
 
+/// A parameter that must not be below another one is sought as its distance from it.
+std::string sought(const std::vector<FitParameter>& parameters, Eigen::Index i) {
+  const FitParameter& parameter = parameters[static_cast<std::size_t>(i)];
+  return parameter.above ? parameter.name + " - " + parameters[*parameter.above].name : parameter.name;
+}
+
 /// "sigma1 and damping trade off one to one".
 std::string pair_text(const WeakDirection& direction, const std::vector<FitParameter>& parameters, Eigen::Index a,
                       Eigen::Index b) {
   const FitParameter& first = parameters[static_cast<std::size_t>(a)];
   const FitParameter& second = parameters[static_cast<std::size_t>(b)];
   const double ratio = direction.change[a] / direction.change[b];
-  const std::string both = first.name + " and " + second.name + (ratio < 0.0 ? " trade off" : " go together");
+  const std::string both =
+      sought(parameters, a) + " and " + sought(parameters, b) + (ratio < 0.0 ? " trade off" : " go together");
   constexpr double equal = 0.1;
   if (first.unit == second.unit && std::abs(std::abs(ratio) - 1.0) < equal) return both + " one to one";
   constexpr double small = 0.1;
   const double shares = direction.share[b] / direction.share[a];
-  return both + ": 10 % more of " + first.name + " with " + percent_of_size(small * shares) +
-         (shares < 0.0 ? " less of " : " more of ") + second.name;
+  return both + ": 10 % more of " + sought(parameters, a) + " with " + percent_of_size(small * shares) +
+         (shares < 0.0 ? " less of " : " more of ") + sought(parameters, b);
 }
 
 }  // namespace
@@ -44,7 +51,8 @@ TradeOff trade_off(const WeakDirection& direction, const std::vector<FitParamete
   };
   // If the data do not determine the direction, all parameters with large effects that cancel are named.
   const auto makes_up = [&](Eigen::Index i) {
-    return !std::isfinite(direction.deviation) && direction.effect[i] > part * direction.effect.maxCoeff();
+    return !std::isfinite(direction.deviation) &&
+           direction.effect[i] > std::max(direction.rounding, part * direction.effect.maxCoeff());
   };
   std::erase_if(order, [&](Eigen::Index i) {
     return std::abs(direction.share[i]) < part * largest && !changes_alike(i) && !makes_up(i);
@@ -53,11 +61,11 @@ TradeOff trade_off(const WeakDirection& direction, const std::vector<FitParamete
   for (const Eigen::Index i : order) found.parameters.push_back(parameters[static_cast<std::size_t>(i)].name);
   const std::string known = std::isfinite(direction.deviation)
                                 ? "; the data leave " + percent_of_size(2.0 * direction.deviation * largest) +
-                                      " of " + found.parameters.front() + " open"
+                                      " of " + sought(parameters, first) + " open"
                                 : "; the data do not determine them";
   if (order.size() == 1)
     found.text = std::isfinite(direction.deviation)
-                     ? "the data hardly show " + found.parameters.front() + ": it is known to " +
+                     ? "the data hardly show " + sought(parameters, first) + ": it is known to " +
                            percent_of_size(2.0 * direction.deviation * largest) + " of its value"
                      : "the data do not show " + found.parameters.front() + " at all";
   else if (order.size() == 2)

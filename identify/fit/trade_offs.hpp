@@ -15,6 +15,7 @@ struct WeakDirection {
   Eigen::VectorXd share;   ///< the direction in units of the parameters' sizes; of length 1
   Eigen::VectorXd effect;  ///< of each component on the readings, absolute
   double deviation = 0.0;  ///< standard deviation along it, in units of `share`; infinite: not determined
+  double rounding = 0.0;   ///< a smaller `effect` may be rounding
 };
 
 [[nodiscard]] TradeOff trade_off(const WeakDirection& direction, const std::vector<FitParameter>& parameters);

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/constants.hpp"
+#include "identify/fit/freedom.hpp"
 #include "identify/fit/profile.hpp"
 #include "identify/fit/residual_covariance.hpp"
 #include "identify/fit/trade_offs.hpp"
@@ -42,18 +43,18 @@ class Uncertainty {
   [[nodiscard]] const std::optional<Eigen::VectorXd>& lower() const { return lower_; }
 
   void run() {
-    const Eigen::MatrixXd slope = end_.problem.slope(end_.q);
-    fit_.covariance = slope * covariance_ * slope.transpose();
-    fit_.slopes = end_.jacobian * inverse_of(slope);
-    // A robust fit has fewer degrees of freedom, which does not matter for the many samples of histories.
-    const double freedom =
-        all_stated_ ? infinity : std::max(1.0, fit_.log_likelihood_count - static_cast<double>(size_));
-    quantile_ = quantile95(freedom);
+    slope_ = end_.problem.slope(end_.q);
+    fit_.covariance = slope_ * covariance_ * slope_.transpose();
+    fit_.slopes = end_.jacobian * inverse_of(slope_);
+    for (Eigen::Index i = 0; i < size_; ++i) quantiles_.push_back(quantile95(freedom_along(scaled_row(i))));
     for (Eigen::Index i = 0; i < size_; ++i) add_interval(i);
-    if (end_.profile) add_profiles(slope);
+    for (FittedParameter& fitted : fit_.parameters) end_above_other(fitted);
+    if (end_.profile) add_profiles();
     for (Eigen::Index i = 0; i < size_; ++i) judge_profile(i);
-    add_trade_offs(slope);
-    add_undetermined(slope);
+    add_trade_offs();
+    add_undetermined();
+    for (Eigen::Index i = 0; i < size_; ++i)
+      if (needs_noise(scaled_row(i))) fit_.covariance.row(i).setZero(), fit_.covariance.col(i).setZero();
   }
 
  private:
@@ -66,24 +67,57 @@ class Uncertainty {
   }
 
   void measure_variance() {
-    all_stated_ = true;
-    const double spent = static_cast<double>(size_) / static_cast<double>(end_.misses.size());
-    for (const SignalRows& rows : end_.problem.signals()) {
+    for (std::size_t s = 0; s < end_.problem.signals().size(); ++s) {
+      const SignalRows& rows = end_.problem.signals()[s];
+      const FittedSignal& signal = fit_.signals[s];
       const Eigen::Index size = rows.end - rows.begin;
       const double count = end_.problem.counted().segment(rows.begin, size).sum();
-      const double own = residuals_.segment(rows.begin, size).squaredNorm() / (count * (1.0 - spent));
+      const double freedom = std::max(signal.freedom, least_freedom);
+      const double own = residuals_.segment(rows.begin, size).squaredNorm() / freedom;
       // The residuals replace a stated noise only if they are larger than chance explains.
-      const double chance = 1.0 + 3.0 * std::sqrt(2.0 / count);
-      const bool as_stated = end_.problem.signal(rows).is_stated && own < chance;
-      all_stated_ = all_stated_ && as_stated;
-      variances_.push_back(as_stated ? 1.0 : own);
+      const double chance = 1.0 + 3.0 * std::sqrt(2.0 / freedom);
+      const bool is_stated = end_.problem.signal(rows).is_stated;
+      const bool as_stated = is_stated && own < chance;
+      is_open_.push_back(!is_stated && signal.freedom < least_freedom);
+      variances_.push_back(as_stated || is_open_.back() ? 1.0 : own);
+      // A robust fit has fewer degrees of freedom, which does not matter for the many samples of histories.
+      const double independent = signal.independent * count / static_cast<double>(size);
+      freedoms_.push_back(as_stated ? infinity : std::max(1.0, independent - (count - signal.freedom)));
     }
+  }
+
+  /// A parameter as a direction in parts of the sizes.
+  [[nodiscard]] Eigen::VectorXd scaled_row(Eigen::Index i) const {
+    return slope_.row(i).transpose().cwiseProduct(whole_all());
+  }
+
+  /// The part of each signal in the variance along a direction.
+  [[nodiscard]] std::vector<double> variances_along(const Eigen::VectorXd& direction) const {
+    std::vector<double> parts;
+    for (const Eigen::MatrixXd& part : parts_) parts.push_back(std::max(0.0, direction.dot(part * direction)));
+    return parts;
+  }
+
+  [[nodiscard]] double freedom_along(const Eigen::VectorXd& direction) const {
+    const std::vector<double> variances = variances_along(direction);
+    const bool has_any = std::ranges::any_of(variances, [](double variance) { return variance > 0.0; });
+    return has_any ? joint_freedom(variances, freedoms_) : *std::ranges::min_element(freedoms_);
+  }
+
+  /// Whether the variance along a direction has a part of signals whose noise is neither stated nor shown.
+  [[nodiscard]] bool needs_noise(const Eigen::VectorXd& direction) const {
+    constexpr double part = 1e-3;
+    const std::vector<double> variances = variances_along(direction);
+    double open = 0.0;
+    for (std::size_t s = 0; s < variances.size(); ++s) open += is_open_[s] ? variances[s] : 0.0;
+    return open > part * std::accumulate(variances.begin(), variances.end(), 0.0);
   }
 
   void decompose() {
     const auto free = static_cast<Eigen::Index>(free_.size());
     covariance_ = Eigen::MatrixXd::Zero(size_, size_);
     classical_ = covariance_;
+    scaled_covariance_ = covariance_;
     if (free == 0) return;
     Eigen::MatrixXd scaled(rows_.rows(), free);
     for (Eigen::Index j = 0; j < free; ++j)
@@ -91,6 +125,7 @@ class Uncertainty {
     const SymmetricSpectrum normal = symmetric_spectrum(scaled.transpose() * scaled);
     const double largest = normal.values[free - 1];
     constexpr double singular = 1e-12;  // of squares
+    strongest_ = std::sqrt(largest);
     Eigen::VectorXd inverse(free);
     for (Eigen::Index j = 0; j < free; ++j) {
       const double value = normal.values[j];
@@ -98,16 +133,17 @@ class Uncertainty {
       if (inverse[j] == 0.0) lost_.push_back(expand(normal.vectors.col(j)));
     }
     const Eigen::MatrixXd bread = normal.vectors * inverse.asDiagonal() * normal.vectors.transpose();
-    Eigen::MatrixXd inner = Eigen::MatrixXd::Zero(free, free);
-    Eigen::MatrixXd plain = inner;
+    Eigen::MatrixXd plain = Eigen::MatrixXd::Zero(free, free);
     for (std::size_t s = 0; s < variances_.size(); ++s) {
       const SignalRows& rows = end_.problem.signals()[s];
       const Eigen::MatrixXd part = scaled.middleRows(rows.begin, rows.end - rows.begin);
-      inner += score_covariance(part, residuals_.segment(rows.begin, rows.end - rows.begin), variances_[s],
-                                end_.problem.signal(rows).is_sampled, end_.robust);
+      parts_.push_back(lift(bread *
+                            score_covariance(part, residuals_.segment(rows.begin, rows.end - rows.begin),
+                                             variances_[s], end_.problem.signal(rows).is_sampled, end_.robust) *
+                            bread));
+      scaled_covariance_ += parts_.back();
       plain += variances_[s] * (part.transpose() * part);
     }
-    scaled_covariance_ = lift(bread * inner * bread);
     const Eigen::VectorXd all = whole_all();
     covariance_ = all.asDiagonal() * scaled_covariance_ * all.asDiagonal();
     classical_ = all.asDiagonal() * lift(bread * plain * bread) * all.asDiagonal();
@@ -168,8 +204,12 @@ class Uncertainty {
       fitted.reason = "the data do not determine it";
       return;
     }
+    if (needs_noise(scaled_row(i))) {
+      fitted.reason = "a signal has too few readings to show its noise, and its noise is not stated";
+      return;
+    }
     fitted.std = std::sqrt(std::max(fit_.covariance(i, i), 0.0));
-    const double width = quantile_ * fitted.std;
+    const double width = quantiles_[static_cast<std::size_t>(i)] * fitted.std;
     if (c.logarithmic) {
       const double factor = std::exp(std::min(width / fitted.value, 100.0));
       fitted.interval95 = {fitted.value / factor, fitted.value * factor};
@@ -181,13 +221,21 @@ class Uncertainty {
     fitted.interval95[1] = std::min(fitted.interval95[1], range.high);
   }
 
+  /// A parameter that must not be below another one is at least at the low end of the interval of that one.
+  void end_above_other(FittedParameter& fitted) const {
+    if (!fitted.parameter.above || std::isnan(fitted.interval95[0])) return;
+    const FittedParameter& other = fit_.parameters[*fitted.parameter.above];
+    const double low = std::isnan(other.interval95[0]) ? other.value : other.interval95[0];
+    fitted.interval95[0] = std::max(fitted.interval95[0], std::min(low, fitted.value));
+  }
+
   /// Whether a parameter has no effect near the estimate: its effect may come in steps, from reading to reading.
   [[nodiscard]] bool acts_in_steps(Eigen::Index i) const { return rows_.col(i).norm() == 0.0; }
 
   /// Whether an end of the profile differs from the interval by the covariance.
-  [[nodiscard]] bool bends(const FittedParameter& fitted) const {
+  [[nodiscard]] static bool bends(const FittedParameter& fitted, double quantile) {
     constexpr double much = 0.25;
-    const double width = quantile_ * fitted.std;
+    const double width = quantile * fitted.std;
     return std::abs(fitted.profile95[0] - fitted.interval95[0]) > much * width ||
            std::abs(fitted.profile95[1] - fitted.interval95[1]) > much * width;
   }
@@ -206,7 +254,7 @@ class Uncertainty {
         return std::abs(direction[i]) > 0.99 * direction.norm();
       };
       std::erase_if(lost_, is_alone);
-    } else if (end_.profile && ends && fitted.std > 0.0 && bends(fitted)) {
+    } else if (end_.profile && ends && fitted.std > 0.0 && bends(fitted, quantiles_[static_cast<std::size_t>(i)])) {
       fitted.interval95 = fitted.profile95;
       fitted.reason = "the sum of squares is no parabola: the interval is that of the profile";
     } else if (end_.profile && !ends && fitted.std > 0.0) {
@@ -214,17 +262,19 @@ class Uncertainty {
     }
   }
 
-  void add_profiles(const Eigen::MatrixXd& slope) {
+  void add_profiles() {
     const Profiler profiler(end_.problem, end_.weights, end_.q, rows_, residuals_);
     Profiler::for_each(size_, [&](Eigen::Index i) {
       FittedParameter& fitted = fit_.parameters[static_cast<std::size_t>(i)];
       if ((is_lost(i) && !acts_in_steps(i)) || (fitted.at_bound && free_.empty())) return;
+      if (needs_noise(scaled_row(i))) return;
       // Correlated residuals widen the profile as they widen the covariance.
-      const double variance = slope.row(i) * classical_ * slope.row(i).transpose();
+      const double variance = slope_.row(i) * classical_ * slope_.row(i).transpose();
       const double widening = fitted.at_bound || !(variance > 0.0)
                                   ? mean_variance()
                                   : fit_.covariance(i, i) / variance * mean_variance();
-      fitted.profile95 = profiler.interval(i, fitted, quantile_ * std::sqrt(widening));
+      fitted.profile95 =
+          profiler.interval(i, fitted, quantiles_[static_cast<std::size_t>(i)] * std::sqrt(widening));
       if (fitted.at_bound && !std::isnan(fitted.profile95[0]) && !std::isnan(fitted.profile95[1]))
         fitted.interval95 = fitted.profile95;
     });
@@ -235,46 +285,54 @@ class Uncertainty {
     return std::accumulate(variances_.begin(), variances_.end(), 0.0) / static_cast<double>(variances_.size());
   }
 
-  void add_trade_offs(const Eigen::MatrixXd& slope) {
+  void add_trade_offs() {
     std::vector<FitParameter> parameters;
     for (const FittedParameter& fitted : fit_.parameters) parameters.push_back(fitted.parameter);
     const Eigen::VectorXd all = whole_all();
     const auto add = [&](const Eigen::VectorXd& direction, double deviation) {
       const Eigen::VectorXd change = all.asDiagonal() * direction;
       const Eigen::VectorXd effect = (rows_ * change.asDiagonal()).colwise().norm();
-      fit_.not_identifiable.push_back(trade_off({slope * change, direction, effect, deviation}, parameters));
+      constexpr double rounding = 1e-4;
+      fit_.not_identifiable.push_back(
+          trade_off({slope_ * change, direction, effect, deviation, rounding * strongest_}, parameters));
     };
     for (const Eigen::VectorXd& direction : lost_) add(direction, infinity);
     if (free_.empty()) return;
     const SymmetricSpectrum spectrum = symmetric_spectrum(scaled_covariance_);
     for (Eigen::Index j = size_ - 1; j >= 0; --j) {
+      const Eigen::VectorXd direction = spectrum.vectors.col(j);
       const double deviation = std::sqrt(std::max(spectrum.values[j], 0.0));
-      if (quantile_ * deviation > 1.0) add(spectrum.vectors.col(j), deviation);
+      if (!needs_noise(direction) && quantile95(freedom_along(direction)) * deviation > 1.0)
+        add(direction, deviation);
     }
   }
 
-  void add_undetermined(const Eigen::MatrixXd& slope) {
+  void add_undetermined() {
     constexpr double rounding = 1e-4;  // of a direction of length 1
     fit_.undetermined.resize(size_, static_cast<Eigen::Index>(lost_.size()));
     for (std::size_t j = 0; j < lost_.size(); ++j) {
       const Eigen::VectorXd direction = (lost_[j].array().abs() > rounding).select(lost_[j], 0.0);
-      fit_.undetermined.col(static_cast<Eigen::Index>(j)) = slope * whole_all().cwiseProduct(direction);
+      fit_.undetermined.col(static_cast<Eigen::Index>(j)) = slope_ * whole_all().cwiseProduct(direction);
     }
   }
 
   const FitEnd& end_;
   Fit& fit_;
   Eigen::Index size_;
-  std::vector<Eigen::Index> free_;  ///< parameters with an effect
-  Eigen::MatrixXd rows_;            ///< weighted jacobian
-  Eigen::VectorXd residuals_;       ///< weighted
-  std::vector<double> variances_;   ///< of the weighted residuals of each signal
-  bool all_stated_ = true;
-  Eigen::MatrixXd covariance_;         ///< of coordinates
-  Eigen::MatrixXd classical_;          ///< the same for independent residuals
-  Eigen::MatrixXd scaled_covariance_;  ///< in parts of the parameters' sizes
-  std::vector<Eigen::VectorXd> lost_;  ///< directions that change nothing, in parts of the sizes
-  double quantile_ = 0.0;
+  std::vector<Eigen::Index> free_;      ///< parameters with an effect
+  Eigen::MatrixXd rows_;                ///< weighted jacobian
+  Eigen::VectorXd residuals_;           ///< weighted
+  std::vector<double> variances_;       ///< of the weighted residuals of each signal
+  std::vector<double> freedoms_;        ///< of these; infinite: stated
+  std::vector<bool> is_open_;           ///< the noise of the signal is neither stated nor shown
+  Eigen::MatrixXd slope_;               ///< d(values)/d(coordinates)
+  Eigen::MatrixXd covariance_;          ///< of coordinates
+  Eigen::MatrixXd classical_;           ///< the same for independent residuals
+  Eigen::MatrixXd scaled_covariance_;   ///< in parts of the parameters' sizes
+  std::vector<Eigen::MatrixXd> parts_;  ///< of each signal in `scaled_covariance_`
+  std::vector<Eigen::VectorXd> lost_;   ///< directions that change nothing, in parts of the sizes
+  double strongest_ = 0.0;              ///< largest effect of a change of 100 %
+  std::vector<double> quantiles_;       ///< of each parameter
   std::optional<Eigen::VectorXd> lower_;
 };
 

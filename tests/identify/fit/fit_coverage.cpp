@@ -1,5 +1,6 @@
 /// How often the truth lies within the intervals of fits: each law fitted to its own noisy records.
 /// usage: fit_coverage [history|pairs|loop [SEEDS|FIRST-LAST [LAW]...]]
+///        fit_coverage small [SEEDS|FIRST-LAST]: records of few readings
 
 #include <algorithm>
 #include <cmath>
@@ -94,6 +95,35 @@ void run(const test::LawCase& law, test::RecordKind kind, const Seeds& seeds) {
   std::fflush(stdout);
 }
 
+/// Records of few readings, whose noise is not stated.
+void run_small(const Seeds& seeds) {
+  for (const test::SmallRecord& plan : std::initializer_list<test::SmallRecord>{{true, 5, true},
+                                                                                {true, 6, true},
+                                                                                {true, 8, true},
+                                                                                {true, 12, true},
+                                                                                {true, 6, false},
+                                                                                {false, 4, true},
+                                                                                {false, 4, false}}) {
+    const identify::Rig rig = test::rig_of(plan);
+    std::map<std::string, Count> counts;
+    for (int seed = seeds.first; seed <= seeds.last; ++seed) {
+      const identify::Fit fit = test::fit_of(plan, static_cast<std::uint64_t>(seed));
+      for (const identify::FittedParameter& fitted : fit.parameters)
+        if (fitted.parameter.owner != identify::Owner::record)
+          counts[fitted.parameter.name].add(fitted, test::truth_of(rig, fitted.parameter.name), false);
+    }
+    for (const auto& [name, count] : counts)
+      std::printf("%2d %s%s %-8s %3d/%-3d  none %3d  rms %5.2f\n", plan.readings,
+                  plan.is_decay ? "extremes" : "amplitudes",
+                  !plan.has_second ? ""
+                  : plan.is_decay  ? ", times"
+                                   : ", phases",
+                  name.c_str(), count.covered, count.intervals, count.named,
+                  std::sqrt(count.squares / std::max(count.intervals, 1)));
+    std::fflush(stdout);
+  }
+}
+
 Seeds seeds_of(const std::string& text) {
   const std::size_t cut = text.find('-');
   if (cut == std::string::npos) return {1, std::atoi(text.c_str())};
@@ -104,11 +134,16 @@ Seeds seeds_of(const std::string& text) {
 
 int main(int argc, char** argv) {
   const std::string kind = argc > 1 ? argv[1] : "history";
+  const Seeds seeds = argc > 2 ? seeds_of(argv[2]) : Seeds{};
+  if (kind == "small") {
+    run_small(seeds);
+    return 0;
+  }
   if (kind != "history" && kind != "pairs" && kind != "loop") {
-    std::cerr << "usage: fit_coverage [history|pairs|loop [SEEDS|FIRST-LAST [LAW]...]]\n";
+    std::cerr << "usage: fit_coverage [history|pairs|loop [SEEDS|FIRST-LAST [LAW]...]]\n"
+                 "       fit_coverage small [SEEDS|FIRST-LAST]\n";
     return 64;
   }
-  const Seeds seeds = argc > 2 ? seeds_of(argv[2]) : Seeds{};
   const std::vector<std::string> wanted(argv + std::min(argc, 3), argv + argc);
   const test::RecordKind records = kind == "pairs"  ? test::RecordKind::pairs
                                    : kind == "loop" ? test::RecordKind::loop

@@ -344,6 +344,39 @@ KnownFit Laboratory::fit(std::uint64_t seed) const {
   return known;
 }
 
+identify::Rig rig_of(const SmallRecord& plan) {
+  identify::Rig rig = rig_with(law_case_of("coulomb"));
+  if (plan.is_decay) {
+    rig.known.oscillator.damping = 2.0;
+    rig.known.excitation = {};
+    return rig;
+  }
+  rig.known.oscillator = {.mass = 1.042, .stiffness = 1568.0, .damping = 8.0};
+  rig.laws.front().values = {{"kinetic", 4.4}};
+  return rig;
+}
+
+identify::Fit fit_of(const SmallRecord& plan, std::uint64_t seed) {
+  constexpr double noise = 2e-5;
+  constexpr double noise_phase = 3e-3;
+  constexpr double release = 0.04;
+  constexpr double frequency = 38.0;
+  const identify::Rig rig = rig_of(plan);
+  identify::Record record;
+  if (plan.is_decay) {
+    record = decay_of_rig(rig, release, plan.readings, noise, seed);
+    if (!plan.has_second) record.decay->times.clear();
+  } else {
+    std::vector<std::pair<double, double>> levels;
+    for (int i = 0; i < plan.readings; ++i)
+      levels.emplace_back(4.8e-3 + 2.2e-3 * i / (plan.readings - 1), frequency);
+    record = steady_states_of(rig, levels, noise, noise_phase, seed);
+    if (!plan.has_second)
+      for (identify::Pair& pair : record.pairs->pairs) pair.phase = identify::unknown;
+  }
+  return fit_of(rig, {"kinetic", "damping"}, experiments_of(record, RecordKind::pairs), false);
+}
+
 double truth_of(const identify::Rig& rig, const std::string& name) {
   std::string fault;
   const std::vector<identify::FitParameter> found = identify::named(identify::parameters_of(rig), name, fault);

@@ -90,7 +90,18 @@ class Laboratory {
   identify::Rig rig_;
 };
 
-/// The true value of a parameter of a law.
+/// A record of few readings of a rig with Coulomb friction.
+struct SmallRecord {
+  bool is_decay = true;  ///< extremes of a decay, else amplitudes
+  int readings = 5;
+  bool has_second = true;  ///< with the times of the extremes, or the phases
+};
+/// Its rig: m, k, c and the friction force.
+[[nodiscard]] identify::Rig rig_of(const SmallRecord& plan);
+/// Fit of friction and damping to it, begun 15 % off, without profiles.
+[[nodiscard]] identify::Fit fit_of(const SmallRecord& plan, std::uint64_t seed);
+
+/// The true value of a parameter of a law, or of the damping.
 [[nodiscard]] double truth_of(const identify::Rig& rig, const std::string& name);
 
 }  // namespace dualdamp::test

@@ -1,0 +1,39 @@
+#include "identify/fit/freedom.hpp"
+
+#include <algorithm>
+#include <cstddef>
+
+#include "core/constants.hpp"
+#include "identify/statistics/decompositions.hpp"
+
+namespace dualdamp::identify {
+
+std::vector<double> freedoms_of(const FitProblem& problem, const Eigen::MatrixXd& rows) {
+  std::vector<Eigen::Index> effective;
+  for (Eigen::Index j = 0; j < rows.cols(); ++j)
+    if (rows.col(j).norm() > 0.0) effective.push_back(j);
+  Eigen::MatrixXd basis(problem.rows(), 0);
+  if (!effective.empty()) {
+    constexpr double dependent = 1e-6;
+    basis = orthonormal_basis(rows(Eigen::all, effective).colwise().normalized(), dependent);
+  }
+  std::vector<double> freedoms;
+  for (const SignalRows& signal : problem.signals()) {
+    const Eigen::Index size = signal.end - signal.begin;
+    const double count = problem.counted().segment(signal.begin, size).sum();
+    freedoms.push_back(std::max(0.0, count - basis.middleRows(signal.begin, size).squaredNorm()));
+  }
+  return freedoms;
+}
+
+double joint_freedom(const std::vector<double>& variances, const std::vector<double>& freedoms) {
+  double total = 0.0;
+  double sum = 0.0;
+  for (std::size_t s = 0; s < variances.size(); ++s) {
+    total += variances[s];
+    sum += variances[s] * variances[s] / freedoms[s];
+  }
+  return sum > 0.0 ? total * total / sum : core::infinity;
+}
+
+}  // namespace dualdamp::identify

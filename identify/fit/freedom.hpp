@@ -1,0 +1,28 @@
+#pragma once
+/// Degrees of freedom of the residuals of each signal.
+///
+///   f_s = n_s - trace of the block of signal s of J (J^T J)^-1 J^T
+///
+/// n_s: readings that count; J: weighted derivatives of all readings. The sum of f_s is the number of readings
+/// minus that of the parameters that they determine. A signal of few readings that determines most of the
+/// parameters has far less than its share of that sum, and the mean square of its residuals must be divided by f_s.
+///
+/// Cost: one QR decomposition of J.
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "identify/fit/problem.hpp"
+
+namespace dualdamp::identify {
+
+/// With fewer degrees of freedom, residuals do not show the deviation of their signal. (One, less rounding.)
+inline constexpr double least_freedom = 0.99;
+
+/// f of each signal. `rows`: J; columns of zeros count for nothing.
+[[nodiscard]] std::vector<double> freedoms_of(const FitProblem& problem, const Eigen::MatrixXd& rows);
+
+/// Degrees of freedom of a sum of independent variances, each estimated with its own (welch1947).
+[[nodiscard]] double joint_freedom(const std::vector<double>& variances, const std::vector<double>& freedoms);
+
+}  // namespace dualdamp::identify
