@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "core/coordinate.hpp"
 #include "scenarios/results/cells.hpp"
 
 namespace dualdamp::scenarios {
@@ -22,6 +23,11 @@ Json rows_json(const Eigen::MatrixXd& matrix) {
   return rows;
 }
 
+/// SI unit for the coordinate of the rig. The fit itself names the units of a displacement.
+std::string unit_in(const identify::Fit& fit, const std::string& unit) {
+  return core::unit_for(fit.rig.known.oscillator.coordinate, unit);
+}
+
 Table parameter_table(const identify::Fit& fit) {
   using identify::FittedParameter;
   const std::vector<FittedParameter>& list = fit.parameters;
@@ -30,7 +36,8 @@ Table parameter_table(const identify::Fit& fit) {
   };
   Table table{.name = "parameters"};
   table.columns.push_back(text_column("name", list, [](const FittedParameter& p) { return p.parameter.name; }));
-  table.columns.push_back(text_column("unit", list, [](const FittedParameter& p) { return p.parameter.unit; }));
+  table.columns.push_back(
+      text_column("unit", list, [&](const FittedParameter& p) { return unit_in(fit, p.parameter.unit); }));
   table.columns.push_back(column("value", "", list, &FittedParameter::value));
   table.columns.push_back(column("std", "", list, &FittedParameter::std));
   table.columns.push_back(column("low95", "", list, end_of(&FittedParameter::interval95, 0)));
@@ -48,7 +55,7 @@ void add_fit(const identify::Fit& fit, const identify::Experiments& experiments,
   result["parameters"] = Json::array();
   for (const identify::FittedParameter& fitted : fit.parameters) {
     Json item = {{"name", fitted.parameter.name},
-                 {"unit", fitted.parameter.unit},
+                 {"unit", unit_in(fit, fitted.parameter.unit)},
                  {"value", fitted.value},
                  {"std", finite_or_null(fitted.std)},
                  {"interval95", pair_json(fitted.interval95)},
@@ -63,7 +70,7 @@ void add_fit(const identify::Fit& fit, const identify::Experiments& experiments,
     answer.warnings.push_back("not identifiable: " + trade.text);
   }
   result["residual"] = {{"rms", fit.signals.front().rms},
-                        {"unit", signal_of(fit.signals.front(), experiments).unit},
+                        {"unit", unit_in(fit, signal_of(fit.signals.front(), experiments).unit)},
                         {"noise_units", finite_or_null(fit.noise_units)}};
   for (const std::string& warning : fit.warnings) answer.warnings.push_back(warning);
   if (std::isnan(fit.noise_units))
@@ -72,9 +79,10 @@ void add_fit(const identify::Fit& fit, const identify::Experiments& experiments,
   for (const identify::FittedSignal& signal : fit.signals)
     result["signals"].push_back({{"record", experiments[signal.rows.experiment]->label},
                                  {"name", signal_of(signal, experiments).name},
-                                 {"unit", signal_of(signal, experiments).unit},
+                                 {"unit", unit_in(fit, signal_of(signal, experiments).unit)},
                                  {"readings", signal.rows.end - signal.rows.begin},
                                  {"independent", signal.independent},
+                                 {"freedom", signal.freedom},
                                  {"rms", signal.rms},
                                  {"relative", signal.range > 0.0 ? Json(signal.rms / signal.range) : Json(nullptr)},
                                  {"noise", finite_or_null(signal.noise)},
@@ -94,10 +102,11 @@ void add_curves(const identify::Fit& fit, const identify::Experiments& experimen
     Table table{.name = prefix + "_" + std::to_string(fitted.rows.experiment) + "_" + signal.name,
                 .is_long = true,
                 .is_complete = true};
-    Column at{.name = signal.at_name, .unit = signal.at_unit, .numbers = signal.at};
-    Column measured{.name = "measured", .unit = signal.unit, .numbers = signal.measured};
-    Column output{.name = prefix == "fit" ? "fitted" : "predicted", .unit = signal.unit};
-    Column residual{.name = "residual", .unit = signal.unit};
+    Column at{.name = signal.at_name, .unit = unit_in(fit, signal.at_unit), .numbers = signal.at};
+    const std::string unit = unit_in(fit, signal.unit);
+    Column measured{.name = "measured", .unit = unit, .numbers = signal.measured};
+    Column output{.name = prefix == "fit" ? "fitted" : "predicted", .unit = unit};
+    Column residual{.name = "residual", .unit = unit};
     for (Eigen::Index i = fitted.rows.begin; i < fitted.rows.end; ++i) {
       output.numbers.push_back(fit.outputs[i]);
       residual.numbers.push_back(signal.measured[static_cast<std::size_t>(i - fitted.rows.begin)] - fit.outputs[i]);
@@ -151,6 +160,7 @@ ResultFields fit_fields() {
       {"signals[].unit", "", "SI"},
       {"signals[].readings", "1", "number of readings"},
       {"signals[].independent", "1", "number of readings that count as independent"},
+      {"signals[].freedom", "1", "readings that count, minus the number of parameters that they determine"},
       {"signals[].rms", "", "rms of the residuals"},
       {"signals[].relative", "1", "rms of the residuals over the rms of the signal about its mean"},
       {"signals[].noise", "", "noise level of the sensor: stated, or estimated from the signal's roughness"},

@@ -66,7 +66,8 @@ bool take_own(const std::string& name, const identify::Experiments& experiments,
   return found;
 }
 
-void take_bound(const Bound& bound, std::vector<FitParameter>& parameters, std::vector<SetupFault>& faults) {
+void take_bound(const Bound& bound, core::Coordinate coordinate, std::vector<FitParameter>& parameters,
+                std::vector<SetupFault>& faults) {
   const auto parameter = std::ranges::find(parameters, bound.name, &FitParameter::name);
   if (parameter == parameters.end()) {
     faults.push_back({"bounds", "'" + bound.name + "' has bounds and is not sought"});
@@ -74,15 +75,21 @@ void take_bound(const Bound& bound, std::vector<FitParameter>& parameters, std::
   }
   if (bound.low.empty() && bound.high.empty())
     faults.push_back({"bounds", "the entry of '" + bound.name + "' states no bound: low, high or both"});
+  if (parameter->above) {
+    const std::string& other = parameters[*parameter->above].name;
+    faults.push_back({"bounds", "'" + bound.name + "' has bounds, and is sought as its distance above " + other +
+                                    ", which is sought too: state one of the two, or leave out the bounds"});
+    return;
+  }
   for (const auto& [text, end] :
        {std::pair{&bound.low, &parameter->range.low}, {&bound.high, &parameter->range.high}}) {
     if (text->empty()) continue;
-    const core::QuantityText quantity = core::parse_quantity(*text, parameter->unit);
+    const core::QuantityText quantity = core::parse_quantity(*text, parameter->unit, coordinate);
     if (!quantity.value) {
       faults.push_back({"bounds", "the bound '" + *text + "' of " + bound.name + ": " + quantity.fault});
     } else if (!parameter->range.contains(*quantity.value)) {
       faults.push_back({"bounds", "the bound '" + *text + "' of " + bound.name + " is out of its range, " +
-                                      parameter->range.describe(parameter->unit)});
+                                      parameter->range.describe(core::unit_for(coordinate, parameter->unit))});
     } else {
       *end = *quantity.value;
       (end == &parameter->range.low ? parameter->range.low_open : parameter->range.high_open) = false;
@@ -412,7 +419,7 @@ std::vector<FitParameter> parameters_for(const identify::Rig& rig, const identif
     }
   identify::arrange(rig, parameters);
   std::ranges::move(own, std::back_inserter(parameters));
-  for (const Bound& bound : sought.bounds) take_bound(bound, parameters, faults);
+  for (const Bound& bound : sought.bounds) take_bound(bound, rig.known.oscillator.coordinate, parameters, faults);
   return parameters;
 }
 

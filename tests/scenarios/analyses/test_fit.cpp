@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <sstream>
 
 #include "core/diagnostics.hpp"
@@ -186,12 +187,38 @@ TEST_CASE("fit: what cannot be fitted is refused with its place", "[scenarios][f
              Contains("stands beside 'system.friction'"));
   CHECK_THAT(fault_of(fit_scenario(known, "data: fit_faults.csv, bounds: [{name: kinetic, low: 3 kg}]")),
              Contains("the bound '3 kg' of kinetic"));
+  CHECK_THAT(fault_of(fit_scenario(
+                 known, "data: fit_faults.csv, free: static, bounds: [{name: static, low: 1 N, high: 1.3 N}]")),
+             Contains("'static' has bounds, and is sought as its distance above kinetic"));
   CHECK_THAT(fault_of(fit_scenario(std::string(rig) + ", friction: {law: generalized_maxwell_slip}",
                                    "data: fit_faults.csv")),
              Contains("'elements' of generalized_maxwell_slip is missing"));
   CHECK_THAT(fault_of(fit_scenario(std::string(rig) + ", friction: {law: reset_integrator}",
                                    "data: fit_faults.csv, free: stiffness")),
              Contains("'stiffness' may be system.stiffness or friction.stiffness"));
+}
+
+TEST_CASE("fit: an angle has its own units in bounds and results", "[scenarios][fit]") {
+  const std::string wheel = "mass: 0.3 kg.m^2, stiffness: 12 N.m/rad";
+  std::string text = history_text(wheel + ", damping: 0.04 N.m.s/rad, friction: {law: coulomb, kinetic: 0.2 N.m}",
+                                  "initial: {position: 0.4 rad}", 1e-4, 8);
+  const std::size_t unit = text.find("x [m]");
+  REQUIRE(unit != std::string::npos);
+  const File data("fit_angle.csv", text.replace(unit, 5, "x [rad]"));
+  const std::string system = wheel + ", friction: {law: coulomb}";
+  const nlohmann::json result = result_of_text(fit_scenario(
+      system, "data: fit_angle.csv, profile: false, bounds: [{name: kinetic, low: 10 mN.m, high: 0.5 N.m}]"));
+  std::map<std::string, std::string> units;
+  for (const nlohmann::json& parameter : result.at("parameters"))
+    units[parameter.at("name").get<std::string>()] = parameter.at("unit").get<std::string>();
+  CHECK(units.at("kinetic") == "N.m");
+  CHECK(units.at("damping") == "N.m.s/rad");
+  CHECK(units.at("position") == "rad");
+  CHECK(units.at("velocity") == "rad/s");
+  CHECK(result.at("residual").at("unit") == "rad");
+  CHECK(result.at("signals").at(0).at("unit") == "rad");
+  CHECK_THAT(fault_of(fit_scenario(system, "data: fit_angle.csv, bounds: [{name: kinetic, low: 1 N}]")),
+             Catch::Contains("the bound '1 N' of kinetic"));
 }
 
 TEST_CASE("fit: a zero of the sensor that is far off is subtracted and told, its rest is sought",
