@@ -123,6 +123,19 @@ def test_fit_of_arrays_and_prediction():
         dd.predict(other, noisy[1])
 
 
+def test_prediction_by_a_fitted_phase():
+    rig = dd.System(mass="1 kg", stiffness="1000 N/m", damping="1 N.s/m", friction=dd.law("coulomb", kinetic="1 N"))
+    drives = [{"type": "base_harmonic", "amplitude": Y, "frequency": "4 Hz", "phase": -0.9} for Y in ("5 mm", "8 mm")]
+    records = [rig.simulate(drive, duration="1 s", sample_rate="200 Hz").history[["t", "x"]] for drive in drives]
+    rng = np.random.default_rng(3)
+    first, second = [{"t": record["t"], "x": record["x"] + 2e-6 * rng.standard_normal(len(record))} for record in records]
+    found = dd.fit("coulomb", first, mass="1 kg", stiffness="1000 N/m", frequency="4 Hz", amplitude="5 mm", free="phase", profile=False)
+    phase = next(row.value for row in found.result.parameters if row.name == "phase")
+    with_its_own = dd.predict(found, second, excitation={**drives[1], "phase": phase})
+    assert with_its_own.result.validation.error < 1e-3
+    assert dd.predict(found, first).result.validation.error < 1e-3  # under the drive of the fit, with the fitted phase
+
+
 def test_sweep_is_a_key_of_the_scenario(rig, drive):
     scenario = {"system": rig, "excitation": drive, "analysis": {"type": "steady_state"}, "sweep": {"excitation.amplitude": [0.1, 0.2]}}
     result = dd.run(scenario)
