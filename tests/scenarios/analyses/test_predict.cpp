@@ -36,6 +36,14 @@ TEST_CASE("predict: a rig of too much friction is called wrong", "[scenarios][pr
   CHECK(wrong.at("wrong") == true);
   CHECK(wrong.at("error").get<double>() > 10.0 * wrong.at("attainable").get<double>());
   CHECK_THROWS_AS(parse_scenario(text("1 N", "covariance: [1e-6, 0]"), "test.yaml"), core::InputError);
+  // The same numbers, of which the fit determines nothing.
+  const scenarios::RunResult open =
+      scenarios::run(parse_scenario(text("1.2 N", "covariance: [1e-6], undetermined: [1]"), "test.yaml"));
+  REQUIRE(open.failure.empty());
+  const nlohmann::json left = testing::result_of(open).at("validation");
+  CHECK(left.at("compromise").at("freedom") == 0.0);
+  CHECK(left.at("uncertainty").is_null());
+  CHECK(left.at("wrong") == false);
   std::remove(file.c_str());
 }
 
