@@ -82,7 +82,7 @@ TEST_CASE("serial: a decay beside a wrong mass, and pairs of another law, are to
   const identify::Fit wrong = fit_to(heavy, decay, {"kinetic", "damping"});
   REQUIRE(wrong.outcome.ok());
   REQUIRE(!wrong.warnings.empty());
-  CHECK_THAT(wrong.warnings.front(), Catch::Contains("the residuals of t are no noise"));
+  CHECK_THAT(wrong.warnings.front(), Catch::Contains("the residuals of t are not noise"));
 
   std::vector<std::pair<double, double>> levels;
   for (int i = 0; i < 14; ++i) levels.emplace_back(0.002 + 0.0008 * i, rig.known.excitation.frequency);
