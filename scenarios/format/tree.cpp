@@ -177,7 +177,7 @@ void Document::set(std::string_view assignment, std::string origin) {
                                 std::move(*earlier),
                                 {}});
   put(path, std::move(value), [this, source](std::size_t offset) { return place_at(source, offset); });
-  if (!replaceable) chosen_.emplace_back(path);
+  chosen_.emplace_back(path);
 }
 
 bool Document::is_chosen(std::string_view path) const { return std::ranges::find(chosen_, path) != chosen_.end(); }
