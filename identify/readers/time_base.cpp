@@ -228,27 +228,24 @@ class StampReader {
 
   /// Number of stamps that appear several times.
   [[nodiscard]] TimeBase bursts() const {
-    std::vector<double> sorted = steps(all_);
-    std::ranges::sort(sorted);
-    constexpr double most = 0.95;
-    const double median = sorted[sorted.size() / 2];
-    const double burst = sorted[static_cast<std::size_t>(most * static_cast<double>(sorted.size() - 1))];
-    const std::size_t twice = first_double();
-    const auto doubles = std::ranges::upper_bound(sorted, 0.0) - sorted.begin();
+    std::vector<double> between = steps(all_);
+    const auto doubles = std::erase(between, 0.0);
     constexpr double fewest = 0.1;
-    if (static_cast<double>(doubles) < fewest * static_cast<double>(sorted.size()))
-      return fault(twice, "the time does not increase: it appears twice",
+    if (static_cast<double>(doubles) < fewest * static_cast<double>(all_.size() - 1))
+      return fault(first_double(), "the time does not increase: it appears twice",
                    "a time after the row above; several tests need labels in a column sweep");
     const std::size_t worst = worst_row(all_);
-    if (distance(all_, worst) > most_delay * std::max(burst, sorted.back() / 2.0) || mean_step(all_) <= 0.0)
+    if (between.empty()) return fault(worst, "all times are equal", "times that increase");
+    std::ranges::sort(between);
+    constexpr double most = 0.95;
+    const double burst = between[static_cast<std::size_t>(most * static_cast<double>(between.size() - 1))];
+    const std::string found = "the time stamps come in bursts (" + std::to_string(between.size() + 1) +
+                              " different stamps, 95 % of them at most " + seconds(burst) + " apart)";
+    if (distance(all_, worst) > most_delay * burst)
       return fault(
-          worst,
-          "the time stamps come in bursts (median step " + seconds(median) + ", 95 % below " + seconds(burst) +
-              "), and samples are missing between them",
+          worst, found + ", and samples are missing between them",
           "stamps within one and a half bursts of a constant sample rate; or times of the instrument's own clock");
-    return rows(all_, "the time stamps come in bursts (median step " + seconds(median) + ", 95 % below " +
-                          seconds(burst) + "): the samples are taken as evenly spaced, " +
-                          seconds(even_step(all_)) + " apart");
+    return rows(all_, found + ": the samples are taken as evenly spaced, " + seconds(even_step(all_)) + " apart");
   }
 
   [[nodiscard]] TimeBase jitter(double step) const {

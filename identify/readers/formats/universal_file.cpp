@@ -45,12 +45,12 @@ std::optional<double> parse_real(std::string_view text) {
   return parse<double>(exponent);
 }
 
-/// Factors of data set 164.
+/// Factors of data set 164; none if the file has no such data set.
 struct FileUnits {
-  double length = 1.0;
-  double force = 1.0;
+  std::optional<double> length;
+  std::optional<double> force;
 
-  [[nodiscard]] double divisor(int quantity) const {
+  [[nodiscard]] std::optional<double> divisor(int quantity) const {
     constexpr int displacement = 8;
     constexpr int reaction = 9;
     constexpr int velocity = 11;
@@ -65,7 +65,7 @@ struct FileUnits {
       case excitation:
         return force;
       default:
-        return 1.0;
+        return std::nullopt;
     }
   }
 };
@@ -137,7 +137,7 @@ class Scanner {
     const std::string_view line = next_line();
     units_.length = field<double>(line, 0, 25);
     units_.force = field<double>(line, 25, 25);
-    if (units_.length <= 0.0 || units_.force <= 0.0) refuse("the factors of data set 164 are not positive");
+    if (*units_.length <= 0.0 || *units_.force <= 0.0) refuse("the factors of data set 164 are not positive");
   }
 
   /// Nothing for a function that is not over time.

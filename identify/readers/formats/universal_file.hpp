@@ -5,6 +5,7 @@
 /// Source: uff58.
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -32,8 +33,8 @@ struct Function {
   double step = 0.0;
   Axis abscissa;
   Axis ordinate;
-  double divisor = 1.0;  ///< from data set 164: value / divisor is SI
-  int line = 0;          ///< of the number of the data set
+  std::optional<double> divisor;  ///< from data set 164: value / divisor is SI. None: the file states no unit
+  int line = 0;                   ///< of the number of the data set
   std::vector<double> times;
   std::vector<double> values;
 };

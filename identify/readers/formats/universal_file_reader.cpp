@@ -129,10 +129,10 @@ class Mapping {
     core::Diagnostic where;
     where.place = {file_, f.line, 0, {}};
     where.found = "data set '" + name_of(f) + "'" + (f.ordinate.unit.empty() ? "" : " in " + f.ordinate.unit);
-    // Without a unit of the axis, the units are those of data set 164, or SI if the file has none.
+    // Without a unit of the axis, the units are those of data set 164.
     const bool in_units_of_file = f.ordinate.unit.empty() && find_for(options_.units, known) == nullptr &&
                                   find_for(options_.scales, known) == nullptr;
-    return in_units_of_file ? 1.0 / f.divisor : factors_.factor_of(known, f.ordinate.unit, where);
+    return in_units_of_file && f.divisor ? 1.0 / *f.divisor : factors_.factor_of(known, f.ordinate.unit, where);
   }
 
   std::string file_;

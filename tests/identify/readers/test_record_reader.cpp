@@ -123,6 +123,25 @@ TEST_CASE("The rate of even samples is that of all their stamps, however coarse 
   CHECK(rate_of("%.2f", [](int i) { return 0.06 * (i / 3 + 1); }) == Approx(exact).epsilon(1e-5));
 }
 
+TEST_CASE("Stamps in bursts of any size are read as even samples, and refused where samples are missing") {
+  const auto text_of = [](int burst, double missing) {
+    std::string text = "t [s],x [mm]\n";
+    for (int i = 0; i < 4000; ++i)
+      text += print("%.4f,%.6f\n", 1e-3 * burst * (i / burst + 1 + (i < 2000 ? 0.0 : missing)), std::cos(0.03 * i));
+    return text;
+  };
+  for (const int burst : {2, 10, 19, 20, 21, 32, 100}) {
+    CAPTURE(burst);
+    const MeasuredRecord file = parse_record(text_of(burst, 0.0), "data.csv");
+    REQUIRE(file.record.histories.size() == 1);
+    CHECK(file.record.histories[0].x.size() == 4000);
+    CHECK(file.record.histories[0].sample_rate == Approx(1000.0).epsilon(1e-5));
+    REQUIRE(file.warnings.size() == 1);
+    CHECK(mentions(file.warnings[0], "the time stamps come in bursts"));
+    CHECK(mentions(refusal_of(text_of(burst, 15.0)), "samples are missing between them"));
+  }
+}
+
 TEST_CASE("Gaps: the longest uninterrupted stretch is used, and said so") {
   std::string text = "t [s],x [m]\n";
   for (int i = 0; i < 1000; ++i)
@@ -211,7 +230,8 @@ TEST_CASE("Universal files: signals by name, label and kind") {
   UniversalFunction acceleration{.title = "1x : m/s\xB2", .unit = "m/s\xB2", .quantity = 12, .values = up};
   const std::string text = uff58(base) + uff58(mass) + uff58(acceleration);
   const MeasuredRecord file = parse_record(text, "data.uff");
-  CHECK(file.warnings.empty());
+  REQUIRE(file.warnings.size() == 1);
+  CHECK(mentions(file.warnings[0], "no unit is stated for x: read x in m"));
   REQUIRE(file.record.histories.size() == 1);
   const History& history = file.record.histories[0];
   CHECK(history.sample_rate == Approx(1000.0).epsilon(1e-12));
@@ -239,6 +259,28 @@ TEST_CASE("Universal files: signals by name, label and kind") {
   const auto named = parse_record(unnamed, options).record.histories;
   CHECK(named.at(0).x == up);
   CHECK(named.at(0).y[0] == Approx(0.01).epsilon(1e-15));
+}
+
+TEST_CASE("Universal files: SI is assumed with a warning where neither the axis nor data set 164 states a unit") {
+  const std::vector<double> up = ramp(17);
+  const std::string units =
+      data_set("   164", "         5mm-N                          2\n" +
+                             print("%25.17E%25.17E%25.17E\n%25.17E\n", 1000.0, 1.0, 1.0, 273.15));
+  const UniversalFunction f{.values = up};
+  for (const std::string unit : {"NONE", "", "mm"}) {
+    CAPTURE(unit);
+    UniversalFunction known = f;
+    known.unit = unit;
+    const MeasuredRecord file = parse_record(uff58(known), "data.uff");
+    CHECK((file.units.assumed == std::vector<std::string>{"x"}) == (unit != "mm"));
+    CHECK(file.warnings.size() == (unit == "mm" ? 0 : 1));
+    const MeasuredRecord stated = parse_record(units + uff58(known), "data.uff");
+    CHECK(stated.units.assumed.empty());
+    CHECK(stated.record.histories.at(0).x[16] == Approx(17e-3).epsilon(1e-12));
+  }
+  // Data set 164 has no factor for an ordinate of an unknown kind.
+  const UniversalFunction unknown_kind{.entity = "x", .quantity = 0, .values = up};
+  CHECK(parse_record(units + uff58(unknown_kind), "data.uff").units.assumed == std::vector<std::string>{"x"});
 }
 
 TEST_CASE("Universal files: units of data set 164, both precisions, text and binary") {
@@ -272,7 +314,7 @@ TEST_CASE("Universal files: what is no time response is left out, what is damage
   spectrum.abscissa = 18;
   const MeasuredRecord file = parse_record(uff58(spectrum) + uff58b(spectrum) + uff58(good), "data.uff");
   CHECK(file.record.histories.at(0).x == good.values);
-  CHECK(file.warnings.size() == 2);
+  CHECK(file.warnings.size() == 3);  // and that of the unit
   CHECK(mentions(refusal_of(uff58(spectrum)), "holds no time response"));
   CHECK(mentions(refusal_of(data_set("   151", "model\n")), "holds no time response"));
   UniversalFunction complex = good;
