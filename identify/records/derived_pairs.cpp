@@ -26,6 +26,8 @@ constexpr double notable_drift = 0.005;
 constexpr double most_drift = 0.02;
 /// A relative change of the amplitude below this has no effect on any method.
 constexpr double settled = 1e-6;
+/// A stated frequency that is off by more than this share is no rounded one.
+constexpr double most_detuning = 0.01;
 
 std::string percent_text(double share) { return core::format_number(100.0 * share, 2) + " %"; }
 
@@ -168,6 +170,8 @@ class PairReader {
     if (const std::string fault = shape_fault(history_); !fault.empty()) return nothing(fault);
     const SineFit drive = drive_fit(frequency);
     if (!drive.outcome.ok()) return nothing(drive.outcome.reason);
+    if (std::abs(drive.omega / frequency - 1.0) > most_detuning)
+      return nothing("it is no steady state at the frequency stated: " + frequencies(drive.omega, frequency));
     const auto steady = steady_part(history_, drive.omega);
     if (!steady) return nothing("it holds no whole period");
     if (steady->drifts() && std::abs(steady->drift) > most_drift)
@@ -205,11 +209,34 @@ class PairReader {
     return fit_sine(signal, history_.sample_rate, omega, {.harmonics = harmonics, .refine = refine});
   }
 
-  [[nodiscard]] SineFit drive_fit(double frequency) const {
-    if (!std::isnan(frequency)) return fit(history_.y, frequency, 3);
+  static std::string frequencies(double omega, double stated) {
+    constexpr int digits = 6;
+    return "the base moves at " + core::format_number(omega / two_pi, digits) + " Hz, not at " +
+           core::format_number(stated / two_pi, digits) + " Hz";
+  }
+
+  /// The fit to y. A stated frequency is kept if it agrees with that of y within the error of the fit: in a short
+  /// record it is the more exact one. Otherwise it is rounded, or the generator is off.
+  SineFit drive_fit(double stated) {
     const double guess = guess_frequency(history_.y, history_.sample_rate);
-    if (std::isnan(guess)) return fit_sine({}, history_.sample_rate, 1.0);
-    return fit(history_.y, guess, 3, true);
+    if (std::isnan(stated))
+      return std::isnan(guess) ? fit_sine({}, history_.sample_rate, 1.0) : fit(history_.y, guess, 3, true);
+    for (const double start : {stated, guess}) {
+      if (std::isnan(start)) continue;
+      SineFit free = fit(history_.y, start, 3, true);
+      constexpr double errors = 3.0;
+      if (!free.outcome.ok() || is_other(free)) continue;
+      const double off = std::abs(free.omega - stated);
+      if (off <= errors * free.omega_std) break;
+      // A hundredth of a period over the record changes the amplitude by 2e-4.
+      constexpr double notable = 0.01;
+      const double duration = static_cast<double>(history_.y.size()) / history_.sample_rate;
+      if (off * duration > notable * two_pi && off < most_detuning * stated)
+        warnings_.push_back(name_ + ": " + frequencies(free.omega, stated) +
+                            " as stated: its own frequency is used");
+      return free;
+    }
+    return fit(history_.y, stated, 3);
   }
 
   static bool is_other(const SineFit& fit) { return !(fit.noise < most_residual * fit.harmonics[0].amplitude); }
