@@ -151,7 +151,8 @@ std::string fault_of_histories(const Record& record) {
   for (const History& history : record.histories) {
     samples += history.x.size();
     const bool free = history.y.empty() && history.force.empty();
-    if (free && decay_of(history).record.extremes.empty()) return "the drive of the motion was not recorded";
+    if (!free) continue;
+    if (std::string fault = decay_of(history).fault; !fault.empty()) return fault;
   }
   return samples > most_samples ? "tests take at most 60,000 samples: give a part, or every n-th sample" : "";
 }

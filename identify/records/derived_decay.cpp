@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <boost/math/tools/minima.hpp>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <optional>
 #include <span>
@@ -46,11 +47,37 @@ std::vector<std::size_t> zigzag(std::span<const double> x, double band) {
   return turns;
 }
 
+/// Removes ripple: swings that are smaller than both neighbours and last less than half of `half_period`. Of two
+/// tops with a ripple between them, the higher one is left.
+std::vector<std::size_t> without_ripple(std::span<const double> x, std::vector<std::size_t> turns,
+                                        double half_period) {
+  const auto swing = [&](std::size_t i) { return std::abs(x[turns[i]] - x[turns[i - 1]]); };
+  const auto is_ripple = [&](std::size_t i) {
+    return swing(i) <= swing(i - 1) && swing(i) <= swing(i + 1) &&
+           2.0 * static_cast<double>(turns[i] - turns[i - 1]) < half_period;
+  };
+  std::size_t before = 0;
+  while (before != turns.size()) {
+    before = turns.size();
+    std::vector<std::size_t> left = {turns.front()};
+    for (std::size_t i = 1; i < turns.size(); ++i) {
+      const bool has_neighbours = i >= 2 && i + 1 < turns.size() && left.back() == turns[i - 1];
+      if (has_neighbours && is_ripple(i))
+        left.pop_back();
+      else
+        left.push_back(turns[i]);
+    }
+    turns = std::move(left);
+  }
+  return turns;
+}
+
 struct LocalFit {
   double value = 0.0;
   double std = 0.0;
   double sum_of_squares = 0.0;
   double slope = 0.0;
+  double slope_std = 0.0;
 };
 
 /// Least squares on samples [first, last) over u = (i - centre)/width. `fill(u, row)` writes the columns; the first
@@ -73,10 +100,14 @@ LocalFit local_fit(std::span<const double> x, std::size_t first, std::size_t las
   fit.slope = solution(1);
   fit.sum_of_squares = (values - design * solution).squaredNorm();
   const Eigen::MatrixXd R = qr.matrixQR().topRows(columns).triangularView<Eigen::Upper>();
-  // The first row of the inverse of R gives the variance of the first coefficient.
-  const Eigen::VectorXd row = R.transpose().triangularView<Eigen::Lower>().solve(Eigen::VectorXd::Unit(columns, 0));
+  // The k-th row of the inverse of R gives the variance of the k-th coefficient.
   const double variance = fit.sum_of_squares / static_cast<double>(std::max<Eigen::Index>(n - columns - 1, 1));
-  fit.std = std::sqrt(variance) * row.norm();
+  const auto std_of = [&](Eigen::Index k) {
+    const Eigen::VectorXd unit = Eigen::VectorXd::Unit(columns, k);
+    return std::sqrt(variance) * R.transpose().triangularView<Eigen::Lower>().solve(unit).norm();
+  };
+  fit.std = std_of(0);
+  fit.slope_std = std_of(1);
   return fit;
 }
 
@@ -88,38 +119,84 @@ class DecayReader {
     DerivedDecay result;
     result.last = x_.size();
     constexpr std::size_t fewest = 16;
-    if (x_.size() < fewest || !shape_fault(history_).empty()) return result;
-    const auto [low, high] = std::minmax_element(x_.begin(), x_.end());
+    result.fault = shape_fault(history_);
+    if (result.fault.empty() && x_.size() < fewest) result.fault = "x has fewer than 16 samples";
+    if (!result.fault.empty()) return result;
+    std::vector<std::size_t> turns = read_turns(noise_level(x_, 2));
+    // If a period has few samples, differences of second order take the motion for noise.
+    constexpr double many = 32.0;
+    if (half_period_ < many) {
+      RobustNoiseLevel noise;
+      noise.add(history_.x);
+      turns = read_turns(noise.deviation());
+    }
+    if (turns.size() < 3) return refused("x turns back less than twice");
+    if (half_period_ < fewest_in_half_period) {
+      DerivedDecay slow = refused(too_slow());
+      slow.warnings.push_back("no extremes are read: " + slow.fault);
+      return slow;
+    }
+    width_ = std::max(half_period_ / 4.0, narrowest);
+
+    add_first(result, turns.front());
+    for (std::size_t i = 0; i + 1 < turns.size(); ++i)
+      if (turns[i] > 0 && !is_held(turns[i])) add(result, turns[i]);
+    add_last(result, turns.back());
+    const std::string fault = keep_decay(result);
+    return fault.empty() ? result : refused(fault);
+  }
+
+ private:
+  static DerivedDecay refused(std::string fault) {
+    DerivedDecay result;
+    result.fault = std::move(fault);
+    return result;
+  }
+
+  /// Sets the band and the half period. Returns the turning points.
+  std::vector<std::size_t> read_turns(double noise) {
+    band_ = band_of(noise);
+    half_period_ = 0.0;
+    std::vector<std::size_t> turns = zigzag(x_, band_);
+    if (turns.size() >= 3) turns = without_ripple(x_, turns, half_period_of(turns));
+    if (turns.size() >= 3) half_period_ = half_period_of(turns);
+    return turns;
+  }
+
+  /// Swings below this are noise.
+  [[nodiscard]] double band_of(double noise) const {
     constexpr double noises = 8.0;
     constexpr double rounding = 1e-9;
     // While the mass sticks, the reading of a converter hardly changes, and the noise over all samples is below its
     // step.
     constexpr double steps = 2.5;
     constexpr std::size_t fewest_levels = 6;
-    band_ = std::max({noises * noise_level(x_, 2), steps * converter_step(history_.x, fewest_levels),
-                      rounding * (*high - *low)});
-    const std::vector<std::size_t> turns = zigzag(x_, band_);
-    if (turns.size() < 3) return result;
-    // The median of the swings between two turning points, whose ends are known best.
-    std::vector<double> swings;
-    for (std::size_t i = 2; i + 1 < turns.size(); ++i)
-      swings.push_back(static_cast<double>(turns[i] - turns[i - 1]));
-    const std::size_t begin = is_held(turns[0]) ? held_until() : turns[0];
-    if (swings.empty()) swings.push_back(static_cast<double>(turns[1]) - static_cast<double>(begin));
-    half_period_ = upper_median(std::move(swings));
-    width_ = half_period_ / 4.0;
-    constexpr double fewest_in_width = 8.0;
-    if (width_ < fewest_in_width) return result;
-
-    add_first(result, turns.front());
-    for (std::size_t i = 0; i + 1 < turns.size(); ++i)
-      if (turns[i] > 0 && !is_held(turns[i])) add(result, turns[i]);
-    add_last(result, turns.back());
-    if (!keep_decay(result)) return {};
-    return result;
+    const auto [low, high] = std::ranges::minmax(x_);
+    return std::max({noises * noise, steps * converter_step(history_.x, fewest_levels), rounding * (high - low)});
   }
 
- private:
+  /// The median of the swings that are not much smaller than the largest one; ripple, and the motion of a mass that
+  /// sticks to a contact that gives, are smaller. The ends of the first and the last swing are known less well.
+  [[nodiscard]] double half_period_of(const std::vector<std::size_t>& turns) const {
+    constexpr double least_share = 0.25;
+    const auto swing = [&](std::size_t i) { return std::abs(x_[turns[i]] - x_[turns[i - 1]]); };
+    double largest = 0.0;
+    for (std::size_t i = 2; i + 1 < turns.size(); ++i) largest = std::max(largest, swing(i));
+    std::vector<double> lengths;
+    for (std::size_t i = 2; i + 1 < turns.size(); ++i)
+      if (swing(i) >= least_share * largest) lengths.push_back(static_cast<double>(turns[i] - turns[i - 1]));
+    const std::size_t begin = is_held(turns[0]) ? held_until() : turns[0];
+    if (lengths.empty()) return static_cast<double>(turns[1]) - static_cast<double>(begin);
+    return upper_median(std::move(lengths));
+  }
+
+  [[nodiscard]] std::string too_slow() const {
+    const double rate = history_.sample_rate * fewest_in_half_period / half_period_;
+    return "a half swing lasts " + core::format_number(half_period_, 3) + " samples, and its extremes need " +
+           core::format_number(fewest_in_half_period, 2) + ": a sample rate of about " +
+           core::format_number(rate, 3) + " Hz or more";
+  }
+
   void put(DerivedDecay& result, double index, double value, double std) const {
     result.record.times.push_back(history_.start + index / history_.sample_rate);
     result.record.extremes.push_back(value);
@@ -155,15 +232,23 @@ class DecayReader {
       return;
     }
     if (static_cast<double>(first_turn) < 2.0 * width_ && first_turn > held) return;  // added as a turning point
-    const auto last = static_cast<std::size_t>(width_) + 1;
-    if (last < 2 * std::size_t{start_columns} || x_.size() < 2 * last) return;
+    // Ten samples average noise well enough. They may reach over half of the swing; the fit has to have one more
+    // than its unknowns.
+    const auto reach = static_cast<std::size_t>(std::max(width_, std::min(9.0, half_period_ / 2.0)));
+    const std::size_t last = std::max(reach + 1, std::size_t{start_columns} + 1);
+    if (x_.size() < 2 * last) return;
     const LocalFit fit = local_fit(x_, 0, last, 0.0, width_, start_columns, [](double u, auto row) {
       for (Eigen::Index k = 0; k < row.size(); ++k) row(k) = std::pow(u, static_cast<double>(k));
     });
-    // A slope of 1 % of the largest one changes the amplitude by 5e-5.
+    // A slope of 1 % of the largest one changes the amplitude by 5e-5. Noise makes a slope where there is none; 5 %
+    // would change the amplitude by 1e-3, which is less than such noise.
     constexpr double least_slope = 0.01;
+    constexpr double most_slope = 0.05;
+    constexpr double errors = 3.0;
     const double swing = std::abs(x_[static_cast<std::size_t>(half_period_)] - x_[0]);
-    if (std::abs(fit.slope) < least_slope * 0.5 * swing * std::numbers::pi / 4.0)
+    const double largest_slope = 0.5 * swing * std::numbers::pi * width_ / half_period_;
+    if (std::abs(fit.slope) <
+        std::clamp(errors * fit.slope_std, least_slope * largest_slope, most_slope * largest_slope))
       put(result, 0.0, fit.value, fit.std);
   }
 
@@ -172,7 +257,7 @@ class DecayReader {
     const auto reach = static_cast<std::size_t>(width_);
     const std::size_t first = turn > reach ? turn - reach : 0;
     const std::size_t last = std::min(turn + reach + 1, x_.size());
-    if (last - first < 2 * std::size_t{turn_columns}) return;
+    if (last - first < std::min(2 * std::size_t{turn_columns}, 2 * reach + 1)) return;
     const auto at = [&](double centre) {
       return local_fit(x_, first, last, centre, width_, turn_columns, [](double u, auto row) {
         const Eigen::Index side = u < 0.0 ? 0 : 1;
@@ -181,11 +266,27 @@ class DecayReader {
         for (Eigen::Index k = 0; k < 3; ++k) row(1 + 2 * k + side) = std::pow(u, static_cast<double>(k + 2));
       });
     };
-    const auto middle = static_cast<double>(turn);
+    // With few samples, there are several minima. An extreme is not inside of the largest sample, but for noise and
+    // the error of the fit.
+    const double height = x_[turn] - 0.5 * (x_[first] + x_[last - 1]);
+    const double inside = std::max(0.5 * band_, 0.01 * std::abs(height));
+    const auto squares = [&](double centre) {
+      const LocalFit trial = at(centre);
+      const bool is_extreme = std::copysign(1.0, height) * (x_[turn] - trial.value) <= inside;
+      return is_extreme ? trial.sum_of_squares : std::numeric_limits<double>::max();
+    };
+    constexpr int trials = 12;
+    const double step = 2.0 * 0.3 * width_ / trials;
+    double best = static_cast<double>(turn);
+    double least = std::numeric_limits<double>::max();
+    for (int k = 0; k <= trials; ++k) {
+      const double trial = static_cast<double>(turn) + (k - trials / 2) * step;
+      const double sum = squares(trial);
+      if (sum < least) best = trial;
+      least = std::min(sum, least);
+    }
     constexpr int bits = 26;
-    const double centre = boost::math::tools::brent_find_minima([&](double c) { return at(c).sum_of_squares; },
-                                                                middle - 0.3 * width_, middle + 0.3 * width_, bits)
-                              .first;
+    const double centre = boost::math::tools::brent_find_minima(squares, best - step, best + step, bits).first;
     const LocalFit fit = at(centre);
     put(result, centre, fit.value, fit.std);
   }
@@ -207,43 +308,52 @@ class DecayReader {
     times.back() = times[turned] + (times[turned] - times[from]) / static_cast<double>(turned - from);
   }
 
-  /// The swings of a free decay shrink. They may grow before the release, while a blow pushes the mass, and in the
-  /// noise at the end; these parts are cut off. False if the growth has another cause.
-  bool keep_decay(DerivedDecay& result) const {
+  /// The swings of a free decay shrink and last equally long. They may grow before the release, while a blow pushes
+  /// the mass, and in the noise at the end; a mass that sticks to a contact that gives moves faster. These parts
+  /// are cut off. Returns why the history is no free decay; empty if it is one.
+  [[nodiscard]] std::string keep_decay(DerivedDecay& result) const {
     const std::vector<double>& extremes = result.record.extremes;
-    if (extremes.size() < 3) return false;
+    if (extremes.size() < 3) return "x has fewer than three extremes";
     const auto swing = [&extremes](std::size_t i) { return std::abs(extremes[i] - extremes[i - 1]); };
     std::size_t largest = 1;
     for (std::size_t i = 2; i < extremes.size(); ++i)
       if (swing(i) > swing(largest)) largest = i;
-    std::size_t end = largest + 1;
-    while (end < extremes.size() && swing(end) < swing(end - 1)) ++end;
-    const bool grows = end < extremes.size();
-    // The cause of the growth may have acted already in the swings before; these last too long.
+    constexpr double too_short = 0.7;
     constexpr double too_long = 1.4;
+    const auto is_fast = [&](std::size_t i) { return lasting(result, i) < too_short * half_period_; };
+    std::size_t end = largest + 1;
+    while (end < extremes.size() && swing(end) < swing(end - 1) && !is_fast(end)) ++end;
+    const bool fails = end < extremes.size();
+    const bool grows = fails && swing(end) >= swing(end - 1);
+    // The cause of the growth may have acted already in the swings before; these last too long.
     while (grows && end > largest + 1 && lasting(result, end - 1) > too_long * half_period_) --end;
     // Largest share of the swings that may be left where they grow again. Above it, there is another release or a
     // drive.
     constexpr double most_left = 0.25;
-    if (grows && swing(end) > most_left * swing(largest)) return false;
+    if (fails && swing(end) > most_left * swing(largest))
+      return "the swings do not shrink as in a free vibration: the drive of the motion was not recorded";
     // A blow may last to the begin of the largest swing. It is over at the end of this swing.
     constexpr std::size_t longest_start = 3;
     const std::size_t begin = largest > 1 ? largest : 0;
-    if (end < begin + 3 || begin > longest_start + 1) return false;
-    if (grows) {
-      result.warnings.push_back(
-          "the swings of the free vibration grow again at t = " + core::format_number(result.record.times[end], 4) +
-          " s, where " + core::format_number(100.0 * swing(end - 1) / swing(largest), 2) +
-          " % of the largest is left: the extremes before are used");
+    if (begin > longest_start + 1)
+      return "the swings grow at the beginning: the drive of the motion was not recorded";
+    if (end < begin + 3) return "x has fewer than three extremes after its largest swing";
+    if (fails) {
+      const std::string where = " at t = " + core::format_number(result.record.times[end], 4) + " s, where " +
+                                core::format_number(100.0 * swing(end - 1) / swing(largest), 2) +
+                                " % of the largest is left: the extremes before are used";
+      result.warnings.push_back((grows ? "the swings of the free vibration grow again"
+                                       : "the swings of the free vibration become faster") +
+                                where);
       result.last = sample_of(result, end - 1) + 1;
     }
-    if (begin > 0) {
+    if (begin > 0)
       result.warnings.push_back("the free vibration is taken from the end of its largest swing on, t = " +
                                 core::format_number(result.record.times[begin], 4) + " s");
-      result.first = sample_of(result, begin);
-    }
+    // A blow may push the mass until the first extreme.
+    result.first = std::max(result.first, sample_of(result, begin));
     cut(result, begin, end);
-    return true;
+    return {};
   }
 
   [[nodiscard]] std::size_t sample_of(const DerivedDecay& result, std::size_t extreme) const {
@@ -262,6 +372,10 @@ class DecayReader {
     }
   }
 
+  // The error of an extreme is 4e-6 of the swing down to 32 samples a period, 1e-4 at 20 and 2e-4 at 16. Below, a
+  // fit has too few samples.
+  static constexpr double fewest_in_half_period = 8.0;
+  static constexpr double narrowest = 4.0;  ///< a side of a fit has three unknowns and its share of the place
   static constexpr Eigen::Index start_columns = 5;
   static constexpr Eigen::Index turn_columns = 7;
 

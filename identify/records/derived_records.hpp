@@ -8,7 +8,7 @@
 /// The harmonics beyond the ninth are 2e-3 of x for a Coulomb response at the limit of sticking, and fall as 1/x^2.
 ///
 /// An extreme of a free vibration is the value of a local fit where its slope is zero. The acceleration jumps there
-/// by twice the friction over the mass, so the fit has one polynomial on each side.
+/// by twice the friction over the mass, so the fit has one polynomial on each side. It needs 16 samples a period.
 ///
 /// Errors: none thrown. If a history gives no record, a warning says why. Cost: linear, about 1 us a sample.
 
@@ -25,8 +25,9 @@ struct DerivedPairs {
   std::vector<std::string> warnings;
 };
 
-/// One pair for each history with x and y at a steady state. `frequency`: of the drive [rad/s]; `unknown`: fitted
-/// to y of each history. In a label such as `up/3`, the part before the `/` is the sweep of the pair.
+/// One pair for each history with x and y at a steady state. `frequency`: of the drive [rad/s], replaced by that of
+/// y where the two differ by more than the error of a fit; `unknown`: fitted to y of each history. In a label such
+/// as `up/3`, the part before the `/` is the sweep of the pair.
 [[nodiscard]] DerivedPairs pairs_of(const std::vector<History>& histories, double frequency = unknown);
 
 struct DerivedDecay {
@@ -34,6 +35,7 @@ struct DerivedDecay {
   std::vector<double> standard_errors;  ///< of the extremes [m], from the noise of x
   std::vector<std::string> warnings;    ///< what was left out before the release and in the noise at the end
   std::size_t first = 0, last = 0;      ///< samples [first, last) of the free motion
+  std::string fault;                    ///< why there are no extremes
 };
 
 /// Turning points of x, from the release until the mass comes to rest, the swings grow again in noise, or the

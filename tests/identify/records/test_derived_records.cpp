@@ -5,58 +5,15 @@
 #include <cmath>
 
 #include "core/numbers.hpp"
-#include "friction_models/laws/coulomb.hpp"
 #include "sim/analytic/den_hartog.hpp"
-#include "sim/analytic/free_decay.hpp"
-#include "sim/motion/simulate.hpp"
 #include "tests/identify/histories.hpp"
-#include "tests/identify/methods/histories/bearing.hpp"
+#include "tests/identify/records/bearing_records.hpp"
 
 using namespace dualdamp;
 using namespace dualdamp::identify;
 using namespace dualdamp::identify::testing;
 
 namespace {
-
-/// The paper's bearing with the soft spring.
-constexpr double soft_zeta = 0.12;
-constexpr double soft_x_f = bearing_F0 / stiffness;
-
-sim::Model bearing() {
-  sim::Model model;
-  model.oscillator = {mass, stiffness, 2.0 * soft_zeta * std::sqrt(mass * stiffness), sim::DamperTo::ground};
-  model.friction.emplace_back(friction::Coulomb(bearing_F0, bearing_F0));
-  return model;
-}
-
-History sampled_displacements(const sim::Model& model, double duration, double rate) {
-  const sim::History motion = sim::simulate(model, {.duration = duration, .sample_rate = rate});
-  REQUIRE(motion.outcome.ok());
-  History history;
-  history.sample_rate = rate;
-  for (const sim::Sample& sample : motion.samples) {
-    history.y.push_back(sample.y);
-    history.x.push_back(sample.x);
-  }
-  return history;
-}
-
-History driven_bearing_at(double Y, double omega, double duration = 12.0) {
-  sim::Model model = bearing();
-  model.excitation.type = sim::ExcitationType::base_harmonic;
-  model.excitation.frequency = omega;
-  model.excitation.amplitude = Y;
-  model.excitation.phase = 0.3;
-  return sampled_displacements(model, duration, 1000.0);
-}
-
-History released(double X, double duration, double rate) {
-  sim::Model model = bearing();
-  model.initial = {X, 0.0};
-  History history = sampled_displacements(model, duration, rate);
-  history.y.clear();
-  return history;
-}
 
 double mean_square_speed(const History& history, double omega) {
   // The last period, by central differences: their error is (w T)^2/3 = 5e-4 of it.
@@ -106,6 +63,33 @@ TEST_CASE("A driven history gives the pair of Den Hartog's closed form") {
 
   const DerivedPairs told = pairs_of({histories[2]}, natural);
   CHECK(told.record.pairs.at(0).x == Approx(derived.record.pairs[2].x).epsilon(1e-8));
+}
+
+TEST_CASE("A stated frequency that is rounded is replaced by that of the base") {
+  const History history = driven_bearing_at(3.0 * soft_x_f, natural, 40.0);
+  const Pair right = pairs_of({history}).record.pairs.at(0);
+  const double period = 2.0 * M_PI / natural;
+  // 40 s drift by 0.02 to 2 periods against these frequencies.
+  for (const double periods : {0.02, 0.2, 1.0, 2.0}) {
+    CAPTURE(periods);
+    const DerivedPairs derived = pairs_of({history}, natural * (1.0 + periods * period / 40.0));
+    REQUIRE(derived.record.pairs.size() == 1);
+    CHECK(derived.record.pairs[0].omega == Approx(natural).epsilon(1e-9));
+    CHECK(derived.record.pairs[0].x == Approx(right.x).epsilon(1e-8));
+    REQUIRE(derived.warnings.size() == 2);  // and that of the transient
+    CHECK(derived.warnings[0].find("its own frequency is used") != std::string::npos);
+  }
+  // Five periods at a frequency that is 4 % off look nearly steady.
+  History brief = driven_bearing_at(3.0 * soft_x_f, natural, 5.0 * period);
+  brief.x = brief.y;
+  CHECK(pairs_of({brief}, 1.04 * natural).record.pairs.empty());
+
+  // In a short record with noise, the stated frequency is more exact than that of a fit.
+  History noisy = driven_bearing_at(3.0 * soft_x_f, natural, 3.0 * period);
+  noisy.x = noisy.y;
+  testing::Normal normal(29);
+  for (double& y : noisy.y) y += 0.02 * soft_x_f * normal();
+  CHECK(pairs_of({noisy}, natural).record.pairs.at(0).omega == natural);
 }
 
 TEST_CASE("The x of a pair is the turning point, which is not the fundamental") {
@@ -244,73 +228,6 @@ TEST_CASE("A warning tells what is wrong with a pair; what is no steady state gi
   History still = history;
   for (double& y : still.y) y = 1.0;
   CHECK(pairs_of({still}).record.pairs.empty());
-}
-
-TEST_CASE("The turning points of a free decay, against the closed form") {
-  for (const double X : {15e-3, 60e-3}) {
-    const std::vector<double> exact = sim::analytic::free_decay_extremes(soft_zeta, soft_x_f, X, 20);
-    const DerivedDecay decay = decay_of(released(X, 1.5, 2000.0));
-    CAPTURE(X);
-    // Released from rest at the first sample, and at rest at the end: these are extremes too.
-    REQUIRE(decay.record.extremes.size() == exact.size());
-    // A fit of fourth order over an eighth of a period errs by its next term, about (pi/4)^5/5!/2^4 of the swing:
-    // 1.6e-4.
-    for (std::size_t i = 0; i < exact.size(); ++i) {
-      CAPTURE(i, decay.record.times[i]);
-      CHECK(decay.record.extremes[i] == Approx(exact[i]).margin(1e-4 * X));
-    }
-    CHECK(decay.record.times[1] - decay.record.times[0] ==
-          Approx(M_PI / (natural * std::sqrt(1.0 - soft_zeta * soft_zeta))).epsilon(2e-3));
-  }
-}
-
-TEST_CASE("Held, released, at rest, in noise") {
-  constexpr double sigma = 3e-6;  // the paper's resolution
-  for (const double X : {15e-3, 60e-3}) {
-    History history = released(X, 1.5, 2000.0);
-    history.x.insert(history.x.begin(), 400, X);
-    testing::Normal normal(11);
-    for (double& x : history.x) x += sigma * normal();
-    const DerivedDecay decay = decay_of(history);
-    const std::vector<double> exact = sim::analytic::free_decay_extremes(soft_zeta, soft_x_f, X, 20);
-    CAPTURE(X);
-    REQUIRE(decay.record.extremes.size() == exact.size());
-    for (std::size_t i = 0; i < exact.size(); ++i) {
-      CAPTURE(i, decay.record.times[i], decay.standard_errors[i]);
-      // Five standard errors beside the error of the fit.
-      CHECK(decay.record.extremes[i] == Approx(exact[i]).margin(1e-4 * X + 5.0 * decay.standard_errors[i]));
-      CHECK(decay.standard_errors[i] < sigma);
-    }
-    // The noise hides when the mass stopped, by up to a sixth of a half period.
-    const std::size_t last = exact.size() - 1;
-    if (last < 3) continue;  // one turning point, and a release that is hidden as well
-    CHECK(decay.record.times[last] - decay.record.times[last - 1] ==
-          Approx(M_PI / (natural * std::sqrt(1.0 - soft_zeta * soft_zeta))).epsilon(2e-3));
-  }
-}
-
-TEST_CASE("A long rest read by a coarse converter adds no extremes and does not outweigh the motion") {
-  constexpr double X = 60e-3;
-  const std::vector<double> exact = sim::analytic::free_decay_extremes(soft_zeta, soft_x_f, X, 20);
-  for (const double step : {0.1e-3, 0.5e-3}) {
-    Record record;
-    record.histories = {released(X, 8.0, 1000.0)};
-    History& history = record.histories[0];
-    testing::Normal normal(13);
-    for (double& x : history.x) x = step * std::round((x + 0.05 * step * normal()) / step);
-    // At a place between two steps, the noise decides which is read.
-    for (std::size_t i = 3000; i < history.x.size(); ++i)
-      if (normal() > 2.0) history.x[i] += step;
-    const std::vector<std::string> warnings = complete(record);
-    CAPTURE(step);
-    REQUIRE(record.decay.has_value());
-    REQUIRE(record.decay->extremes.size() == exact.size());
-    for (std::size_t i = 0; i < exact.size(); ++i)
-      CHECK(record.decay->extremes[i] == Approx(exact[i]).margin(step));
-    // Two half swings of the rest are left.
-    CHECK(history.x.size() < 2500);
-    CHECK(warnings.size() == 1);
-  }
 }
 
 TEST_CASE("A record of histories is completed with what it holds") {

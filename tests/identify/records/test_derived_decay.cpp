@@ -1,0 +1,156 @@
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "identify/ledger/history_rows.hpp"
+#include "identify/records/derived_records.hpp"
+#include "sim/analytic/free_decay.hpp"
+#include "tests/identify/histories.hpp"
+#include "tests/identify/records/bearing_records.hpp"
+
+using namespace dualdamp;
+using namespace dualdamp::identify;
+using namespace dualdamp::identify::testing;
+
+TEST_CASE("The turning points of a free decay, against the closed form") {
+  for (const double X : {15e-3, 60e-3}) {
+    const std::vector<double> exact = sim::analytic::free_decay_extremes(soft_zeta, soft_x_f, X, 20);
+    const DerivedDecay decay = decay_of(released(X, 1.5, 2000.0));
+    CAPTURE(X);
+    // Released from rest at the first sample, and at rest at the end: these are extremes too.
+    REQUIRE(decay.record.extremes.size() == exact.size());
+    // A fit of fourth order over an eighth of a period errs by its next term, about (pi/4)^5/5!/2^4 of the swing:
+    // 1.6e-4.
+    for (std::size_t i = 0; i < exact.size(); ++i) {
+      CAPTURE(i, decay.record.times[i]);
+      CHECK(decay.record.extremes[i] == Approx(exact[i]).margin(1e-4 * X));
+    }
+    CHECK(decay.record.times[1] - decay.record.times[0] ==
+          Approx(M_PI / (natural * std::sqrt(1.0 - soft_zeta * soft_zeta))).epsilon(2e-3));
+  }
+}
+
+TEST_CASE("Extremes are read down to 16 samples a period; below, the rate that is needed is named") {
+  constexpr double X = 60e-3;
+  const std::vector<double> exact = sim::analytic::free_decay_extremes(soft_zeta, soft_x_f, X, 20);
+  for (const double samples : {17.3, 20.0, 24.7, 32.1, 48.0, 63.0}) {
+    const DerivedDecay decay = decay_of(released(X, 1.5, samples * natural / (2.0 * M_PI)));
+    CAPTURE(samples, decay.fault);
+    REQUIRE(decay.record.extremes.size() == exact.size());
+    // The fit spans a quarter of the period on each side at 16 samples a period, an eighth from 32 on. Its error of
+    // fifth order grows as the fifth power: 2e-4 at 16.
+    for (std::size_t i = 0; i < exact.size(); ++i)
+      CHECK(decay.record.extremes[i] == Approx(exact[i]).margin(2.5e-4 * X));
+  }
+  Record record;
+  record.histories = {released(X, 1.5, 12.0 * natural / (2.0 * M_PI))};
+  const std::string reason = fault_of_histories(record);
+  CHECK(reason.find("a sample rate of about") != std::string::npos);
+  const std::vector<std::string> warnings = complete(record);
+  CHECK_FALSE(record.decay.has_value());
+  REQUIRE(warnings.size() == 1);
+  CHECK(warnings[0].find(reason) != std::string::npos);
+}
+
+TEST_CASE("Ripple, and the fast motion of a mass that sticks to its contact, are no swings of the decay") {
+  constexpr double X = 60e-3;
+  const History clean = released(X, 4.0, 1000.0);
+  const std::vector<double> exact = sim::analytic::free_decay_extremes(soft_zeta, soft_x_f, X, 20);
+  testing::Normal normal(19);
+
+  // Mains of eight times the natural frequency, and a long rest in which nothing else moves.
+  History humming = clean;
+  for (std::size_t i = 0; i < humming.x.size(); ++i)
+    humming.x[i] += 2e-3 * X * std::cos(8.1 * natural * static_cast<double>(i) / 1000.0) + 1e-6 * normal();
+  const DerivedDecay read = decay_of(humming);
+  CAPTURE(read.fault);
+  REQUIRE(read.record.extremes.size() + 1 >= exact.size());
+  for (std::size_t i = 0; i + 1 < exact.size(); ++i)
+    CHECK(read.record.extremes[i] == Approx(exact[i]).margin(3e-3 * X));
+
+  // A tail that shrinks slowly, at 1.8 times the frequency.
+  History sticking = clean;
+  std::size_t stop = clean.x.size();
+  while (stop > 0 && clean.x[stop - 1] == clean.x.back()) --stop;
+  for (std::size_t i = stop; i < clean.x.size(); ++i) {
+    const double t = static_cast<double>(i - stop) / 1000.0;
+    sticking.x[i] += 0.01 * X * std::exp(-0.1 * natural * t) * (std::cos(1.8 * natural * t) - 1.0);
+  }
+  for (double& x : sticking.x) x += 1e-6 * normal();
+  const DerivedDecay cut = decay_of(sticking);
+  CAPTURE(cut.fault);
+  REQUIRE(cut.record.extremes.size() + 1 >= exact.size());
+  CHECK(cut.record.extremes.size() <= exact.size() + 1);
+  REQUIRE(cut.warnings.size() == 1);
+  CHECK(cut.warnings[0].find("become faster") != std::string::npos);
+  CHECK(cut.last < stop + 200);
+}
+
+TEST_CASE("A blow within the first samples is no part of the free motion") {
+  // The mass is pushed for 20 ms, from the first sample on; the period is ten times as long.
+  sim::Model model = soft_bearing();
+  constexpr double rate = 1000.0;
+  model.initial = {0.0, 60e-3 * natural};
+  History history = sampled_displacements(model, 1.5, rate);
+  history.y.clear();
+  std::vector<double> pushed;
+  for (int i = 0; i < 20; ++i) pushed.push_back(history.x[10] * 0.5 * std::pow(i / 20.0, 2.0));
+  history.x.erase(history.x.begin(), history.x.begin() + 5);
+  history.x.insert(history.x.begin(), pushed.begin(), pushed.end());
+  const DerivedDecay decay = decay_of(history);
+  REQUIRE(decay.record.extremes.size() > 3);
+  CHECK(static_cast<double>(decay.first) == Approx(decay.record.times[0] * rate).margin(1.0));
+  CHECK(decay.first > 20);
+
+  // A release from rest keeps all samples.
+  CHECK(decay_of(released(60e-3, 1.5, rate)).first == 0);
+}
+
+TEST_CASE("Held, released, at rest, in noise") {
+  constexpr double sigma = 3e-6;  // the paper's resolution
+  for (const double X : {15e-3, 60e-3}) {
+    History history = released(X, 1.5, 2000.0);
+    history.x.insert(history.x.begin(), 400, X);
+    testing::Normal normal(11);
+    for (double& x : history.x) x += sigma * normal();
+    const DerivedDecay decay = decay_of(history);
+    const std::vector<double> exact = sim::analytic::free_decay_extremes(soft_zeta, soft_x_f, X, 20);
+    CAPTURE(X);
+    REQUIRE(decay.record.extremes.size() == exact.size());
+    for (std::size_t i = 0; i < exact.size(); ++i) {
+      CAPTURE(i, decay.record.times[i], decay.standard_errors[i]);
+      // Five standard errors beside the error of the fit.
+      CHECK(decay.record.extremes[i] == Approx(exact[i]).margin(1e-4 * X + 5.0 * decay.standard_errors[i]));
+      CHECK(decay.standard_errors[i] < sigma);
+    }
+    // The noise hides when the mass stopped, by up to a sixth of a half period.
+    const std::size_t last = exact.size() - 1;
+    if (last < 3) continue;  // one turning point, and a release that is hidden as well
+    CHECK(decay.record.times[last] - decay.record.times[last - 1] ==
+          Approx(M_PI / (natural * std::sqrt(1.0 - soft_zeta * soft_zeta))).epsilon(2e-3));
+  }
+}
+
+TEST_CASE("A long rest read by a coarse converter adds no extremes and does not outweigh the motion") {
+  constexpr double X = 60e-3;
+  const std::vector<double> exact = sim::analytic::free_decay_extremes(soft_zeta, soft_x_f, X, 20);
+  for (const double step : {0.1e-3, 0.5e-3}) {
+    Record record;
+    record.histories = {released(X, 8.0, 1000.0)};
+    History& history = record.histories[0];
+    testing::Normal normal(13);
+    for (double& x : history.x) x = step * std::round((x + 0.05 * step * normal()) / step);
+    // At a place between two steps, the noise decides which is read.
+    for (std::size_t i = 3000; i < history.x.size(); ++i)
+      if (normal() > 2.0) history.x[i] += step;
+    const std::vector<std::string> warnings = complete(record);
+    CAPTURE(step);
+    REQUIRE(record.decay.has_value());
+    REQUIRE(record.decay->extremes.size() == exact.size());
+    for (std::size_t i = 0; i < exact.size(); ++i)
+      CHECK(record.decay->extremes[i] == Approx(exact[i]).margin(step));
+    // Two half swings of the rest are left.
+    CHECK(history.x.size() < 2500);
+    CHECK(warnings.size() == 1);
+  }
+}
