@@ -7,6 +7,7 @@
 
 #include "core/diagnostics.hpp"
 #include "core/numbers.hpp"
+#include "identify/ledger/advice.hpp"
 #include "identify/methods.hpp"
 #include "identify/methods/any_law/law_intervals.hpp"
 
@@ -31,6 +32,13 @@ AssumptionSet rests_on(const Estimate& estimate) {
   return method == nullptr ? AssumptionSet() : method->rests_on;
 }
 
+/// A ledger that tested something else than the histories cannot speak against what a method found in them.
+bool keeps_its_findings(const Estimate& estimate, const Ledger& ledger) {
+  const MethodEntry* method = find_method(estimate.method);
+  return method != nullptr && method->needs == RecordKind::history && !estimate.findings.empty() &&
+         !ledger.tests_histories;
+}
+
 void judge(Estimate& estimate, const Ledger& ledger) {
   if (!estimate.outcome.ok()) return;
   if (ledger.data.empty()) return;
@@ -40,10 +48,11 @@ void judge(Estimate& estimate, const Ledger& ledger) {
     if (entry.standing == Standing::violated && rests_on(estimate).contains(entry.assumption))
       violated.push_back(entry.assumption);
   const bool contradicted = !estimate.usable;
-  estimate.usable = violated.empty();
+  const bool clears = !keeps_its_findings(estimate, ledger);
+  estimate.usable = violated.empty() && (clears || !contradicted);
   if (!violated.empty())
     estimate.reason = "the data contradict that " + statements(violated, " or that ");
-  else if (contradicted)
+  else if (contradicted && clears)
     estimate.reason = "the assumptions it rests on hold in this record";
 }
 
@@ -110,41 +119,6 @@ std::vector<std::string> names_of(const Ledger& ledger, Standing standing) {
   for (const LedgerEntry& entry : ledger.entries)
     if (entry.standing == standing) names.emplace_back(name_of(entry.assumption));
   return names;
-}
-
-/// What to measure or state so that an assumption can be done without.
-std::string what_would_help(Assumption assumption) {
-  using enum Assumption;
-  switch (assumption) {
-    case constants:
-      return "leave out --stiffness or --mass where the record can tell it, or measure them anew";
-    case sensors:
-      return "calibrate the sensors against each other, or record the phase";
-    case stationarity:
-      return "give the sweeps their labels, or measure them one by one";
-    case drive:
-      return "record the drive, or leave out where it is not steady";
-    case spring:
-    case one_mode:
-      return "measure at smaller amplitudes, or record the phase: the work of a forcing period does not depend on "
-             "the spring";
-    case friction_velocity:
-    case friction_displacement:
-      return "record the phase at several frequencies, or a history, and fit a law that has such a term";
-    case symmetry:
-      return "measure each direction of motion separately";
-  }
-  return "more data, or less noise";
-}
-
-/// The same for every departure that was found.
-std::string what_would_help(const Ledger& ledger) {
-  std::vector<std::string> helps;
-  for (const std::vector<Assumption>& departure : ledger.departures) {
-    std::string help = what_would_help(departure.front());
-    if (std::ranges::find(helps, help) == helps.end()) helps.push_back(std::move(help));
-  }
-  return core::joined(helps, "; and ");
 }
 
 bool departs_in_friction(const Ledger& ledger) {
@@ -271,6 +245,27 @@ bool excluded(Estimate& estimate, const std::optional<Estimate>& joint) {
   return true;
 }
 
+/// Did the method find against the law of friction? A method that claims no interval says so among its findings,
+/// and says nothing about the law.
+bool finds_departure(const Estimate& estimate) {
+  if (!estimate.outcome.ok() || estimate.laws) return false;
+  return (estimate.lack_of_fit && estimate.lack_of_fit->fired) ||
+         (estimate.interval95 && !estimate.findings.empty());
+}
+
+/// Where the ledger tested nothing, what one method finds against the law counts against all that rest on it.
+void share_findings(std::vector<Estimate>& estimates) {
+  const auto finder = std::ranges::find_if(estimates, finds_departure);
+  if (finder == estimates.end() || finder->findings.empty()) return;
+  const std::string reason =
+      finder->method + " finds a departure from the law that both rest on: " + finder->findings.front();
+  for (Estimate& estimate : estimates) {
+    if (!estimate.usable || estimate.laws) continue;
+    estimate.usable = false;
+    estimate.reason = reason;
+  }
+}
+
 /// The ranges over all laws, and which laws end them.
 std::string over_laws(const std::vector<Estimate>& estimates, core::Coordinate coordinate) {
   const auto found = std::ranges::find_if(estimates, [](const Estimate& e) { return e.laws != nullptr; });
@@ -324,6 +319,7 @@ Identification concluded(std::vector<Estimate> estimates, Ledger ledger) {
     correct(all.estimates.back());
     judge(all.estimates.back(), all.ledger);
   }
+  if (all.ledger.data.empty()) share_findings(all.estimates);
   all.answer = preferred(all.estimates);
   all.reason = all.answer ? why_preferred(all) : why_none(all);
   const bool any = std::ranges::any_of(all.estimates, [](const Estimate& e) { return e.outcome.ok(); });

@@ -2,10 +2,12 @@
 /// The answer of an identification: the estimate that the program stands by, or none, and what would help.
 ///
 /// An estimate is usable if its method found no fault, no assumption that the method rests on is violated in the
-/// ledger, and the joint model does not exclude it. If the ledger could test nothing, the method's own findings
-/// decide. The estimate of the joint model answers if it is usable: it has all data, and what is violated is
-/// relaxed in it. Otherwise the estimate with the smallest area of the intervals of c and F0 answers; the order of
-/// a list plays no part. If none has an interval and all agree to 2 %, the one in the middle answers.
+/// ledger, and the joint model does not exclude it. If the ledger could test nothing, the methods' own findings
+/// decide: a departure from the law that one method finds counts against all that rest on it. What a method finds
+/// in histories stands if the ledger could test something else alone. The estimate of the joint model answers if it
+/// is usable: it has all data, and what is violated is relaxed in it. Otherwise the estimate with the smallest area
+/// of the intervals of c and F0 answers; the order of a list plays no part. If none has an interval and all agree
+/// to 2 %, the one in the middle answers.
 
 #include <string>
 #include <vector>

@@ -10,8 +10,9 @@
 #include <span>
 #include <vector>
 
+#include "identify/ledger/freed_constants.hpp"
 #include "identify/ledger/history_rows.hpp"
-#include "identify/ledger/history_terms.hpp"
+#include "identify/ledger/history_ways.hpp"
 #include "identify/ledger/innovations.hpp"
 #include "identify/methods/histories/forward_fit.hpp"
 #include "identify/statistics/decompositions.hpp"
@@ -22,17 +23,6 @@ namespace dualdamp::identify {
 namespace {
 
 using By = SampledOscillator::By;
-
-enum class Sensor { x, v, a };
-
-/// What a relaxation sets free.
-struct Way {
-  enum class Kind { constant, force, friction_of_test, gain, delay, zero, zero_drift } kind = Kind::constant;
-  By by = By::mass;                   ///< of a constant
-  const HistoryTerm* term = nullptr;  ///< of a force
-  std::size_t test = 0;
-  Sensor sensor = Sensor::x;
-};
 
 /// Where the model is linearised: the parameters of the fit, and a coefficient for each relaxation.
 struct Place {
@@ -53,8 +43,8 @@ class Histories {
     scale_ = {fit_.layout().length(), fit_.layout().length() * std::sqrt(force.k / force.m)};
     natural_ = std::sqrt(force.k / force.m);
     unit_force_ = force.k * scale_.length;
-    list_relaxations();
-    start_.g = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(relaxations_.size()));
+    list_ = history_ways(fit_.tests(), constants_);
+    start_.g = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(list_.relaxations.size()));
     for (const ForwardTest& test : fit_.tests()) {
       noise_.push_back(noise_levels(*test.history, force.k, scale_));
       if (noise_.back().drive > 0.0) shaken_.emplace(noise_.size() - 1, with_noisier_drive(*test.history));
@@ -65,12 +55,13 @@ class Histories {
 
   /// The model linearised where the relaxations taken are fitted beside the parameters.
   [[nodiscard]] JointModel fitted(const Numbers& taken) {
-    Numbers all(relaxations_.size());
+    Numbers all(list_.relaxations.size());
     std::iota(all.begin(), all.end(), std::size_t{0});
     Place at = start_;
     std::optional<Linearised> here = linearised(at, taken, false);
     for (const std::size_t number : taken) {
-      const std::optional<Place> other = ways_[number].kind == Way::Kind::constant ? freed(number) : std::nullopt;
+      const std::optional<Place> other =
+          list_.ways[number].kind == Way::Kind::constant ? freed(number) : std::nullopt;
       if (!other) continue;
       std::optional<Linearised> there = linearised(*other, taken, false);
       if (!there || (here && there->squares > here->squares)) continue;
@@ -99,6 +90,9 @@ class Histories {
     return joint(at, taken, all);
   }
 
+  /// Why the fit tells nothing; empty otherwise.
+  [[nodiscard]] std::string fault_of_fit() { return freed_.fault(); }
+
  private:
   struct Linearised {
     Eigen::VectorXd residuals;
@@ -108,12 +102,13 @@ class Histories {
     double log_variances = 0.0;  ///< of the errors of the rows, summed
     double squares = 0.0;        ///< of the innovations of x
     double variance = 1.0;       ///< of one residual
+    std::vector<Autoregression> errors;  ///< of the channels that were read
   };
 
   [[nodiscard]] JointModel joint(const Place& at, const Numbers& taken, const Numbers& all) {
     JointModel model;
-    model.relaxations = relaxations_;
-    if (std::optional<Linearised> found = linearised(at, all, true)) {
+    model.relaxations = list_.relaxations;
+    if (std::optional<Linearised> found = taken.empty() ? seen_from_afar(at, all) : linearised(at, all, true)) {
       model.deviance = found->log_variances + squares_beside(*found, taken);
       model.residuals = std::move(found->residuals);
       model.base = std::move(found->base);
@@ -131,12 +126,12 @@ class Histories {
     model.value = parameters(force);
     model.constants = {force.m, force.k, constants_.frequency};
     model.scale_freedom = static_cast<double>(model.residuals.size());
-    model.F0_parts = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(ways_.size()));
+    model.F0_parts = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(list_.ways.size()));
     model.zeta_parts = model.F0_parts;
-    for (std::size_t j = 0; j < ways_.size(); ++j) {
+    for (std::size_t j = 0; j < list_.ways.size(); ++j) {
       const auto own = static_cast<Eigen::Index>(j);
-      if (ways_[j].kind == Way::Kind::friction_of_test) model.F0_parts[own] = 1.0;
-      if (ways_[j].term != nullptr && ways_[j].term->one_sided)
+      if (list_.ways[j].kind == Way::Kind::friction_of_test) model.F0_parts[own] = 1.0;
+      if (list_.ways[j].term != nullptr && list_.ways[j].term->one_sided)
         model.zeta_parts[own] = unit_force_ / scale_.speed / (2.0 * std::sqrt(force.m * force.k));
     }
     return model;
@@ -148,31 +143,46 @@ class Histories {
     return (rows.residuals - columns * pivoted_least_squares(columns, rows.residuals)).squaredNorm();
   }
 
+  /// Far from the right constants the fit misses most of the motion. What it leaves is then a swing, and no noise:
+  /// an autoregression would take it for errors that last. If another constant brings the fit much nearer, errors
+  /// are those of the nearer fit, and the column of a constant leads straight to the fit with it free.
+  [[nodiscard]] std::optional<Linearised> seen_from_afar(const Place& at, const Numbers& all) {
+    const FreedFit* near = freed_.much_nearer();
+    std::optional<Linearised> nearer;
+    for (std::size_t j = 0; near != nullptr && !nearer && j < list_.ways.size(); ++j)
+      if (list_.ways[j].kind == Way::Kind::constant && freed_.with(list_.ways[j].by) == near)
+        nearer = linearised(*freed(j), {}, true);
+    if (!nearer) return linearised(at, all, true);
+    std::optional<Linearised> found = linearised(at, all, true, nearer->errors);
+    for (std::size_t j = 0; found && j < list_.ways.size(); ++j) {
+      const std::optional<Place> place = list_.ways[j].kind == Way::Kind::constant ? freed(j) : std::nullopt;
+      const auto own = static_cast<Eigen::Index>(j);
+      const std::optional<Linearised> there =
+          place && place->g[own] != 0.0 ? linearised(*place, {}, true, nearer->errors) : std::nullopt;
+      if (!there) continue;
+      const Eigen::VectorXd straight = (found->residuals - there->residuals) / place->g[own];
+      if (found->shaken.size() > 0)
+        found->shaken.col(1 + found->base.cols() + own) += straight - found->relaxed.col(own);
+      found->relaxed.col(own) = straight;
+    }
+    return found;
+  }
+
   /// The fit with this constant unknown. A motion that runs out of step with that of the stated constant is too far
   /// away to be reached by steps from there.
   [[nodiscard]] std::optional<Place> freed(std::size_t number) {
-    if (const auto known = freed_.find(number); known != freed_.end()) return known->second;
-    KnownConstants constants = constants_;
-    const bool is_mass = ways_[number].by == By::mass;
-    (is_mass ? constants.mass : constants.stiffness) = unknown;
-    Estimate unused;
-    const ForwardFit fit(record_, constants, {}, unused);
-    std::optional<Place>& place = freed_[number];
-    if (!fit.problem().empty()) return place;
-    place = start_;
-    std::vector<ForwardTest> tests = fit_.tests();
-    place->p = fit.as_start(fit_.layout(), tests);
-    const ForceParameters force = fit.layout().force(fit.found().parameters);
-    place->g[static_cast<Eigen::Index>(number)] =
-        is_mass ? force.m - constants_.mass : force.k - constants_.stiffness;
+    const FreedFit* found = freed_.with(list_.ways[number].by);
+    if (found == nullptr) return std::nullopt;
+    Place place{found->p, start_.g};
+    place.g[static_cast<Eigen::Index>(number)] = found->change;
     return place;
   }
 
   [[nodiscard]] ForceParameters force_at(const Place& at) const {
     ForceParameters force = fit_.layout().force(at.p);
-    for (std::size_t j = 0; j < ways_.size(); ++j)
-      if (ways_[j].kind == Way::Kind::constant)
-        ForwardLayout::value(force, ways_[j].by) += at.g[static_cast<Eigen::Index>(j)];
+    for (std::size_t j = 0; j < list_.ways.size(); ++j)
+      if (list_.ways[j].kind == Way::Kind::constant)
+        ForwardLayout::value(force, list_.ways[j].by) += at.g[static_cast<Eigen::Index>(j)];
     return force;
   }
 
@@ -191,8 +201,9 @@ class Histories {
     return at;
   }
 
-  /// Rows of every channel. `white`: whitened by its own residuals, with `shaken`.
-  [[nodiscard]] std::optional<Linearised> linearised(const Place& at, const Numbers& wanted, bool white) {
+  /// Rows of every channel. `white`: whitened by `errors`, else by its own residuals, with `shaken`.
+  [[nodiscard]] std::optional<Linearised> linearised(const Place& at, const Numbers& wanted, bool white,
+                                                     const std::vector<Autoregression>& errors = {}) {
     const ForceParameters force = force_at(at);
     if (!(force.m > 0.0) || !(force.k > 0.0)) return std::nullopt;
     Channel x{.most_lags = 4};
@@ -210,8 +221,9 @@ class Histories {
     for (Channel* channel : {&x, &v, &a}) {
       if (channel->rows.rows() == 0) continue;
       if (!white) channel->most_lags = 0;
-      WhiteRows made = made_white(*channel, base + more);
+      WhiteRows made = made_white(*channel, base + more, errors.empty() ? nullptr : &errors[parts.size()]);
       result.log_variances += made.log_variances;
+      result.errors.push_back(std::move(made.errors));
       parts.push_back(std::move(made.rows));
     }
     const Eigen::MatrixXd rows = stacked(parts);
@@ -220,45 +232,6 @@ class Histories {
     result.relaxed = rows.middleCols(1 + base, more);
     if (shake) result.shaken = rows.rightCols(1 + base + more);
     return result;
-  }
-
-  void add_relaxation(Assumption assumption, std::string test, const Way& way) {
-    relaxations_.push_back({assumption, std::move(test), way.term == nullptr ? 0 : way.term->sign});
-    ways_.push_back(way);
-  }
-
-  void list_relaxations() {
-    using enum Way::Kind;
-    if (!std::isnan(constants_.mass))
-      add_relaxation(Assumption::constants, "mass free", {.kind = constant, .by = By::mass});
-    if (!std::isnan(constants_.stiffness))
-      add_relaxation(Assumption::constants, "stiffness free", {.kind = constant, .by = By::stiffness});
-    // Below its resonance a further mode adds to the mass.
-    if (!std::isnan(constants_.mass))
-      add_relaxation(Assumption::one_mode, "inertia of a further mode", {.kind = constant, .by = By::mass});
-    for (const HistoryTerm& term : history_terms())
-      add_relaxation(term.assumption, std::string(term.test), {.kind = Way::Kind::force, .term = &term});
-    const std::size_t tests = fit_.tests().size();
-    constexpr std::size_t most = 8;
-    const std::size_t contrasts = tests < 2 ? 0 : tests == 2 ? 1 : std::min(tests, most);
-    for (std::size_t t = 0; t < contrasts; ++t)
-      add_relaxation(Assumption::stationarity, "friction force of history " + std::to_string(t + 1) + " free",
-                     {.kind = friction_of_test, .test = t});
-    const auto has = [&](std::vector<double> History::* signal) {
-      return std::ranges::any_of(fit_.tests(),
-                                 [&](const ForwardTest& test) { return !(test.history->*signal).empty(); });
-    };
-    add_readings("x", Sensor::x);
-    add_relaxation(Assumption::sensors, "zero of x free", {.kind = zero});
-    add_relaxation(Assumption::stationarity, "zero of x that drifts", {.kind = zero_drift});
-    if (has(&History::v)) add_readings("v", Sensor::v);
-    if (has(&History::a)) add_readings("a", Sensor::a);
-  }
-
-  void add_readings(const std::string& signal, Sensor sensor) {
-    add_relaxation(Assumption::sensors, "gain of " + signal + " free", {.kind = Way::Kind::gain, .sensor = sensor});
-    add_relaxation(Assumption::sensors, "delay of " + signal + " free",
-                   {.kind = Way::Kind::delay, .sensor = sensor});
   }
 
   /// The motion of a test and its derivatives by base parameters and relaxations, in the order of the columns.
@@ -274,7 +247,7 @@ class Histories {
     for (const ForwardLayout::Column& column : layout.columns(t, test)) by.push_back(column.by);
     std::vector<SampledOscillator::Force> forces;
     for (const std::size_t j : wanted) {
-      const Way& way = ways_[j];
+      const Way& way = list_.ways[j];
       const double g = at.g[static_cast<Eigen::Index>(j)];
       if (way.kind == Way::Kind::constant) by.push_back(way.by);
       if (way.kind == Way::Kind::friction_of_test) parameters.F0 += g * share_of(way, t);
@@ -329,10 +302,10 @@ class Histories {
     const Eigen::MatrixXd columns_a = differentiated(columns_v, rate);
     const Reader read{*this, at, wanted};
     SensorRows rows;
-    rows.x = read(Sensor::x, history.x, {motion.x, motion.v, a}, columns_x, columns_v);
-    if (!history.v.empty()) rows.v = read(Sensor::v, history.v, {motion.v, a, jerk}, columns_v, columns_a);
+    rows.x = read(MotionSensor::x, history.x, {motion.x, motion.v, a}, columns_x, columns_v);
+    if (!history.v.empty()) rows.v = read(MotionSensor::v, history.v, {motion.v, a, jerk}, columns_v, columns_a);
     if (!history.a.empty())
-      rows.a = read(Sensor::a, history.a, {a, jerk, Eigen::VectorXd::Zero(jerk.size())}, columns_a,
+      rows.a = read(MotionSensor::a, history.a, {a, jerk, Eigen::VectorXd::Zero(jerk.size())}, columns_a,
                     Eigen::MatrixXd::Zero(columns_a.rows(), columns_a.cols()));
     return rows;
   }
@@ -357,12 +330,12 @@ class Histories {
       ++from;
     }
     for (std::size_t j = 0; j < wanted.size(); ++j)
-      if (const Way& way = ways_[wanted[j]]; way.kind == Way::Kind::constant) {
+      if (const Way& way = list_.ways[wanted[j]]; way.kind == Way::Kind::constant) {
         result.col(base + static_cast<Eigen::Index>(j)) = at_constant_zeta(way.by);
         ++from;
       }
     for (std::size_t j = 0; j < wanted.size(); ++j) {
-      const Way& way = ways_[wanted[j]];
+      const Way& way = list_.ways[wanted[j]];
       const Eigen::Index to = base + static_cast<Eigen::Index>(j);
       if (way.kind == Way::Kind::force) result.col(to) = derivatives.col(from++);
       if (way.kind == Way::Kind::friction_of_test)
@@ -382,11 +355,11 @@ class Histories {
     const Place& at;
     const Numbers& wanted;
 
-    Eigen::MatrixXd operator()(Sensor sensor, const std::vector<double>& measured, const SensorMotion& motion,
+    Eigen::MatrixXd operator()(MotionSensor sensor, const std::vector<double>& measured, const SensorMotion& motion,
                                const Eigen::MatrixXd& columns, const Eigen::MatrixXd& slopes) const {
       const auto own = [&](auto act) {
         for (std::size_t j = 0; j < wanted.size(); ++j)
-          if (const Way& way = owner.ways_[wanted[j]]; way.sensor == sensor)
+          if (const Way& way = owner.list_.ways[wanted[j]]; way.sensor == sensor)
             act(way.kind, at.g[static_cast<Eigen::Index>(wanted[j])], static_cast<Eigen::Index>(j));
       };
       const double length = owner.scale_.length;
@@ -416,12 +389,11 @@ class Histories {
   MotionScale scale_;
   double natural_ = 1.0;     ///< rad/s
   double unit_force_ = 1.0;  ///< N
-  std::vector<Relaxation> relaxations_;
-  std::vector<Way> ways_;  ///< of each relaxation
+  HistoryWays list_;
   std::vector<ReadingNoise> noise_;
   std::map<std::size_t, SampledOscillator> shaken_;  ///< of the tests with noise in their drive
   std::vector<Eigen::Index> moving_;
-  std::map<std::size_t, std::optional<Place>> freed_;
+  FreedConstants freed_{record_, constants_, fit_};
 };
 
 }  // namespace
@@ -432,8 +404,10 @@ std::variant<JointModel, std::string> history_model(const Record& record, const 
   const auto histories = std::make_shared<Histories>(record, constants, taken);
   ForwardFit& fit = histories->fit();
   if (!fit.problem().empty()) return fit.problem();
+  if (std::string fault = histories->fault_of_fit(); !fault.empty()) return fault;
   JointModel model = histories->fitted({});
   model.refit = [histories](const Numbers& numbers) { return histories->fitted(numbers); };
+  model.of_histories = true;
   model.data = std::to_string(fit.residuals().count()) + " samples of " + std::to_string(fit.tests().size()) +
                (fit.tests().size() == 1 ? " history" : " histories");
   for (const Exclusion& exclusion : taken.excluded)

@@ -7,7 +7,6 @@
 
 #include "core/random.hpp"
 #include "identify/records/derived_records.hpp"
-#include "identify/statistics/autoregression.hpp"
 #include "identify/statistics/decompositions.hpp"
 #include "identify/statistics/noise_level.hpp"
 
@@ -50,7 +49,10 @@ Eigen::VectorXd error_covariances(const Eigen::MatrixXd& columns, const Eigen::V
 
 }  // namespace
 
-WhiteRows made_white(const Channel& channel, Eigen::Index count_of_columns) {
+WhiteRows made_white(const Channel& channel, Eigen::Index count_of_columns, const Autoregression* known) {
+  const double twice = 2.0 * static_cast<double>(channel.rows.rows());
+  if (known != nullptr)
+    return {whitened(channel.rows, channel.blocks, *known), twice * std::log(known->deviation), *known};
   const Eigen::MatrixXd columns = channel.rows.middleCols(1, count_of_columns);
   const Eigen::VectorXd target = channel.rows.col(0);
   const Eigen::VectorXd left = target - columns * pivoted_least_squares(columns, target);
@@ -58,7 +60,7 @@ WhiteRows made_white(const Channel& channel, Eigen::Index count_of_columns) {
   const int most = std::clamp(static_cast<int>(count / 20.0), 0, channel.most_lags);
   Autoregression errors = autoregression_of(error_covariances(columns, left, channel.blocks, most), count);
   errors.deviation = std::max(errors.deviation, 1e-13 * target.cwiseAbs().maxCoeff() + 1e-300);
-  return {whitened(channel.rows, channel.blocks, errors), 2.0 * count * std::log(errors.deviation)};
+  return {whitened(channel.rows, channel.blocks, errors), twice * std::log(errors.deviation), errors};
 }
 
 Eigen::VectorXd course_of(Eigen::Index samples) { return Eigen::VectorXd::LinSpaced(samples, 0.0, 1.0); }

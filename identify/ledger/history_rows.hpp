@@ -8,6 +8,7 @@
 #include "identify/ledger/history_terms.hpp"
 #include "identify/ledger/innovations.hpp"
 #include "identify/record.hpp"
+#include "identify/statistics/autoregression.hpp"
 
 namespace dualdamp::identify {
 
@@ -33,10 +34,13 @@ struct SensorRows {
 struct WhiteRows {
   Eigen::MatrixXd rows;
   double log_variances = 0.0;  ///< sum of the logs of the variances that the errors had
+  Autoregression errors = {};
 };
 
-/// The rows with independent errors. The errors are what the first `columns` columns leave of the residual.
-[[nodiscard]] WhiteRows made_white(const Channel& channel, Eigen::Index columns);
+/// The rows with independent errors. The errors are those of `known`, else what the first `columns` columns leave
+/// of the residual.
+[[nodiscard]] WhiteRows made_white(const Channel& channel, Eigen::Index columns,
+                                   const Autoregression* known = nullptr);
 
 /// Errors of a sensor. It reads gain x(t - delay) + zero + drift s, where s is the share of the record that is
 /// over.

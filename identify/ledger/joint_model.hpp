@@ -34,7 +34,8 @@ struct Reading {
 };
 
 struct JointModel {
-  std::string data;  ///< "24 steady states"
+  std::string data;           ///< "24 steady states"
+  bool of_histories = false;  ///< the motion itself is simulated
   Eigen::VectorXd residuals;
   std::vector<Reading> readings;  ///< of each row; empty where rows are means of many
   Eigen::MatrixXd base;

@@ -183,12 +183,19 @@ class Writer {
   }
 
  public:
-  /// States for each assumption that holds how large a departure must be to be seen.
+  /// States for each assumption that holds how large a departure must be to be seen. A test that sees only huge
+  /// ones is none.
   void add_sight(Ledger& ledger) const {
+    constexpr double most = 0.3;
     for (LedgerEntry& entry : ledger.entries) {
       const double blind = blind_[static_cast<std::size_t>(entry.assumption)];
-      if (entry.standing == Standing::holds && entry.reason.empty() && std::isfinite(blind))
-        entry.reason = "a departure that moves zeta or F0 by " + in_percent(blind) + " would be seen";
+      if (entry.standing != Standing::holds || !entry.reason.empty() || !std::isfinite(blind)) continue;
+      const std::string size = "a departure that moves zeta or F0 by " + in_percent(blind) + " would be seen";
+      if (blind > most)
+        entry = {.assumption = entry.assumption,
+                 .reason = "only " + size + "; " + std::string(what_would_tell(entry.assumption)) + " would tell"};
+      else
+        entry.reason = size;
     }
   }
 
@@ -273,7 +280,7 @@ void note_nearly_seen(const JointModel& model, const RelaxationTests& tests, Led
     constexpr std::string_view note =
         "; a departure is nearly significant, and the intervals of joint_fit include its effect";
     const bool noted = entry.reason.ends_with(note);
-    if (entry.standing == Standing::holds && is_nearly_seen(model, test) && !noted) entry.reason += note;
+    if (entry.standing != Standing::violated && is_nearly_seen(model, test) && !noted) entry.reason += note;
   }
 }
 
@@ -305,9 +312,27 @@ Estimate joint_estimate(const JointModel& model, const RelaxationTests& tests) {
 
 }  // namespace
 
+namespace {
+
+Recorded recorded_in(const Record& record) {
+  const auto any_has = [&](const std::vector<std::vector<double> History::*>& signals) {
+    return std::ranges::any_of(record.histories, [&](const History& history) {
+      return std::ranges::any_of(signals, [&](auto signal) { return !(history.*signal).empty(); });
+    });
+  };
+  Recorded recorded{.histories = !record.histories.empty()};
+  const bool driven = any_has({&History::y, &History::force});
+  recorded.free = recorded.histories ? !driven : !record.pairs && record.decay;
+  recorded.one_sensor = recorded.free && !any_has({&History::v, &History::a});
+  return recorded;
+}
+
+}  // namespace
+
 Ledger ledger_of(const Record& record, const KnownConstants& constants, const LedgerOptions& options) {
   Ledger ledger;
   ledger.coordinate = constants.coordinate;
+  ledger.recorded = recorded_in(record);
   for (const Assumption assumption : assumptions()) ledger.entries.emplace_back().assumption = assumption;
   const MaybeModel found = testable_model(record, constants);
   if (const auto* reason = std::get_if<std::string>(&found)) {
@@ -316,6 +341,7 @@ Ledger ledger_of(const Record& record, const KnownConstants& constants, const Le
   }
   const auto& model = std::get<JointModel>(found);
   ledger.data = model.data;
+  ledger.tests_histories = model.of_histories;
   ledger.plain = model.value;
   ledger.left_out = model.left_out;
   const RelaxationTests tests = test_relaxations(model, options.least_change);

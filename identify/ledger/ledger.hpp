@@ -14,6 +14,8 @@
 /// reject. It is not charged: the intervals of the joint estimate are extended to cover the estimate with that term
 /// free.
 ///
+/// An assumption whose tests would see only a departure that moves zeta or F0 by more than 30 % is untested.
+///
 /// Cost: that of the joint model; a history of 20,000 samples takes 0.2 s.
 
 #include <optional>
@@ -49,8 +51,17 @@ struct LedgerOptions {
   ConstantUncertainties uncertainties = {};
 };
 
+/// What was recorded, for advice.
+struct Recorded {
+  bool histories = false;
+  bool free = false;        ///< free vibrations alone
+  bool one_sensor = false;  ///< x alone
+};
+
 struct Ledger {
-  std::string data;                  ///< what was tested: "24 steady states with phases"; empty: nothing
+  std::string data;              ///< what was tested: "24 steady states with phases"; empty: nothing
+  bool tests_histories = false;  ///< histories themselves, not steady states or extremes taken from them
+  Recorded recorded = {};
   std::vector<LedgerEntry> entries;  ///< one for each assumption
   /// Violated assumptions of each departure, best explanation first.
   std::vector<std::vector<Assumption>> departures;

@@ -114,12 +114,66 @@ TEST_CASE("Findings of a method decide only where the ledger could test nothing"
   contradicted.usable = false;
   contradicted.findings = {"friction over speed is not a straight line"};
   contradicted.reason = contradicted.findings.front();
-  CHECK(concluded({contradicted}, ledger({})).answer);
+  Ledger of_histories = ledger({});
+  of_histories.tests_histories = true;
+  CHECK(concluded({contradicted}, of_histories).answer);
   Ledger nothing = ledger({});
   nothing.data.clear();
   const Identification found = concluded({contradicted}, nothing);
   CHECK_FALSE(found.answer);
   CHECK(mentions(found.reason, "friction over speed is not a straight line"));
+}
+
+TEST_CASE("Where the ledger tested nothing a departure that one method finds leaves no answer by another") {
+  Estimate finder = estimate("acceleration_velocity_displacement", 0.1, 4.0, 0.05);
+  finder.usable = false;
+  finder.findings = {"friction over speed is not a straight line"};
+  const Estimate blind = estimate("recursive_least_squares", 0.12, 4.0, 0.01);
+  Ledger nothing = ledger({});
+  nothing.data.clear();
+  CHECK_FALSE(concluded({blind, finder}, nothing).answer);
+  const Identification found = concluded({finder, blind}, nothing);
+  CHECK_FALSE(found.answer);
+  CHECK(mentions(found.estimates[1].reason, "acceleration_velocity_displacement finds a departure"));
+  // Ranges over laws allow for departures. A method without an interval has found nothing against the law.
+  Estimate ranges = estimate("any_law", 0.1, 4.0, 0.5);
+  ranges.laws = std::make_shared<const LawIntervals>();
+  CHECK(answering(concluded({finder, blind, ranges}, nothing)) == "any_law");
+  finder.interval95.reset();
+  finder.findings = {"no interval is claimed"};
+  CHECK(answering(concluded({finder, blind}, nothing)) == "recursive_least_squares");
+}
+
+TEST_CASE("A ledger of extremes does not clear what a method found in the history") {
+  Estimate contradicted = estimate("output_error", 1.1, 4.0, 0.01);
+  contradicted.usable = false;
+  contradicted.findings = {"what the fit leaves is not noise alone"};
+  contradicted.reason = contradicted.findings.front();
+  Ledger tested = ledger({});
+  const Identification found = concluded({contradicted}, tested);
+  CHECK_FALSE(found.answer);
+  CHECK(mentions(found.reason, "what the fit leaves is not noise alone"));
+  tested.tests_histories = true;
+  CHECK(answering(concluded({contradicted}, tested)) == "output_error");
+}
+
+TEST_CASE("Advice fits the kind of record") {
+  using enum Assumption;
+  const auto advice = [](const std::vector<Assumption>& violated, const Recorded& recorded) {
+    Ledger tested = ledger(violated);
+    tested.recorded = recorded;
+    return concluded({estimate("energy_balance", 0.1, 4.0, 0.05)}, tested).reason;
+  };
+  const Recorded decay{.histories = true, .free = true, .one_sensor = true};
+  CHECK_FALSE(mentions(advice({friction_velocity}, decay), "record the phase"));
+  CHECK_FALSE(mentions(advice({friction_velocity}, decay), "a history"));
+  CHECK(mentions(advice({friction_velocity}, decay), "fit a law that has such a term"));
+  CHECK_FALSE(mentions(advice({sensors}, decay), "against each other"));
+  CHECK(mentions(advice({sensors}, decay), "record a second sensor"));
+  CHECK_FALSE(mentions(advice({stationarity}, decay), "labels"));
+  CHECK(mentions(advice({friction_velocity}, {.free = true, .one_sensor = true}), "record the whole history"));
+  CHECK(mentions(advice({sensors}, {.histories = true}), "against each other"));
+  CHECK(mentions(advice({stationarity}, {}), "labels"));
 }
 
 TEST_CASE("Who disagrees with the answer is named, and without estimates nothing is said") {

@@ -1,0 +1,62 @@
+#include "identify/ledger/history_ways.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace dualdamp::identify {
+
+namespace {
+
+using Kind = Way::Kind;
+using By = SampledOscillator::By;
+
+void add(HistoryWays& list, Assumption assumption, std::string test, const Way& way) {
+  list.relaxations.push_back({assumption, std::move(test), way.term == nullptr ? 0 : way.term->sign});
+  list.ways.push_back(way);
+}
+
+void add_constants(HistoryWays& list, const KnownConstants& constants) {
+  if (!std::isnan(constants.mass))
+    add(list, Assumption::constants, "mass free", {.kind = Kind::constant, .by = By::mass});
+  if (!std::isnan(constants.stiffness))
+    add(list, Assumption::constants, "stiffness free", {.kind = Kind::constant, .by = By::stiffness});
+  // Below its resonance a further mode adds to the mass.
+  if (!std::isnan(constants.mass))
+    add(list, Assumption::one_mode, "inertia of a further mode", {.kind = Kind::constant, .by = By::mass});
+}
+
+void add_contrasts(HistoryWays& list, std::size_t tests) {
+  constexpr std::size_t most = 8;
+  const std::size_t contrasts = tests < 2 ? 0 : tests == 2 ? 1 : std::min(tests, most);
+  for (std::size_t t = 0; t < contrasts; ++t)
+    add(list, Assumption::stationarity, "friction force of history " + std::to_string(t + 1) + " free",
+        {.kind = Kind::friction_of_test, .test = t});
+}
+
+void add_reading(HistoryWays& list, const std::string& signal, MotionSensor sensor) {
+  add(list, Assumption::sensors, "gain of " + signal + " free", {.kind = Kind::gain, .sensor = sensor});
+  add(list, Assumption::sensors, "delay of " + signal + " free", {.kind = Kind::delay, .sensor = sensor});
+}
+
+}  // namespace
+
+HistoryWays history_ways(const std::vector<ForwardTest>& tests, const KnownConstants& constants) {
+  const auto has = [&](std::vector<double> History::* signal) {
+    return std::ranges::any_of(tests, [&](const ForwardTest& test) { return !(test.history->*signal).empty(); });
+  };
+  HistoryWays list;
+  add_constants(list, constants);
+  for (const HistoryTerm& term : history_terms())
+    add(list, term.assumption, std::string(term.test), {.kind = Kind::force, .term = &term});
+  add_contrasts(list, tests.size());
+  const bool beside_x = has(&History::v) || has(&History::a) || has(&History::y) || has(&History::force);
+  if (beside_x) add_reading(list, "x", MotionSensor::x);
+  add(list, Assumption::sensors, "zero of x free", {.kind = Kind::zero});
+  add(list, Assumption::stationarity, "zero of x that drifts", {.kind = Kind::zero_drift});
+  if (has(&History::v)) add_reading(list, "v", MotionSensor::v);
+  if (has(&History::a)) add_reading(list, "a", MotionSensor::a);
+  return list;
+}
+
+}  // namespace dualdamp::identify

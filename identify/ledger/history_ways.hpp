@@ -1,0 +1,36 @@
+#pragma once
+/// The ways in which the joint model of histories is relaxed: constants, forces, friction of single histories, and
+/// what is free in a sensor.
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "identify/ledger/history_terms.hpp"
+#include "identify/ledger/joint_model.hpp"
+#include "identify/methods/histories/forward_fit.hpp"
+#include "identify/models/sampled_oscillator.hpp"
+
+namespace dualdamp::identify {
+
+enum class MotionSensor { x, v, a };
+
+/// What a relaxation sets free.
+struct Way {
+  enum class Kind { constant, force, friction_of_test, gain, delay, zero, zero_drift } kind = Kind::constant;
+  SampledOscillator::By by = SampledOscillator::By::mass;  ///< of a constant
+  const HistoryTerm* term = nullptr;                       ///< of a force
+  std::size_t test = 0;
+  MotionSensor sensor = MotionSensor::x;
+};
+
+/// All relaxations that the histories may show, each with its way.
+struct HistoryWays {
+  std::vector<Relaxation> relaxations;
+  std::vector<Way> ways;  ///< of each relaxation
+};
+
+/// Gain and delay of x are free only beside another signal: x alone, with its initial state free, tells neither.
+[[nodiscard]] HistoryWays history_ways(const std::vector<ForwardTest>& tests, const KnownConstants& constants);
+
+}  // namespace dualdamp::identify

@@ -1,0 +1,77 @@
+#include "identify/ledger/history_model.hpp"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <string>
+#include <variant>
+
+#include "identify/ledger/answer.hpp"
+#include "identify/ledger/ledger.hpp"
+#include "identify/methods/histories/output_error.hpp"
+#include "tests/identify/ledger/laboratory.hpp"
+
+using namespace dualdamp::identify;
+using namespace dualdamp::identify::testing;
+
+namespace {
+
+constexpr std::uint64_t first_seed = 100;
+
+bool lists(const JointModel& model, const std::string& test) {
+  return std::ranges::find(model.relaxations, test, &Relaxation::test) != model.relaxations.end();
+}
+
+}  // namespace
+
+TEST_CASE("Constants of a decay that are off by a large factor are charged, and no single fit answers") {
+  for (const double factor : {0.25, 0.5, 2.0, 4.0}) {
+    for (std::uint64_t seed = first_seed; seed < first_seed + 3; ++seed) {
+      CAPTURE(factor, seed);
+      Measured m = measured(Kind::decay, seed);
+      m.constants.stiffness *= factor;
+      const Ledger ledger = ledger_of(m.record, m.constants);
+      REQUIRE(ledger.is_violated(Assumption::constants));
+      CHECK(ledger.entry(Assumption::constants).p_value.value_or(1.0) < 1e-6);
+      const Identification found = concluded({output_error(m.record, m.constants, {})}, ledger);
+      CHECK_FALSE(found.estimates[0].usable);
+    }
+  }
+}
+
+TEST_CASE("A simulated motion that misses the record tests nothing") {
+  Measured m = measured(Kind::random, first_seed);
+  std::ranges::reverse(m.record.histories[0].x);  // a motion that the force does not make
+  const auto model = history_model(m.record, m.constants);
+  REQUIRE(std::holds_alternative<std::string>(model));
+  CHECK(std::get<std::string>(model).find("whatever the mass and the stiffness") != std::string::npos);
+}
+
+TEST_CASE("A decay of x alone charges no gain and no delay of x") {
+  const auto alter = [](Rig& rig) { rig.stribeck = 0.6; };
+  for (std::uint64_t seed = first_seed; seed < first_seed + 4; ++seed) {
+    CAPTURE(seed);
+    const Measured m = measured(Kind::decay, seed, alter);
+    const auto model = history_model(m.record, m.constants);
+    REQUIRE(std::holds_alternative<JointModel>(model));
+    CHECK_FALSE(lists(std::get<JointModel>(model), "gain of x free"));
+    CHECK_FALSE(lists(std::get<JointModel>(model), "delay of x free"));
+    CHECK(ledger_of(m.record, m.constants).is_violated(Assumption::friction_velocity));
+  }
+  const Measured with_v = measured(Kind::decay, first_seed, nullptr, {.v_noise = 0.02});
+  CHECK(lists(std::get<JointModel>(history_model(with_v.record, with_v.constants)), "gain of x free"));
+}
+
+TEST_CASE("A test that would see only a huge departure leaves its assumption untested") {
+  int blind = 0;
+  for (std::uint64_t seed = first_seed; seed < first_seed + 10; ++seed) {
+    const Measured m = measured(Kind::xy, seed, nullptr, {.noise = 10.0});
+    const Ledger ledger = ledger_of(m.record, m.constants);
+    for (const LedgerEntry& entry : ledger.entries) {
+      if (!entry.reason.starts_with("only a departure that moves")) continue;
+      ++blind;
+      CHECK(entry.standing == Standing::untested);
+      CHECK_FALSE(entry.p_value);
+    }
+  }
+  CHECK(blind > 0);
+}
