@@ -195,7 +195,9 @@ class Parser {
                     "Forcing frequency, such as '6.17 Hz'; a free decay has none")
         ->type_name("QUANTITY");
     command
-        .add_option("--method", identify_.methods, "A method to use; default: all methods that can read the data")
+        .add_option(
+            "--method", identify_.methods,
+            "A method to use; the option is repeated for further ones; default: all methods that can read the data")
         ->allow_extra_args(false)
         ->type_name("METHOD");
     command

@@ -107,6 +107,12 @@ void check_stated_frequency(CheckedFile& file, identify::MeasuredRecord& data, d
     }
     return;
   }
+  const auto is_driven = [](const identify::History& h) { return !h.y.empty() || !h.force.empty(); };
+  if (!data.record.pairs && std::ranges::none_of(data.record.histories, is_driven)) {
+    data.warnings.push_back("the stated frequency of " + hertz(frequency) +
+                            " is not used: no drive was recorded, and a free vibration has no forcing frequency");
+    return;
+  }
   for (const identify::History& history : data.record.histories) {
     const double measured =
         history.y.empty() ? frequency : identify::guess_frequency(history.y, history.sample_rate);
