@@ -412,8 +412,8 @@ class Benchmark(unittest.TestCase):
             self.assertIn(message, result.stderr)
             self.assertIn("bad.csv", result.stderr)
         good = self.write("good.csv", [], ["case"])
-        for answers, message in [([f"{good}"], "answers need a name"), ([f"a={good}", f"a={good}"], "under one name"),
-                                 ([f"resonance_two_point={good}"], "under one name")]:
+        for answers, message in [([f"{good}"], "answers need a name"), ([f"a={good}", f"a={good}"], "two entries have the same name"),
+                                 ([f"resonance_two_point={good}"], "two entries have the same name")]:
             _, result = self.score(*answers, out=f"name{hash(message + answers[0])}", status=3)
             self.assertIn(message, result.stderr)
         result = self.call("stress", "score", SCENARIO, "--set", "analysis.seeds=5", "--key", self.export / "key.json", status=3)

@@ -156,5 +156,5 @@ TEST_CASE("rate_state: it warns of values whose reversal is too sharp", "[fricti
   CHECK(warnings(0.0145).size() == 1);
   REQUIRE(warnings(0.01).size() == 1);
   CHECK(warnings(0.01)[0].find("exp(-60)") != std::string::npos);
-  CHECK(warnings(0.01)[0].find("how often it turns while it creeps is uncertain") != std::string::npos);
+  CHECK(warnings(0.01)[0].find("the number of its reversals is uncertain") != std::string::npos);
 }
