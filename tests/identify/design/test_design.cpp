@@ -20,8 +20,9 @@ constexpr double mass = 1.042;
 constexpr double stiffness = 1568.0;
 const double natural = std::sqrt(stiffness / mass);
 
-/// Eight amplitudes at resonance, without phases, of a rig with a compliant contact.
-Record amplitudes(Normal& normal) {
+/// Eight amplitudes, without phases, of a rig with a compliant contact; at resonance, or spread over `spread` of
+/// the frequency about it. `noise`: over the amplitude in the middle.
+Record amplitudes(Normal& normal, double noise = 0.003, double spread = 0.0) {
   constexpr double zeta = 0.08;
   constexpr double F0 = 3.0;
   constexpr double X = 0.01;
@@ -35,14 +36,14 @@ Record amplitudes(Normal& normal) {
     const double x = X * (0.5 + i / 7.0);
     rig.model.excitation = {.type = sim::ExcitationType::base_harmonic,
                             .amplitude = 2.0 * zeta * x + 4.0 / std::numbers::pi * F0 / stiffness,
-                            .frequency = natural};
+                            .frequency = natural * (1.0 + spread * (i % 3 - 1))};
     const identify::rigs::ReferenceMotion reference{
         .amplitude = X, .frequency = natural, .Y = rig.model.excitation.amplitude};
     const sim::SteadyState state = sim::steady_state(
         identify::rigs::departed(*identify::rigs::find_departure("contact_compliance"), rig, reference, 0.15));
     REQUIRE(state.outcome.ok());
-    Pair pair{.Y = rig.model.excitation.amplitude, .x = state.amplitude + 0.003 * X * normal(), .number = i + 1};
-    pair.omega = natural;
+    Pair pair{.Y = rig.model.excitation.amplitude, .x = state.amplitude + noise * X * normal(), .number = i + 1};
+    pair.omega = rig.model.excitation.frequency;
     record.pairs->pairs.push_back(pair);
   }
   return record;
@@ -69,6 +70,23 @@ TEST_CASE("design: after amplitudes alone their phases tell laws apart, and repe
   CHECK(phases.hull.zeta < again.hull.zeta);
   CHECK(phases.hull.F0 < again.hull.F0);
   CHECK(phases.text.find("record the phase of the same states: zeta's range goes from") == 0);
+}
+
+TEST_CASE(
+    "design: phases that were not measured are expected as noisy as the amplitudes, at several frequencies too") {
+  // Were their noise always the same, phases after noisy amplitudes would narrow the ranges as much as after clean
+  // ones.
+  const auto shrinkage = [](double noise) {
+    Normal normal(21);
+    const auto found = design_after(amplitudes(normal, noise, 0.03), {mass, stiffness, natural}, {}, {});
+    REQUIRE(std::holds_alternative<Design>(found));
+    return named(std::get<Design>(found), "record the phase of the same states").average;
+  };
+  const Shrinkage clean = shrinkage(0.001);
+  const Shrinkage noisy = shrinkage(0.03);
+  CAPTURE(clean.zeta, clean.F0, noisy.zeta, noisy.F0);
+  CHECK(noisy.zeta > 0.5);
+  CHECK(clean.zeta < 0.9);
 }
 
 TEST_CASE("design: no measurement is expected to widen the ranges, however different the laws fit the record") {
