@@ -53,8 +53,11 @@ class Uncertainty {
     for (Eigen::Index i = 0; i < size_; ++i) judge_profile(i);
     add_trade_offs();
     add_undetermined();
-    for (Eigen::Index i = 0; i < size_; ++i)
-      if (needs_noise(scaled_row(i))) fit_.covariance.row(i).setZero(), fit_.covariance.col(i).setZero();
+    for (Eigen::Index i = 0; i < size_; ++i) {
+      if (!needs_noise(scaled_row(i))) continue;
+      fit_.covariance.row(i).setZero();
+      fit_.covariance.col(i).setZero();
+    }
   }
 
  private:

@@ -25,13 +25,13 @@ std::string of_stationarity(const Recorded& recorded) {
 }
 
 std::string of_spring(const Recorded& recorded) {
-  const std::string smaller = "measure at smaller amplitudes";
+  std::string smaller = "measure at smaller amplitudes";
   if (recorded.free || recorded.histories) return smaller;
   return smaller + ", or record the phase: the work of a forcing period does not depend on the spring";
 }
 
 std::string of_friction(const Recorded& recorded) {
-  const std::string law = "fit a law that has such a term";
+  std::string law = "fit a law that has such a term";
   if (recorded.histories) return law;
   if (recorded.free) return "record the whole history, and " + law;
   return "record the phase at several frequencies, or a history, and " + law;

@@ -280,7 +280,7 @@ class DecayReader {
     double best = static_cast<double>(turn);
     double least = std::numeric_limits<double>::max();
     for (int k = 0; k <= trials; ++k) {
-      const double trial = static_cast<double>(turn) + (k - trials / 2) * step;
+      const double trial = static_cast<double>(turn) + (k - 0.5 * trials) * step;
       const double sum = squares(trial);
       if (sum < least) best = trial;
       least = std::min(sum, least);

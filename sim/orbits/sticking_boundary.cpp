@@ -15,6 +15,8 @@ using friction::Direction;
 namespace {
 
 constexpr double precision = 1e-12;
+constexpr double close = 1e-10;          // likewise relative to the amplitude
+constexpr int patience_if_close = 1000;  // forcing periods
 constexpr int max_doublings = 60;
 
 /// Force limits of all laws together at the start [N].
@@ -54,9 +56,9 @@ std::optional<double> den_hartogs(const Model& model, const ForceLimits& limits)
   return limits.kinetic / o.stiffness / analytic::non_sticking_boundary(analytic::den_hartog(zeta, r));
 }
 
-SteadyState at(Model& model, double amplitude) {
+SteadyState at(Model& model, double amplitude, int max_periods = SteadyStateOptions{}.max_periods) {
   model.excitation.amplitude = amplitude;
-  return steady_state(model, {.full_account = false});
+  return steady_state(model, {.max_periods = max_periods, .full_account = false});
 }
 
 bool sticks(const SteadyState& state) { return !state.sticks.empty(); }
@@ -98,15 +100,18 @@ core::Outcome bracket(Model& model, double amplitude, Bracket& found) {
           up ? "the mass sticks at every amplitude" : "even the weakest drive moves the mass without a stick"};
 }
 
-/// Halves the bracket. Where a steady state at its middle is not found, one beside the middle will do.
+/// Halves the bracket. Where a steady state at its middle is not found, one beside the middle will do. Motions may
+/// approach their orbits ever more slowly towards the boundary: a bracket that is `close` is not worth waiting for.
 core::Outcome narrow(Model& model, Bracket& found) {
   constexpr std::array<double, 3> places = {0.5, 0.4, 0.6};
   while (found.high - found.low > precision * found.high) {
+    const bool is_close = found.high - found.low <= close * found.high;
     core::Outcome outcome;
     for (const double place : places) {
       const double amplitude = found.low + place * (found.high - found.low);
-      SteadyState state = at(model, amplitude);
+      SteadyState state = is_close ? at(model, amplitude, patience_if_close) : at(model, amplitude);
       outcome = state.outcome;
+      if (!outcome.ok() && is_close) return {};
       if (!outcome.ok()) continue;
       if (sticks(state)) {
         found.low = amplitude;

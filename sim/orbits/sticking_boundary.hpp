@@ -21,7 +21,7 @@ namespace dualdamp::sim {
 struct BoundaryPoint {
   core::Outcome outcome;                ///< not ok(): no boundary was found
   double omega = 0.0;                   ///< rad/s
-  double amplitude = 0.0;               ///< m (base) or N (force); agrees with the closed form to 2e-11
+  double amplitude = 0.0;               ///< m (base) or N (force), to 2e-11; 1e-10 if motions hardly settle there
   double x = 0.0;                       ///< output amplitude at the boundary [m]
   std::optional<double> closed_form{};  ///< Den Hartog's amplitude, if his oscillator is this one
 };

@@ -31,7 +31,7 @@ class ProgramAnswer(unittest.TestCase):
         return result
 
     def test_it_is_that_of_identify_without_a_range_over_laws(self):
-        own = [SCENARIO, "--set", "analysis.answer=true", "--set", "analysis.severities=[0.3]", "--set", "analysis.seeds=1",
+        own = [SCENARIO, "--set", "analysis.answer=true", "--set", "analysis.severities=[0.3]", "--set", "analysis.seeds=3",
                "--set", "expect=[{value: cases.failed, equals: 0}]"]
         export, out = self.folder / "own", self.folder / "scored"
         self.call("stress", "export", *own, "--out", export, "--seed", 7)
@@ -46,11 +46,11 @@ class ProgramAnswer(unittest.TestCase):
             estimate = lines[place]["estimates"][-1]
             answered_by.append(answer["method"] if answer else None)
             stands_by_one = answer is not None and answer["method"] != "any_law"
-            self.assertEqual((estimate["method"], estimate.get("usable", False)), ("answer", stands_by_one))  # without a value no key says so
+            self.assertEqual((estimate["method"], estimate.get("usable", False)), ("answer", stands_by_one))
             if stands_by_one:
                 self.assertEqual([estimate["zeta"], estimate["F0"], estimate["zeta95"]], [answer["zeta"], answer["F0"], answer["interval95"]["zeta"]])
         self.assertIn("any_law", answered_by)
-        self.assertLess(answered_by.count("any_law"), len(answered_by))
+        self.assertGreater(len(answered_by), 2 * answered_by.count("any_law"))
 
 
 if __name__ == "__main__":

@@ -48,7 +48,7 @@ Eigen::VectorXd centred(const std::vector<double>& values) {
 }
 
 /// rms of the difference between the measured drive and that of the model, over the rms of the measured one.
-double difference(sim::Model model, const History& history, const std::vector<double>& measured,
+double difference(const sim::Model& model, const History& history, const std::vector<double>& measured,
                   bool phase_is_sought) {
   const std::vector<double> times = times_of(history, measured.size());
   const Eigen::VectorXd here = centred(measured);
