@@ -18,17 +18,20 @@ void Problems::add(core::Diagnostic diagnostic) {
 }
 
 void Problems::add(core::Diagnostic diagnostic, const std::string& kind) {
+  if (repeats(kind, diagnostic.place.line)) return;
+  add(std::move(diagnostic), 0, {});
+  groups_.back().kind = kind;
+}
+
+bool Problems::repeats(std::string_view kind, int line) {
   const auto same = kind.empty() ? groups_.end() : std::ranges::find(groups_, kind, &Group::kind);
-  if (same == groups_.end()) {
-    add(std::move(diagnostic), 0, {});
-    groups_.back().kind = kind;
-    return;
-  }
+  if (same == groups_.end()) return false;
   // Problems of two fields in one row count as one row.
-  if (diagnostic.place.line == same->last_line) return;
-  same->last_line = diagnostic.place.line;
+  if (line == same->last_line) return true;
+  same->last_line = line;
   ++same->others;
-  if (same->lines.size() < most_lines) same->lines.push_back(diagnostic.place.line);
+  if (same->lines.size() < most_lines) same->lines.push_back(line);
+  return true;
 }
 
 void Problems::add(core::Diagnostic diagnostic, std::size_t others, std::vector<int> lines) {

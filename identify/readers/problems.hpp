@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/diagnostics.hpp"
@@ -20,6 +21,8 @@ class Problems {
   void add(core::Diagnostic diagnostic);
   /// Problems of one `kind` become one problem, even if their messages differ (in the name of a column).
   void add(core::Diagnostic diagnostic, const std::string& kind);
+  /// Counts one more problem of a known `kind`, for which no message is made; false if the kind is new.
+  [[nodiscard]] bool repeats(std::string_view kind, int line);
   /// A problem of several rows: the first one, and `others` more rows; `lines` has the lines of some of these.
   void add(core::Diagnostic diagnostic, std::size_t others, std::vector<int> lines);
   /// Throws `core::InputError` with all problems, in the order of their places.

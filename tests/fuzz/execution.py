@@ -64,12 +64,16 @@ class Execution:
         return found
 
 
+# What a refusal may cost. A second on a processor of its own is promised; one that other work shares counts up to three times as much.
+SECONDS, MEGABYTES = 3.0, 100.0
+
+
 def faults_of_refusal(execution, names):
     """A refusal is quick, small and says where: every message opens with the name of a file or of an option."""
     found = []
-    if execution.processor > 1.0:
+    if execution.processor > SECONDS:
         found.append(f"a refusal took {execution.processor:.1f} s")
-    if execution.megabytes > 100.0:
+    if execution.megabytes > MEGABYTES:
         found.append(f"a refusal took {execution.megabytes:.0f} MB")
     first = execution.stderr.splitlines()[0] if execution.stderr.strip() else ""
     if not any(name in first for name in names):

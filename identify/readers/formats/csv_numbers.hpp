@@ -9,8 +9,8 @@ namespace dualdamp::identify {
 
 struct FieldNumber {
   std::optional<double> value;
-  std::string fault;    ///< why there is no value; continues "the field of column x"
-  std::string allowed;  ///< how a number is written
+  std::string_view fault;    ///< why there is no value; continues "the field of column x"
+  std::string_view allowed;  ///< how a number is written
 };
 
 /// A decimal number with the decimal mark `decimal`, a point or a comma: `12.5`, `+.5`, `1e-3`, `1.0D-03` of

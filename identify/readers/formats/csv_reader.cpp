@@ -133,9 +133,11 @@ class Parser {
       }
     }
     if (count == targets_.size() || is_same_but_for_the_end(line, count)) return true;
+    const std::string problem = "the row does not have as many fields as the header";
+    if (problems_.repeats(problem, line.number)) return false;
     const bool split_numbers = layout_.separator == ',' && count == 2 * targets_.size();
     problems_.add({at(line, 1),
-                   "the row does not have as many fields as the header",
+                   problem,
                    std::to_string(targets_.size()) + " fields" +
                        (count == 1 && line.text.find_first_of(";\t, ") != std::string_view::npos
                             ? ", separated as those of the header"
@@ -173,12 +175,14 @@ class Parser {
       number = {std::nullopt, "is not a finite number", "a number of double precision"};
     }
     if (!number.value) {
-      problems_.add({at(line, field.column),
-                     "the field of column " + std::string(target.known->name) + " " + number.fault,
-                     number.allowed,
-                     field.text.empty() ? "an empty field" : quoted(field.text),
-                     {}},
-                    number.fault + number.allowed);
+      const std::string kind = std::string(number.fault).append(number.allowed);
+      if (!problems_.repeats(kind, line.number))
+        problems_.add({at(line, field.column),
+                       "the field of column " + std::string(target.known->name) + " " + std::string(number.fault),
+                       std::string(number.allowed),
+                       field.text.empty() ? "an empty field" : quoted(field.text),
+                       {}},
+                      kind);
       return std::nan("");
     }
     if (is_time) note_rounding(field.text, target.factor);
