@@ -239,7 +239,8 @@ void ExactEngine::lay_interval() {
 /// decision.
 core::Germ ExactEngine::slip_germ(const core::Guard& guard, double tolerance) const {
   const double push = friction::sign(direction_) * pull_now();
-  const double error = force_rounding();
+  const double stiffness = model_.oscillator.stiffness + total_->force.position;
+  const double error = force_rounding() + std::abs(stiffness) * x_rounding_;
   if (push > 0.5 * error) return {1, 1};
   if (push < -4.0 * error) return {-1, 1};
   return core::germ(mode_->basis(), guard, tolerance, 2);

@@ -93,6 +93,21 @@ TEST_CASE("A release is not taken back by the rounding of a contact that lets go
   CHECK(together > 100);
 }
 
+TEST_CASE("A pull at the limit within the rounding of a contact's force begins one slip, not many", "[exact]") {
+  // The mass stops where the pull reaches the limit 8e-15 s later, and the contact's force k x has a larger
+  // rounding than the sum of forces. Stick and slip must decide with the same rounding.
+  for (int i = -60; i <= 60; ++i) {
+    const double amplitude = 0.010106018463893635 * (1.0 + i * 2e-15);
+    Model model = base_driven(1.0, 100.0, 0.5, amplitude, 11.888513683613446, 0.0);
+    model.oscillator.damper_to = DamperTo::base;
+    model.friction = {coulomb(0.5, 0.5), friction::Law(friction::ContactCompliance(0.5, 0.5, 300.0, 0.0))};
+    ExactEngine engine(model);
+    CAPTURE(i);
+    (void)events_of(engine, 3.0);
+    CHECK(engine.outcome().ok());
+  }
+}
+
 TEST_CASE("A harmonic pull at the limit at the start: growing, falling and at its turning point", "[exact]") {
   // pull = 10 cos(w t + phi) + 5 N with phi = -+90 degrees: 5 N with the rate +-100 N/s; cos(pi/2) = 6e-17 in
   // double.
