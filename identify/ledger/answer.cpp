@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "core/diagnostics.hpp"
@@ -10,6 +11,7 @@
 #include "identify/ledger/advice.hpp"
 #include "identify/methods.hpp"
 #include "identify/methods/any_law/law_intervals.hpp"
+#include "identify/statistics/distributions.hpp"
 
 namespace dualdamp::identify {
 
@@ -112,6 +114,44 @@ std::optional<std::size_t> preferred(const std::vector<Estimate>& estimates) {
                     [&](std::size_t i) { return std::pair(estimates[i].value.c, estimates[i].method); });
   const std::size_t middle = usable[usable.size() / 2];
   return agree(estimates, usable, middle) ? std::optional(middle) : std::nullopt;
+}
+
+/// The departures of friction that the ledger can relax: a range over laws answers for them.
+std::vector<const LedgerEntry*> friction_departures(const Ledger& ledger) {
+  std::vector<const LedgerEntry*> found;
+  for (const Assumption assumption : {Assumption::friction_velocity, Assumption::friction_displacement}) {
+    const LedgerEntry& entry = ledger.entry(assumption);
+    if (entry.standing == Standing::violated && entry.zeta_change && entry.F0_change) found.push_back(&entry);
+  }
+  return found;
+}
+
+/// The interval extended to the 95 % interval of a value that a relaxation changes by the share `change`. The value
+/// without it and the change have independent errors; that of the change, the larger one, follows from the test.
+/// Friction is not below zero.
+Interval reached(const Interval& interval, double plain, double change, double p_value) {
+  const double error =
+      std::abs(plain * change) * quantile95(std::numeric_limits<double>::infinity()) / normal_score(p_value);
+  const double value = plain * (1.0 + change);
+  return {std::min(interval[0], std::max(0.0, value - error)), std::max(interval[1], value + error)};
+}
+
+/// The library of laws reads extremes, and its departures end at a largest severity; the ledger reads the whole
+/// record. A range over laws that lacks the estimate with the departure relaxed is extended to it. Returns the
+/// tests of these relaxations.
+std::vector<std::string> extend_to_relaxed(Estimate& estimate, const Ledger& ledger) {
+  std::vector<std::string> tests;
+  if (!estimate.usable || !estimate.laws || !estimate.interval95) return tests;
+  for (const LedgerEntry* entry : friction_departures(ledger)) {
+    ParameterIntervals& at = *estimate.interval95;
+    const ParameterIntervals before = at;
+    at.zeta = reached(at.zeta, ledger.plain.zeta, *entry->zeta_change, *entry->p_value);
+    at.c = reached(at.c, ledger.plain.c, *entry->zeta_change, *entry->p_value);
+    at.x_f = reached(at.x_f, ledger.plain.x_f, *entry->F0_change, *entry->p_value);
+    at.F0 = reached(at.F0, ledger.plain.F0, *entry->F0_change, *entry->p_value);
+    if (at.zeta != before.zeta || at.F0 != before.F0) tests.push_back(entry->test);
+  }
+  return tests;
 }
 
 std::vector<std::string> names_of(const Ledger& ledger, Standing standing) {
@@ -320,10 +360,16 @@ Identification concluded(std::vector<Estimate> estimates, Ledger ledger) {
     judge(all.estimates.back(), all.ledger);
   }
   if (all.ledger.data.empty()) share_findings(all.estimates);
+  std::vector<std::string> reached_by;
+  for (Estimate& estimate : all.estimates)
+    if (estimate.laws) reached_by = extend_to_relaxed(estimate, all.ledger);
   all.answer = preferred(all.estimates);
   all.reason = all.answer ? why_preferred(all) : why_none(all);
   const bool any = std::ranges::any_of(all.estimates, [](const Estimate& e) { return e.outcome.ok(); });
   if (any) all.verdict = verdict_of(all);
+  if (!reached_by.empty())
+    all.verdict += " The interval of any_law also holds the estimate with " +
+                   core::joined(reached_by, " and with ") + " free, which lies outside this range.";
   return all;
 }
 

@@ -1,9 +1,11 @@
 #include "identify/statistics/distributions.hpp"
 
+#include <algorithm>
 #include <boost/math/distributions/fisher_f.hpp>
 #include <boost/math/distributions/normal.hpp>
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
+#include <limits>
 
 namespace dualdamp::identify {
 
@@ -11,6 +13,11 @@ double quantile95(double freedom) {
   constexpr double upper = 0.975;
   if (std::isinf(freedom)) return boost::math::quantile(boost::math::normal(), upper);
   return boost::math::quantile(boost::math::students_t(freedom), upper);
+}
+
+double normal_score(double p_value) {
+  const double tail = std::max(0.5 * p_value, std::numeric_limits<double>::min());
+  return boost::math::quantile(boost::math::complement(boost::math::normal(), tail));
 }
 
 double f_test_p_value(double statistic, double numerator, double denominator) {

@@ -7,6 +7,10 @@ namespace dualdamp::identify {
 /// the normal value 1.96 for infinitely many.
 [[nodiscard]] double quantile95(double freedom);
 
+/// The number of standard errors at which a two-sided normal test has this p-value, from 0 to 1. A p-value below the
+/// smallest double counts as that.
+[[nodiscard]] double normal_score(double p_value);
+
 /// The p-value of an F test: the probability of at least `statistic` with `numerator` and `denominator` > 0 degrees
 /// of freedom.
 [[nodiscard]] double f_test_p_value(double statistic, double numerator, double denominator);

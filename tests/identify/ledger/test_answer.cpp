@@ -109,6 +109,30 @@ TEST_CASE("A range over laws that answers beside a departure of friction says wh
   CHECK_FALSE(mentions(concluded({ranges}, ledger({})).reason, "what would narrow it"));
 }
 
+TEST_CASE("A range over laws holds the estimate with the departure of friction relaxed") {
+  Estimate ranges = estimate("any_law", 0.06, 0.7, 0.3);
+  ranges.laws = std::make_shared<const LawIntervals>();
+  Ledger drag = ledger({Assumption::friction_velocity});
+  drag.plain = {0.062, 6.2, 0.0007, 0.7};
+  LedgerEntry& entry = drag.entries[static_cast<std::size_t>(Assumption::friction_velocity)];
+  entry.zeta_change = -0.5;
+  entry.F0_change = 0.1;
+  entry.p_value = 0.0026997960632601866;  // three standard errors
+  const Identification found = concluded({ranges}, drag);
+  const ParameterIntervals& at = *found.estimates[*found.answer].interval95;
+  CHECK(at.zeta[0] == Approx(0.031 - 0.031 * 1.959964 / 3.0).epsilon(1e-6));
+  CHECK(at.c[0] == Approx(3.1 - 3.1 * 1.959964 / 3.0).epsilon(1e-6));
+  CHECK(at.zeta[1] == ranges.interval95->zeta[1]);
+  CHECK(at.F0 == ranges.interval95->F0);
+  CHECK(mentions(found.verdict, "also holds the estimate with something free free"));
+
+  // A relaxation that the range holds changes nothing; friction is not below zero.
+  entry.zeta_change = 0.05;
+  CHECK(concluded({ranges}, drag).estimates.front().interval95->zeta == ranges.interval95->zeta);
+  entry.zeta_change = -1.5;
+  CHECK(concluded({ranges}, drag).estimates.front().interval95->zeta[0] == 0.0);
+}
+
 TEST_CASE("Findings of a method decide only where the ledger could test nothing") {
   Estimate contradicted = estimate("acceleration_velocity_displacement", 0.1, 4.0, 0.01);
   contradicted.usable = false;

@@ -16,3 +16,10 @@ TEST_CASE("The p-values of F tests are those of the tables") {
   CHECK(f_test_p_value(4.10282, 2.0, 10.0) == Approx(0.05).epsilon(1e-5));
   CHECK(f_test_p_value(10.0443, 1.0, 10.0) == Approx(0.01).epsilon(1e-5));
 }
+
+TEST_CASE("The scores of normal tests are those of the tables") {
+  CHECK(normal_score(0.05) == Approx(1.959964).epsilon(1e-6));
+  CHECK(normal_score(0.0026997960632601866) == Approx(3.0).epsilon(1e-9));
+  CHECK(normal_score(1.0) == Approx(0.0).margin(1e-12));
+  CHECK(normal_score(0.0) > 37.0);
+}
