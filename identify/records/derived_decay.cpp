@@ -165,7 +165,8 @@ class DecayReader {
 
   /// Swings below this are noise.
   [[nodiscard]] double band_of(double noise) const {
-    constexpr double noises = 8.0;
+    // Of n normal samples the extremes lie 2 sqrt(2 ln n) deviations apart, or less.
+    const double noises = std::max(8.0, 2.0 * std::sqrt(2.0 * std::log(static_cast<double>(x_.size()))) + 1.0);
     constexpr double rounding = 1e-9;
     // While the mass sticks, the reading of a converter hardly changes, and the noise over all samples is below its
     // step.
@@ -321,15 +322,19 @@ class DecayReader {
     constexpr double too_short = 0.7;
     constexpr double too_long = 1.4;
     const auto is_fast = [&](std::size_t i) { return lasting(result, i) < too_short * half_period_; };
-    std::size_t end = largest + 1;
-    while (end < extremes.size() && swing(end) < swing(end - 1) && !is_fast(end)) ++end;
-    const bool fails = end < extremes.size();
-    const bool grows = fails && swing(end) >= swing(end - 1);
-    // The cause of the growth may have acted already in the swings before; these last too long.
-    while (grows && end > largest + 1 && lasting(result, end - 1) > too_long * half_period_) --end;
     // Largest share of the swings that may be left where they grow again. Above it, there is another release or a
     // drive.
     constexpr double most_left = 0.25;
+    const auto is_growing = [&](std::size_t i) {
+      const double error = swing(i) > most_left * swing(largest) ? error_of_growth(result, i) : 0.0;
+      return swing(i) - swing(i - 1) >= error;
+    };
+    std::size_t end = largest + 1;
+    while (end < extremes.size() && !is_growing(end) && !is_fast(end)) ++end;
+    const bool fails = end < extremes.size();
+    const bool grows = fails && is_growing(end);
+    // The cause of the growth may have acted already in the swings before; these last too long.
+    while (grows && end > largest + 1 && lasting(result, end - 1) > too_long * half_period_) --end;
     if (fails && swing(end) > most_left * swing(largest))
       return "the swings do not shrink as in a free vibration: the drive of the motion was not recorded";
     // A blow may last to the begin of the largest swing. It is over at the end of this swing.
@@ -354,6 +359,14 @@ class DecayReader {
     result.first = std::max(result.first, sample_of(result, begin));
     cut(result, begin, end);
     return {};
+  }
+
+  /// Between two swings that shrink hardly, the noise of their extremes may show a growth up to this.
+  static double error_of_growth(const DerivedDecay& result, std::size_t extreme) {
+    constexpr double deviations = 4.0;
+    const double* error = &result.standard_errors[extreme];
+    return deviations * std::sqrt(error[0] * error[0] + 4.0 * error[-1] * error[-1] +
+                                  (extreme > 1 ? error[-2] * error[-2] : 0.0));
   }
 
   [[nodiscard]] std::size_t sample_of(const DerivedDecay& result, std::size_t extreme) const {

@@ -147,8 +147,10 @@ class Check {
   void check_decay(const DecayRecord& decay) {
     double omega = natural_frequency();
     if (decay.times.size() > 2) {
-      const auto half_periods = static_cast<double>(decay.times.size() - 1);
-      const double measured = std::numbers::pi * half_periods / (decay.times.back() - decay.times.front());
+      std::vector<double> half_periods;
+      for (std::size_t i = 1; i < decay.times.size(); ++i)
+        half_periods.push_back(decay.times[i] - decay.times[i - 1]);
+      const double measured = std::numbers::pi / upper_median(std::move(half_periods));
       if (omega > 0.0 && refuse_times(measured, omega, "the natural frequency", true)) return;
     }
     if (decay.extremes.empty()) return;

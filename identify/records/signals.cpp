@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string_view>
 
 #include "core/diagnostics.hpp"
 #include "core/numbers.hpp"
@@ -129,9 +130,15 @@ std::vector<double> ZeroPhaseFilter::operator()(std::span<const double> signal) 
   return {first, first + static_cast<std::ptrdiff_t>(n)};
 }
 
+namespace {
+
+constexpr std::string_view without_x =
+    "the displacement x was not recorded: record it, or add it to the file as the integral of v or a without its drift";
+
+}  // namespace
+
 Motion motion_of(const History& history, double cutoff) {
-  if (std::string fault = history.x.empty() ? "the displacement x was not recorded" : shape_fault(history);
-      !fault.empty())
+  if (std::string fault = history.x.empty() ? std::string(without_x) : shape_fault(history); !fault.empty())
     throw core::InputError(core::Diagnostic{{}, std::move(fault), {}, {}, {}});
   const std::size_t n = history.x.size();
   const double rate = history.sample_rate;
@@ -192,7 +199,7 @@ std::vector<double> cutoffs_for(const History& history, const FilterOptions& opt
 
 std::string fault_of(const History& history) {
   if (!(history.sample_rate > 0.0) || !std::isfinite(history.sample_rate)) return "the sample rate is not positive";
-  if (history.x.empty()) return "the displacement x was not recorded";
+  if (history.x.empty()) return std::string(without_x);
   if (history.x.size() < 16) return "there are fewer than 16 samples";
   for (const auto* signal : {&history.y, &history.x, &history.v, &history.a, &history.force}) {
     if (!signal->empty() && signal->size() != history.x.size()) return "the signals are of different length";

@@ -1,6 +1,7 @@
 #include "identify/statistics/distributions.hpp"
 
 #include <algorithm>
+#include <boost/math/distributions/chi_squared.hpp>
 #include <boost/math/distributions/fisher_f.hpp>
 #include <boost/math/distributions/normal.hpp>
 #include <boost/math/distributions/students_t.hpp>
@@ -18,6 +19,10 @@ double quantile95(double freedom) {
 double normal_score(double p_value) {
   const double tail = std::max(0.5 * p_value, std::numeric_limits<double>::min());
   return boost::math::quantile(boost::math::complement(boost::math::normal(), tail));
+}
+
+double chi_square_p_value(double statistic, double freedom) {
+  return boost::math::cdf(boost::math::complement(boost::math::chi_squared(freedom), statistic));
 }
 
 double f_test_p_value(double statistic, double numerator, double denominator) {

@@ -7,9 +7,12 @@ namespace dualdamp::identify {
 /// the normal value 1.96 for infinitely many.
 [[nodiscard]] double quantile95(double freedom);
 
-/// The number of standard errors at which a two-sided normal test has this p-value, from 0 to 1. A p-value below the
-/// smallest double counts as that.
+/// The number of standard errors at which a two-sided normal test has this p-value, from 0 to 1. A p-value below
+/// the smallest double counts as that.
 [[nodiscard]] double normal_score(double p_value);
+
+/// The p-value of a chi-square test: the probability of at least `statistic` with `freedom` > 0 degrees of freedom.
+[[nodiscard]] double chi_square_p_value(double statistic, double freedom);
 
 /// The p-value of an F test: the probability of at least `statistic` with `numerator` and `denominator` > 0 degrees
 /// of freedom.

@@ -139,4 +139,13 @@ void conclude(Estimate& estimate, const std::vector<std::string>& faults, std::s
     for (const std::string& fault : *list) estimate.reason += (estimate.reason.empty() ? "" : "; ") + fault;
 }
 
+void warn_of_scatter(double ratio, double freedom, Estimate& estimate) {
+  constexpr double rare = 1e-4;  // of right statements
+  if (!(ratio > 1.0) || chi_square_p_value(ratio * freedom, freedom) > rare) return;
+  constexpr int digits = 3;
+  estimate.warnings.push_back("the readings scatter " + core::format_number(std::sqrt(ratio), digits) +
+                              " times as much as the stated deviations say: the intervals are too narrow, or "
+                              "friction departs from Coulomb + viscous");
+}
+
 }  // namespace dualdamp::identify

@@ -59,4 +59,8 @@ void judge_signs(Estimate& estimate, double least_x_f, std::vector<std::string>&
 /// is then the reason.
 void conclude(Estimate& estimate, const std::vector<std::string>& faults, std::string basis);
 
+/// Warns of readings that scatter clearly more than their stated deviations say. `ratio`: the mean square of the
+/// residuals over the stated variance; `freedom`: degrees of freedom of the residuals.
+void warn_of_scatter(double ratio, double freedom, Estimate& estimate);
+
 }  // namespace dualdamp::identify

@@ -84,19 +84,25 @@ std::vector<double> pull_of(const History& history, const ForceParameters& law, 
 /// One history of the synthetic records, free of noise.
 class SyntheticHistory {
  public:
-  SyntheticHistory(const History& measured, const ForceParameters& law, double offset, bool steered)
+  SyntheticHistory(const History& measured, const ForceParameters& law, double offset, bool steered,
+                   const MotionStart* start)
       : measured_(measured),
         law_(law),
         offset_(offset),
         steering_(steered ? Steering(measured, law.m) : Steering()),
-        at_{law.m, law.c + steering_.damping, law.k + steering_.stiffness, law.F0, 0.0, 0.0} {}
+        at_{law.m, law.c + steering_.damping, law.k + steering_.stiffness, law.F0, 0.0, 0.0},
+        starts_(start != nullptr) {
+    if (start == nullptr) return;
+    at_.x0 = start->x0;
+    at_.v0 = start->v0;
+  }
 
   /// The history with all of x, v and a, under the measured drive. Nothing if the motion cannot be computed.
   [[nodiscard]] std::optional<History> history() {
     SampledOscillator model(drive_of(measured_, law_, steering_, offset_));
     Eigen::VectorXd x;
     Eigen::VectorXd v;
-    if (!meet(model) || !model.run(at_, {}, x, nullptr, &v)) return std::nullopt;
+    if ((!starts_ && !meet(model)) || !model.run(at_, {}, x, nullptr, &v)) return std::nullopt;
     History synthetic = measured_;
     synthetic.x = vector_of(x);
     synthetic.v = vector_of(v);
@@ -159,6 +165,7 @@ class SyntheticHistory {
   double offset_;
   Steering steering_;
   SampledOscillator::Parameters at_;
+  bool starts_;  ///< from a given state
 };
 
 bool close(const History& synthetic, const History& measured) {
@@ -254,7 +261,8 @@ Record SyntheticRecords::record(int number) const {
 }
 
 std::optional<SyntheticRecords> synthetic_records(const std::vector<NumberedHistory>& histories,
-                                                  ForceParameters& truth, double offset) {
+                                                  ForceParameters& truth, double offset,
+                                                  const std::vector<MotionStart>& starts) {
   if (!(truth.m > 0.0) || !(truth.k >= 0.0)) return std::nullopt;
   truth.c = std::max(0.0, truth.c);
   truth.F0 = std::max(0.0, truth.F0);
@@ -265,9 +273,10 @@ std::optional<SyntheticRecords> synthetic_records(const std::vector<NumberedHist
   for (const NumberedHistory& item : histories) {
     const History& measured = *item.history;
     std::optional<History> history;
+    const MotionStart* start = starts.empty() ? nullptr : &starts[candidates.size()];
     for (const bool steered : {false, true}) {
       if (!steered && truth.k == 0.0) continue;  // without a spring it would drift
-      SyntheticHistory candidate(measured, truth, offset, steered);
+      SyntheticHistory candidate(measured, truth, offset, steered, start);
       history = candidate.history();
       if (!history || !close(*history, measured)) continue;
       candidates.push_back(std::move(candidate));

@@ -41,9 +41,18 @@ struct SyntheticRecords {
   [[nodiscard]] Record record(int number) const;
 };
 
-/// A negative c or F0 is set to zero, in `truth` as well. Nothing if the law with these parameters does not follow
-/// the measured motion.
+/// Where a motion begins.
+struct MotionStart {
+  double x0 = 0.0;  ///< m
+  double v0 = 0.0;  ///< m/s
+};
+
+/// `starts`: the initial states of a fit of the motion, one for each history; the synthetic motion is that of the
+/// fit then, and rests where it rests. Empty: the states that bring the motion closest to the record. A negative c
+/// or F0 is set to zero, in `truth` as well. Nothing if the law with these parameters does not follow the measured
+/// motion.
 [[nodiscard]] std::optional<SyntheticRecords> synthetic_records(const std::vector<NumberedHistory>& histories,
-                                                                ForceParameters& truth, double offset);
+                                                                ForceParameters& truth, double offset,
+                                                                const std::vector<MotionStart>& starts = {});
 
 }  // namespace dualdamp::identify

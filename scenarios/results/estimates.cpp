@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <iterator>
+#include <utility>
+#include <vector>
 
 #include "core/numbers.hpp"
 #include "scenarios/results/cells.hpp"
@@ -359,19 +361,37 @@ ResultFields estimate_fields() {
                          {"fit.points[].fitted", "m", "x by the fit"}});
 }
 
+namespace {
+
+/// "den_hartog_fit, receptance: the record has no pairs; free_decay: ...", of the methods without an estimate.
+std::string failures_of(const std::vector<identify::Estimate>& estimates) {
+  std::vector<std::pair<std::string, std::vector<std::string>>> by_reason;
+  for (const identify::Estimate& estimate : estimates) {
+    if (estimate.outcome.ok()) continue;
+    const std::string& reason = estimate.outcome.reason;
+    auto known = std::ranges::find(by_reason, reason, [](const auto& entry) { return entry.first; });
+    if (known == by_reason.end()) known = by_reason.insert(known, {reason, {}});
+    known->second.push_back(estimate.method);
+  }
+  std::string text;
+  for (const auto& [reason, methods] : by_reason)
+    text += (text.empty() ? "" : "; ") + core::joined(methods) + ": " + reason;
+  return text;
+}
+
+}  // namespace
+
 Answer answer_of(const identify::Identification& found, const identify::Record& record,
                  const identify::KnownConstants& constants) {
   const std::vector<identify::Estimate>& estimates = found.estimates;
   Answer answer;
   Json list = Json::array();
-  std::string reasons;
+  const std::string reasons = failures_of(estimates);
   bool any = false;
   for (const identify::Estimate& estimate : estimates) {
     list.push_back(estimate_json(estimate, constants));
     any = any || estimate.outcome.ok();
-    if (!estimate.outcome.ok())
-      reasons += (reasons.empty() ? "" : "; ") + estimate.method + ": " + estimate.outcome.reason;
-    else if (!estimate.usable)
+    if (estimate.outcome.ok() && !estimate.usable)
       answer.warnings.push_back(estimate.method + " is not usable: " + estimate.reason);
     for (const std::string& warning : estimate.warnings)
       answer.warnings.push_back(estimate.method + ": " + warning);

@@ -161,6 +161,13 @@ class DataFiles(unittest.TestCase):
         result = self.identify(self.write("gaps.csv", history(times).replace("t,x", "t,x [mm]")))
         self.assertIn("the longest uninterrupted stretch is used, 88 rows", result.stderr)
 
+    def test_a_history_without_x_is_told_once_what_to_do(self):
+        rows = "".join(f"{i / 1000:.3f},{math.cos(39.0 * i / 1000) * math.exp(-2 * i / 1000):.6f}\n" for i in range(2000))
+        result = self.identify(self.write("v.csv", "t [s],v [m/s]\n" + rows), constants=CONSTANTS[:4])
+        self.assertEqual(result.returncode, 4, result.stderr)
+        self.assertEqual(result.stderr.count("the displacement x was not recorded: record it, or add it to the file as the integral of v or a"), 1)
+        self.assertIn("acceleration_velocity_displacement, energy_balance, ", result.stderr)
+
     def test_what_is_no_file(self):
         self.check_refused(self.folder / "none.csv", "cannot be opened")
         self.check_refused(self.folder, "a directory, not a file")

@@ -358,6 +358,7 @@ Estimate den_hartog_fit(const Record& record, const KnownConstants& constants, c
   const auto scatter = scatter_of(fit->residual.squaredNorm(), freedom, std::sqrt(law.mean_square_gain(fit->p)),
                                   options, data->unit);
   add_uncertainty(law, *fit, data->unit, used_constants, scatter, estimate);
+  if (scatter) warn_of_scatter(scatter->ratio, freedom, estimate);
 
   std::vector<std::string> faults;
   judge_signs(estimate, 1e-9 * law.pairs().front().Y * data->unit, faults);

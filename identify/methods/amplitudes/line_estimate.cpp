@@ -69,8 +69,9 @@ std::optional<Scatter> scatter_of(double sum_of_squares, double freedom, double 
   const double sigma_x = std::max(options.sigma_x, 0.0) / unit;
   const double sigma_Y = std::max(options.sigma_Y, 0.0) / unit;
   if (sigma_x > 0.0 || sigma_Y > 0.0) {
-    return Scatter{sigma_x * sigma_x + slope * slope * sigma_Y * sigma_Y,
-                   quantile95(std::numeric_limits<double>::infinity())};
+    const double variance = sigma_x * sigma_x + slope * slope * sigma_Y * sigma_Y;
+    return Scatter{variance, quantile95(std::numeric_limits<double>::infinity()),
+                   freedom < 1.0 ? 1.0 : sum_of_squares / freedom / variance};
   }
   if (freedom < 1.0) return std::nullopt;
   return Scatter{sum_of_squares / freedom, quantile95(freedom)};
@@ -332,6 +333,7 @@ Estimate estimate_by_line(const LineRule& rule, const Record& record, const Know
     const Eigen::DiagonalMatrix<double, 2> to_metres(1.0, data->unit);
     set_uncertainty(estimate, to_metres * covariance(*fit, data->G, scatter->variance) * to_metres,
                     scatter->half_width, constants);
+    warn_of_scatter(scatter->ratio, fit->freedom(), estimate);
   }
 
   std::vector<std::string> faults;

@@ -151,6 +151,7 @@ void add_uncertainty(const ParallelLines& lines, const std::vector<Sweep>& sweep
                      const ResonanceData& data, const WithinSweepOptions& options, Estimate& estimate) {
   const auto scatter = scatter_of(lines.sum_of_squares, lines.freedom(), lines.slope, options, data.unit);
   if (!scatter) return;
+  warn_of_scatter(scatter->ratio, lines.freedom(), estimate);
   const auto count = static_cast<double>(sweeps.size());
   double mean_Y = 0.0;
   double between = 0.0;  // variance of the heights of the lines, with their slope as known

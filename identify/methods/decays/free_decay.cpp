@@ -264,6 +264,8 @@ void add_uncertainty(const DecayModel& model, const Solution& solution, const Fr
   const bool known = options.sigma_x > 0.0;
   if (!known && freedom < 1.0) return;
   const double deviation = known ? options.sigma_x / unit : solution.fit.residual.norm() / std::sqrt(freedom);
+  if (known && freedom >= 1.0)
+    warn_of_scatter(solution.fit.residual.squaredNorm() / freedom / (deviation * deviation), freedom, estimate);
   const std::optional<Eigen::Matrix2d> covariance = unit_covariance(model, solution);
   if (!covariance) return;
   const Eigen::DiagonalMatrix<double, 2> to_metres(deviation, deviation * unit);

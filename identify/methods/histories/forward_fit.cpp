@@ -24,6 +24,8 @@ double range_of(const std::vector<double>& signal) {
   return *high - *low;
 }
 
+bool is_free(const History& history) { return history.y.empty() && history.force.empty(); }
+
 }  // namespace
 
 ForwardTest::ForwardTest(const NumberedHistory& item)
@@ -32,10 +34,12 @@ ForwardTest::ForwardTest(const NumberedHistory& item)
   const std::vector<double> begin(history->x.begin(), history->x.begin() + samples);
   x0 = begin[0];
   // Noise alone separates the extremes of eight samples by about three deviations, and very rarely by six.
-  starts_at_rest = range_of(begin) <= 6.0 * noise_level(begin) + 1e-12 * range_of(history->x);
+  const bool hardly_moves = range_of(begin) <= 6.0 * noise_level(begin) + 1e-12 * range_of(history->x);
+  // Near a turn a mass hardly moves either, and a record of a free vibration often begins there.
+  starts_at_rest = hardly_moves && !is_free(*history);
   if (!history->v.empty())
     v0 = history->v[0];
-  else if (!starts_at_rest)
+  else if (!hardly_moves)
     v0 = central_difference(five_point_average(history->x), history->sample_rate)[2];
 }
 
@@ -97,8 +101,6 @@ bool ForwardResiduals::evaluate(const Eigen::VectorXd& p, Eigen::VectorXd& resid
 
 namespace {
 
-bool is_free(const ForwardTest& test) { return test.history->y.empty() && test.history->force.empty(); }
-
 /// Starting point from the extremes of a free vibration. The fit of a long decay has many local minima; this point
 /// is near the lowest.
 std::optional<ForceParameters> from_extremes(const ForwardTest& test, ForceParameters known,
@@ -131,7 +133,7 @@ std::vector<ForceParameters> starts(const Record& record, const std::vector<Forw
   if (!(force.m > 0.0) || !(force.k > 0.0)) return {};
   std::vector<ForceParameters> list{force};
   for (const ForwardTest& test : tests)
-    if (const auto start = is_free(test) ? from_extremes(test, force, constants) : std::nullopt)
+    if (const auto start = is_free(*test.history) ? from_extremes(test, force, constants) : std::nullopt)
       list.push_back(*start);
   const double length = ForwardLayout::length(tests);
   const double critical = 2.0 * std::sqrt(force.m * force.k);
@@ -168,7 +170,7 @@ std::optional<Record> large_motion(const std::vector<ForwardTest>& tests, double
     std::size_t last = history.x.size();
     while (last > 0 && std::abs(history.x[last - 1]) < least) --last;
     constexpr double little = 0.9;
-    if (is_free(test) && static_cast<double>(last) < little * static_cast<double>(history.x.size())) {
+    if (is_free(*test.history) && static_cast<double>(last) < little * static_cast<double>(history.x.size())) {
       for (std::vector<double>* signal : {&history.x, &history.v, &history.a})
         if (!signal->empty()) signal->resize(last);
       shorter = true;
@@ -213,17 +215,7 @@ void ForwardFit::search(const Record& record, const KnownConstants& constants, c
     problem_ = "the method needs the mass and the stiffness: the record does not tell them";
     return;
   }
-  layout_ = std::make_unique<ForwardLayout>(tests_, constants, list.front());
-  residuals_ = std::make_unique<ForwardResiduals>(tests_, *layout_);
-  LeastSquaresProblem problem;
-  problem.residuals = residuals_->count();
-  constexpr double far = 1e3;  // in units of the scales
-  problem.low = Eigen::VectorXd::Constant(layout_->count(), -far);
-  problem.high = Eigen::VectorXd::Constant(layout_->count(), far);
-  problem.low[1] = 0.0;  // friction must not be negative
-  problem.evaluate = [this](const Eigen::VectorXd& p, Eigen::VectorXd& r, Eigen::MatrixXd* jacobian) {
-    return residuals_->evaluate(p, r, jacobian);
-  };
+  LeastSquaresProblem problem = set_up(constants, list.front());
   problem.start = best_start(list, tests_, *layout_, *residuals_);
   constexpr double large = 0.3;
   if (const std::optional<Record> part = large_motion(tests_, large)) {
@@ -237,7 +229,52 @@ void ForwardFit::search(const Record& record, const KnownConstants& constants, c
   LeastSquaresFit last = fit(problem);
   const bool is_first = found_.parameters.size() == 0;
   if (is_first || (last.outcome.ok() && last.sum_of_squares < found_.sum_of_squares)) found_ = std::move(last);
-  if (!found_.outcome.ok()) problem_ = found_.outcome.reason;
+  if (!found_.outcome.ok())
+    problem_ = found_.outcome.reason;
+  else
+    free_speeds(constants);
+}
+
+LeastSquaresProblem ForwardFit::set_up(const KnownConstants& constants, const ForceParameters& start) {
+  layout_ = std::make_unique<ForwardLayout>(tests_, constants, start);
+  residuals_ = std::make_unique<ForwardResiduals>(tests_, *layout_);
+  LeastSquaresProblem problem;
+  problem.residuals = residuals_->count();
+  constexpr double far = 1e3;  // in units of the scales
+  problem.low = Eigen::VectorXd::Constant(layout_->count(), -far);
+  problem.high = Eigen::VectorXd::Constant(layout_->count(), far);
+  problem.low[1] = 0.0;  // friction must not be negative
+  problem.evaluate = [this](const Eigen::VectorXd& p, Eigen::VectorXd& r, Eigen::MatrixXd* jacobian) {
+    return residuals_->evaluate(p, r, jacobian);
+  };
+  return problem;
+}
+
+void ForwardFit::free_speeds(const KnownConstants& constants) {
+  std::vector<ForwardTest*> resting;
+  for (ForwardTest& test : tests_)
+    if (test.starts_at_rest) resting.push_back(&test);
+  if (resting.empty()) return;
+  const LeastSquaresFit at_rest = std::move(found_);
+  std::unique_ptr<ForwardLayout> layout = std::move(layout_);
+  std::unique_ptr<ForwardResiduals> residuals = std::move(residuals_);
+  for (std::size_t t = 0; t < tests_.size(); ++t)
+    tests_[t].x0 = layout->parameters(at_rest.parameters, t, tests_[t]).x0;
+  for (ForwardTest* test : resting) test->starts_at_rest = false;
+  const ForceParameters force = layout->force(at_rest.parameters);
+  LeastSquaresProblem problem = set_up(constants, force);
+  problem.start = layout_->pack(force, tests_);
+  found_ = fit(problem);
+  // Four standard errors for each speed.
+  constexpr double clear = 16.0;
+  const double variance =
+      found_.sum_of_squares / static_cast<double>(std::max<Eigen::Index>(1, problem.residuals - layout_->count()));
+  const double gain = at_rest.sum_of_squares - found_.sum_of_squares;
+  if (found_.outcome.ok() && gain > clear * static_cast<double>(resting.size()) * variance) return;
+  for (ForwardTest* test : resting) test->starts_at_rest = true;
+  layout_ = std::move(layout);
+  residuals_ = std::move(residuals);
+  found_ = at_rest;
 }
 
 Eigen::VectorXd ForwardFit::as_start(const ForwardLayout& layout, std::vector<ForwardTest>& tests) const {

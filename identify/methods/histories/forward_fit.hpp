@@ -143,6 +143,10 @@ class ForwardFit {
   [[nodiscard]] Eigen::VectorXd as_start(const ForwardLayout& layout, std::vector<ForwardTest>& tests) const;
 
  private:
+  /// Layout and residuals of the tests as they are, and the fit's bounds. `start` sets the scales.
+  LeastSquaresProblem set_up(const KnownConstants& constants, const ForceParameters& start);
+  /// A driven mass that hardly moves at first is at rest, or near a turn: its speed stays free if the data need it.
+  void free_speeds(const KnownConstants& constants);
   void search(const Record& record, const KnownConstants& constants, const RegressionOptions& options);
 
   std::string problem_;

@@ -63,9 +63,14 @@ std::optional<BootstrapSpread> spread_of(const std::vector<ForwardTest>& tests, 
                                          const ForwardResiduals& residuals, const LeastSquaresFit& found,
                                          const ParameterReading& own) {
   std::vector<NumberedHistory> histories;
-  for (const ForwardTest& test : tests) histories.push_back({test.number, test.history});
+  std::vector<MotionStart> starts;
+  for (std::size_t t = 0; t < tests.size(); ++t) {
+    histories.push_back({tests[t].number, tests[t].history});
+    const SampledOscillator::Parameters begin = layout.parameters(found.parameters, t, tests[t]);
+    starts.push_back({begin.x0, begin.v0});
+  }
   ForceParameters truth = layout.force(found.parameters);
-  const std::optional<SyntheticRecords> synthetic = synthetic_records(histories, truth, 0.0);
+  const std::optional<SyntheticRecords> synthetic = synthetic_records(histories, truth, 0.0, starts);
   if (!synthetic) return std::nullopt;
   const auto read = [&](const Record& drawn) -> std::optional<ParameterReading> {
     Eigen::VectorXd misses(residuals.count());

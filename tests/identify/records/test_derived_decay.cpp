@@ -131,6 +131,40 @@ TEST_CASE("Held, released, at rest, in noise") {
   }
 }
 
+TEST_CASE("The noise of a long rest adds no extremes") {
+  // 25,000 samples of rest, whose noise spans more than eight of its deviations.
+  const double sigma = 5e-5;
+  const History clean = released(60e-3, 15.0, 2000.0);
+  const std::vector<double> exact = sim::analytic::free_decay_extremes(soft_zeta, soft_x_f, 60e-3, 20);
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    History history = clean;
+    testing::Normal normal(seed);
+    for (double& x : history.x) x += sigma * normal();
+    const DerivedDecay decay = decay_of(history);
+    CAPTURE(seed, decay.fault);
+    REQUIRE(decay.record.extremes.size() == exact.size());
+    CHECK(decay.record.times.back() < 1.5);
+  }
+}
+
+TEST_CASE("Swings that shrink by less than the noise of their extremes are a free decay") {
+  sim::Model model = soft_bearing();
+  model.oscillator.damping = 2.0 * 0.004 * std::sqrt(mass * stiffness);
+  model.friction = {friction::Law(friction::Coulomb(0.05e-3 * stiffness, 0.05e-3 * stiffness))};
+  model.initial = {20e-3, 0.0};
+  const History clean = sampled_displacements(model, 25.0, 16.0 * natural);
+  for (std::uint64_t seed = 0; seed < 10; ++seed) {
+    History history = clean;
+    history.y.clear();
+    testing::Normal normal(seed);
+    for (double& x : history.x) x += 1e-4 * normal();
+    const DerivedDecay decay = decay_of(history);
+    CAPTURE(seed, decay.fault);
+    CHECK(decay.fault.empty());
+    CHECK(decay.record.extremes.size() > 60);
+  }
+}
+
 TEST_CASE("A long rest read by a coarse converter adds no extremes and does not outweigh the motion") {
   constexpr double X = 60e-3;
   const std::vector<double> exact = sim::analytic::free_decay_extremes(soft_zeta, soft_x_f, X, 20);

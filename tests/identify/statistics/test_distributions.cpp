@@ -23,3 +23,8 @@ TEST_CASE("The scores of normal tests are those of the tables") {
   CHECK(normal_score(1.0) == Approx(0.0).margin(1e-12));
   CHECK(normal_score(0.0) > 37.0);
 }
+
+TEST_CASE("The p-values of chi-square tests are those of the tables") {
+  CHECK(chi_square_p_value(18.307, 10.0) == Approx(0.05).epsilon(1e-4));
+  CHECK(chi_square_p_value(6.6349, 1.0) == Approx(0.01).epsilon(1e-4));
+}

@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "identify/models/sampled_oscillator.hpp"
 #include "tests/identify/histories.hpp"
 
 using namespace dualdamp;
@@ -62,6 +63,24 @@ TEST_CASE("A synthetic record obeys the law and lies within the noise of the mea
   // 1,500 samples leave the deviation of their noise with 2 %; that of y moves the mass by less.
   CHECK(root_mean_square(measured.x, exact.x) == Approx(noise).epsilon(0.1));
   CHECK(exact.y == measured.y);
+}
+
+TEST_CASE("A synthetic record of a fit begins where the fit begins, and rests where it rests") {
+  sim::Model decay = driven_bearing(11.0, 3.7, 0.0);
+  decay.excitation = {};
+  decay.initial = {20e-3, 0.0};
+  Normal normal(5);
+  const History measured = displacement_only(sampled(decay, 3.0, 500.0), 1e-4, normal);
+  const MotionStart start{20.03e-3, 0.004};
+  ForceParameters truth = bearing_law;
+  const auto synthetic = synthetic_records({{1, &measured}}, truth, 0.0, {start});
+  REQUIRE(synthetic);
+  Eigen::VectorXd x;
+  REQUIRE(
+      SampledOscillator(measured).run({truth.m, truth.c, truth.k, truth.F0, start.x0, start.v0}, {}, x, nullptr));
+  const std::vector<double>& exact = synthetic->exact.histories.front().x;
+  for (std::size_t i = 0; i < exact.size(); ++i)
+    REQUIRE(exact[i] == Approx(x[static_cast<Eigen::Index>(i)]).margin(1e-14));
 }
 
 TEST_CASE("The noise of each signal is read beside the synthetic motion, jumps of the acceleration or not") {

@@ -1,5 +1,6 @@
 #include "identify/methods/amplitudes/resonance_least_squares.hpp"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
@@ -177,6 +178,25 @@ TEST_CASE("Known measurement deviations replace the scatter") {
         Approx(2.0 * e.value.zeta * e.value.zeta * std::sqrt(1e-8 + b * b * 4e-10) * std::sqrt(2.0) / dY)
             .epsilon(1e-12));
   CHECK_FALSE(resonance_least_squares(pairs({table_1[0], table_1[3]}), table_1_constants, {}).std.has_value());
+}
+
+TEST_CASE("Pairs that scatter more than the stated deviations say are told") {
+  Normal normal(6);
+  std::vector<std::pair<double, double>> list;
+  for (int sweep = 0; sweep < 3; ++sweep)
+    for (const double Y : {4.0, 4.4, 4.8, 5.2, 5.6, 6.0, 6.4, 6.8})
+      list.emplace_back(Y, 5.0 * (Y - 2.4) + 0.1 * normal());
+  const auto said = [&](double sigma_x) {
+    LineOptions options;
+    options.sigma_x = sigma_x;
+    const Estimate e = resonance_least_squares(pairs(list), constants_at(1.0), options);
+    return std::ranges::count_if(e.warnings,
+                                 [](const std::string& w) { return mentions(w, "the readings scatter"); });
+  };
+  CHECK(said(0.05) == 1);
+  CHECK(said(0.1) == 0);
+  CHECK(said(1.0) == 0);
+  CHECK(said(0.0) == 0);
 }
 
 TEST_CASE("Pairs that stick are left out") {
