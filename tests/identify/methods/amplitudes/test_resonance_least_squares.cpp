@@ -322,8 +322,8 @@ TEST_CASE("Pairs that allow no estimate are refused with the reason") {
 
 TEST_CASE("Data left out for their own sake are named") {
   auto list = table_1;
-  list.push_back({0.3, std::nan("")});
-  list.push_back({0.3, -0.7});
+  list.emplace_back(0.3, std::nan(""));
+  list.emplace_back(0.3, -0.7);
   const Estimate e = resonance_least_squares(pairs(list), table_1_constants, {});
   REQUIRE(e.outcome.ok());
   REQUIRE(e.excluded.size() == 2);
