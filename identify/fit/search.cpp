@@ -17,6 +17,9 @@ namespace {
 
 using core::infinity;
 
+/// Huber's bound, in deviations.
+constexpr double huber = 1.345;
+
 /// The weights of the readings, and searches with them.
 class Search {
  public:
@@ -28,12 +31,20 @@ class Search {
 
   [[nodiscard]] const Eigen::VectorXd& weights() const { return weights_; }
 
-  /// Weighted sum of squares; infinite if there is no motion.
+  /// Weighted sum of squares, or Huber's sum of a robust search; infinite if there is no motion. For weights that
+  /// are not yet bounded.
   [[nodiscard]] double squares(const Eigen::VectorXd& q) const {
     Eigen::VectorXd outputs;
     if (!problem_.outputs(q, outputs)) return infinity;
-    const double sum = problem_.misses(outputs).cwiseProduct(weights_).squaredNorm();
+    const Eigen::ArrayXd sizes = problem_.misses(outputs).cwiseProduct(weights_).cwiseAbs();
+    const Eigen::ArrayXd inside = options_.robust ? sizes.min(huber) : sizes;
+    const double sum = (inside * (2.0 * sizes - inside)).sum();
     return std::isfinite(sum) ? sum : infinity;
+  }
+
+  /// `squares` at the end of a search.
+  [[nodiscard]] double squares(const LeastSquaresFit& found) const {
+    return options_.robust ? squares(found.parameters) : found.sum_of_squares;
   }
 
   [[nodiscard]] LeastSquaresFit improve(const Eigen::VectorXd& start, double tolerance, int most_iterations) const {
@@ -60,10 +71,11 @@ class Search {
   }
 
   /// Sets the weights from the residuals of a fit. `rows_of_fit`: weighted derivatives there. Returns the largest
-  /// relative change of a deviation.
+  /// relative change of a deviation, or of a weight: those of outliers change also where the noise is stated.
   double reweight(const Eigen::VectorXd& outputs, const Eigen::MatrixXd& rows_of_fit) {
     const Eigen::VectorXd misses = problem_.misses(outputs);
     const std::vector<double> freedoms = freedoms_of(problem_, rows_of_fit);
+    const Eigen::VectorXd before = weights_;
     double change = 0.0;
     for (std::size_t s = 0; s < deviations_.size(); ++s) {
       const SignalRows& rows = problem_.signals()[s];
@@ -78,6 +90,8 @@ class Search {
     }
     spread();
     if (options_.robust) bound(misses);
+    for (Eigen::Index i = 0; i < before.size(); ++i)
+      if (weights_[i] > 0.0) change = std::max(change, std::abs(std::log(weights_[i] / before[i])));
     return change;
   }
 
@@ -102,7 +116,6 @@ class Search {
 
   /// Huber's weights: a residual beyond the bound has the influence of one at the bound.
   void bound(const Eigen::VectorXd& misses) {
-    constexpr double huber = 1.345;
     for (Eigen::Index i = 0; i < misses.size(); ++i) {
       const double size = std::abs(misses[i]) * weights_[i];
       if (size > huber) weights_[i] *= std::sqrt(huber / size);
@@ -138,7 +151,9 @@ std::vector<Eigen::VectorXd> best_of(const std::vector<Eigen::VectorXd>& points,
 /// Tolerance of the first steps, which only choose among several searches.
 constexpr double rough = 1e-3;
 
-void take_better(LeastSquaresFit found, const FitProblem& problem, std::optional<LeastSquaresFit>& best) {
+void take_better(LeastSquaresFit found, const Search& search, const FitProblem& problem,
+                 std::optional<LeastSquaresFit>& best) {
+  found.sum_of_squares = search.squares(found);
   if (!std::isfinite(found.sum_of_squares) || found.jacobian.rows() != problem.rows()) return;
   if (!best || found.sum_of_squares < best->sum_of_squares) best = std::move(found);
 }
@@ -159,7 +174,7 @@ std::optional<LeastSquaresFit> search_whole(const std::vector<Eigen::VectorXd>& 
   constexpr int some = 16;
   std::optional<LeastSquaresFit> best;
   for (const Eigen::VectorXd& q : best_of(points, search, 1))
-    take_better(search.improve(q, rough, some), problem, best);
+    take_better(search.improve(q, rough, some), search, problem, best);
   return best;
 }
 
@@ -197,7 +212,7 @@ std::optional<LeastSquaresFit> search_roughly(const std::vector<Eigen::VectorXd>
     if (!found) return false;
     constexpr double alike = 0.01;
     const bool agrees = best && std::abs(found->sum_of_squares / best->sum_of_squares - 1.0) < alike;
-    take_better(std::move(*found), problem, best);
+    take_better(std::move(*found), search, problem, best);
     return agrees;
   };
   ends_alike(search_growing(points, 0.1, search, problem, options));
@@ -205,7 +220,7 @@ std::optional<LeastSquaresFit> search_roughly(const std::vector<Eigen::VectorXd>
   const std::vector<Eigen::VectorXd> starts = best_of(points, search, options.most_starts);
   constexpr int few = 8;
   for (const Eigen::VectorXd& start : starts)
-    take_better(search.improve(start, rough, starts.size() > 1 ? few : 100), problem, best);
+    take_better(search.improve(start, rough, starts.size() > 1 ? few : 100), search, problem, best);
   return best;
 }
 
