@@ -7,17 +7,20 @@
 ///   loop           the force that moves the mass along the measured motion, m a + c v + k x + F(x, v)
 ///
 /// The engine of the laws computes a motion, from event to event. Measured signals are not differentiated, except
-/// for a loop whose velocity or acceleration was not measured.
+/// for a loop that needs a velocity or an acceleration that was not measured. There, all terms of the equation,
+/// m a, c v, k x, F and the force, pass the same filter.
 ///
 /// Errors: `predict` returns false if the model has no such motion. Cost: that of the motion or the steady states.
 
 #include <Eigen/Core>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "identify/fit/rig.hpp"
+#include "identify/records/signals.hpp"
 
 namespace dualdamp::identify {
 
@@ -34,6 +37,8 @@ struct Signal {
   bool is_stated = false;
   /// The readings are samples; the errors of neighbours may be correlated.
   bool is_sampled = false;
+  /// All noise of the signal has passed this filter; `noise` is that behind it.
+  std::optional<ZeroPhaseFilter> filter;
   /// Samples beside a jump of the signal. They have no weight: a small change of the model moves them across the
   /// jump.
   std::vector<std::size_t> unsure;
@@ -61,8 +66,8 @@ class Experiment {
   ExperimentKind kind = ExperimentKind::history;
   std::string label;  ///< name of its file, and its label in it
   std::vector<Signal> signals;
-  OwnValues own_start{};        ///< start values, from the record or known
-  std::vector<Own> own_free;    ///< parameters that are sought unless they are known
+  OwnValues own_start{};          ///< start values, from the record or known
+  std::vector<Own> own_free;      ///< parameters that are sought unless they are known
   std::vector<Own> own_others;  ///< parameters that may be sought as well
 
   /// Input amplitude [m or N] and frequency [rad/s] of each steady state; empty for other kinds.
@@ -94,6 +99,7 @@ class Experiment {
 struct ExperimentOptions {
   std::string name;  ///< of the file
   bool loop = false;
+  bool has_mass = false;       ///< the force of a loop also accelerates a mass
   double frequency = unknown;  ///< of pairs without a frequency [rad/s]
   bool force_driven = false;   ///< Y is the amplitude of a force [N]
   double sigma_x = 0.0;        ///< stated noise of x, amplitudes or extremes [m]; 0: none

@@ -54,6 +54,8 @@ void describe_signals(const FitProblem& problem, const Eigen::VectorXd& weights,
     if (!robust && !problem.signal(rows).is_sampled)
       signal.p_value = either_p_value(signal.p_value, serial.p_value(rows));
     signal.independent = independent_samples(own, problem.signal(rows).is_sampled);
+    const std::optional<ZeroPhaseFilter>& filter = problem.signal(rows).filter;
+    signal.white = static_cast<double>(size) * (filter ? std::pow(filter->noise_gain(), 2) : 1.0);
     result.log_likelihood_count += signal.independent;
     if (problem.signal(rows).is_stated && signal.freedom > least_freedom) {
       const double share = signal.freedom / counted;
@@ -109,7 +111,7 @@ std::optional<Eigen::VectorXd> describe(const FitProblem& problem, const Request
   result.own = problem.own(values);
   const Eigen::VectorXd misses = problem.misses(result.outputs);
   describe_signals(problem, found.weights, misses, jacobian, request.options.robust, result);
-  warn_of_residuals(request.experiments, result);
+  warn_of_residuals(request.experiments, request.options.robust, result);
   for (std::size_t i = 0; i < request.parameters.size(); ++i)
     result.parameters.push_back(
         {.parameter = request.parameters[i], .value = values[static_cast<Eigen::Index>(i)]});

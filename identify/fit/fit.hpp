@@ -62,6 +62,7 @@ struct FittedSignal {
   double noise = unknown;        ///< of the sensor, stated or from the roughness of the signal
   double noise_units = unknown;  ///< rms over noise
   double independent = 0.0;      ///< number of samples that count as independent
+  double white = 0.0;            ///< the same if the residuals are the noise of the sensor, behind its filter
   double freedom = 0.0;          ///< readings that count, minus the parameters they determine (`freedom.hpp`)
   double p_value = unknown;      ///< chance that the residuals are noise alone (`residual_test.hpp`)
   /// If the noise is stated: variance of the residuals over that of the noise, per degree of freedom; and the

@@ -23,21 +23,24 @@ class FrictionLoop final : public Experiment {
   FrictionLoop(const History& history, const ExperimentOptions& options)
       : start_(history.start), rate_(history.sample_rate), x_(history.x), v_(history.v), a_(history.a) {
     kind = ExperimentKind::loop;
-    std::vector<double> force = history.force;
     RobustNoiseLevel level;
-    level.add(force);
-    smooth(history, force);
-    Signal signal{.name = "force",
-                  .unit = "N",
-                  .measured = std::vector<double>(force.begin() + static_cast<std::ptrdiff_t>(edge_),
-                                                  force.end() - static_cast<std::ptrdiff_t>(edge_)),
-                  .at_name = "t",
-                  .at_unit = "s",
-                  .noise = options.sigma_force > 0.0 ? options.sigma_force
-                           : filter_                 ? 0.0
-                                                     : level.deviation(),
-                  .is_stated = options.sigma_force > 0.0,
-                  .is_sampled = true};
+    level.add(history.force);
+    complete(history, options.has_mass);
+    std::vector<double> force = history.force;
+    bridge(force);
+    if (filter_) force = (*filter_)(force);
+    const bool is_stated = options.sigma_force > 0.0;
+    Signal signal{
+        .name = "force",
+        .unit = "N",
+        .measured = std::vector<double>(force.begin() + static_cast<std::ptrdiff_t>(edge_),
+                                        force.end() - static_cast<std::ptrdiff_t>(edge_)),
+        .at_name = "t",
+        .at_unit = "s",
+        .noise = (is_stated ? options.sigma_force : level.deviation()) * (filter_ ? filter_->noise_gain() : 1.0),
+        .is_stated = is_stated,
+        .is_sampled = true,
+        .filter = filter_};
     for (std::size_t i = edge_; i + edge_ < force.size(); ++i)
       signal.at.push_back(start_ + static_cast<double>(i) / rate_);
     signals.push_back(std::move(signal));
@@ -49,13 +52,14 @@ class FrictionLoop final : public Experiment {
     const sim::Oscillator& o = model.oscillator;
     const double offset = own[static_cast<std::size_t>(Own::offset)];
     std::vector<double> force(x_.size());
+    for (const friction::Law& law : model.friction)
+      if (!add(law, offset, force)) return false;
+    bridge(force);
     for (std::size_t i = 0; i < force.size(); ++i) {
       if (o.mass > 0.0) force[i] += o.mass * a_[i];
       if (o.stiffness > 0.0) force[i] -= sim::spring_force(o, offset - x_[i]);
       if (!std::isnan(o.damping)) force[i] += o.damping * v_[i];
     }
-    for (const friction::Law& law : model.friction)
-      if (!add(law, force)) return false;
     if (filter_) force = (*filter_)(force);
     outputs = Eigen::Map<const Eigen::VectorXd>(force.data() + edge_,
                                                 static_cast<Eigen::Index>(signals.front().measured.size()));
@@ -63,43 +67,63 @@ class FrictionLoop final : public Experiment {
   }
 
  private:
-  /// Differentiates or integrates the signals that were not measured. If v was not measured, all signals are
-  /// filtered.
-  void smooth(const History& history, std::vector<double>& force) {
-    if (!v_.empty() && !x_.empty() && !a_.empty()) return;
-    if (x_.empty()) {
-      x_.assign(v_.size(), 0.0);
-      for (std::size_t i = 1; i < v_.size(); ++i) x_[i] = x_[i - 1] + 0.5 * (v_[i] + v_[i - 1]) / rate_;
-      if (a_.empty()) a_ = central_difference(v_, rate_);
-      if (history.a.empty()) return;
+  /// Differentiates or integrates the signals that were not measured. If one is a derivative, all forces are
+  /// filtered; an acceleration that no mass needs is none.
+  void complete(const History& history, bool has_mass) {
+    const bool lacks_speed = v_.empty();
+    if (x_.empty()) x_ = sharp_integral(v_, rate_);
+    if (lacks_speed) v_ = sharp_difference(x_, rate_);
+    if (a_.empty()) a_ = lacks_speed ? sharp_second_difference(x_, rate_) : sharp_difference(v_, rate_);
+    law_x_ = x_;
+    law_v_ = v_;
+    if (!lacks_speed && !(has_mass && history.a.empty())) return;
+    History whole = history;
+    whole.x = x_;
+    const std::vector<double> cutoffs = cutoffs_for(whole, {});
+    if (!(cutoffs.front() > 0.0) || !fault_of_cutoff(whole, cutoffs.front()).empty()) return;
+    filter_.emplace(cutoffs.front(), rate_);
+    edge_ = filter_->edge();
+    if (lacks_speed) {
+      law_x_ = (*filter_)(x_);
+      law_v_ = sharp_difference(law_x_, rate_);
     }
-    if (!v_.empty() && a_.empty()) a_ = central_difference(v_, rate_);
-    if (!v_.empty()) return;
-    const std::vector<double> cutoffs = cutoffs_for(history, {});
-    if (!cutoffs.empty() && cutoffs.front() > 0.0 && fault_of_cutoff(history, cutoffs.front()).empty()) {
-      filter_.emplace(cutoffs.front(), rate_);
-      edge_ = filter_->edge();
-      x_ = (*filter_)(x_);
-      force = (*filter_)(force);
-      if (!a_.empty()) a_ = (*filter_)(a_);
+    for (std::size_t i = 1; i + 2 < law_v_.size(); ++i) {
+      if (law_v_[i] != 0.0 && law_v_[i] * law_v_[i + 1] >= 0.0) continue;
+      const std::size_t nearest = std::abs(law_v_[i]) <= std::abs(law_v_[i + 1]) ? i : i + 1;
+      if (turns_.empty() || turns_.back() != nearest) turns_.push_back(nearest);
     }
-    v_ = central_difference(x_, rate_);
-    if (a_.empty()) a_ = second_difference(x_, rate_);
+    // As `bridge`, but by the filtered signals: the mean of two derivatives has noise of all frequencies.
+    for (std::vector<double>* signal : {&x_, &v_, &a_}) {
+      const std::vector<double> smooth = (*filter_)(*signal);
+      for (const std::size_t i : turns_) (*signal)[i] += 0.5 * (smooth[i - 1] + smooth[i + 1]) - smooth[i];
+    }
   }
 
-  [[nodiscard]] Instant instant(std::size_t i) const { return {static_cast<double>(i) / rate_, x_[i], v_[i]}; }
+  /// The force may jump at a reversal, and a filter would spread the jump of a sample on the wrong side of it. The
+  /// sample next to a reversal is replaced by the mean of its neighbours, in the measured force and in all that is
+  /// predicted.
+  void bridge(std::vector<double>& force) const {
+    const std::vector<double> before = turns_.empty() ? std::vector<double>() : force;
+    for (const std::size_t i : turns_) force[i] = 0.5 * (before[i - 1] + before[i + 1]);
+  }
+
+  /// The zero of the sensor of x does not act on a law.
+  [[nodiscard]] Instant instant(std::size_t i, double offset) const {
+    return {static_cast<double>(i) / rate_, law_x_[i] - offset, law_v_[i]};
+  }
 
   /// Adds the force of a law. A law without memory needs no path between the samples.
-  [[nodiscard]] bool add(const friction::Law& law, std::vector<double>& force) const {
+  [[nodiscard]] bool add(const friction::Law& law, double offset, std::vector<double>& force) const {
     if (!law.is_modal() && !law.has_rates() && !(law.delay() > 0.0) && !law.advances()) {
-      for (std::size_t i = 0; i < force.size(); ++i) force[i] += law.force({}, instant(i), direction_of(v_[i]));
+      for (std::size_t i = 0; i < force.size(); ++i)
+        force[i] += law.force({}, instant(i, offset), direction_of(law_v_[i]));
       return true;
     }
-    sim::LawHost host(law, instant(0));
-    host.change_direction(direction_of(v_[0]));
+    sim::LawHost host(law, instant(0, offset));
+    host.change_direction(direction_of(law_v_[0]));
     force[0] += host.force();
     for (std::size_t i = 1; i < force.size(); ++i) {
-      move(host, i);
+      move(host, i, offset);
       if (host.broken()) return false;
       force[i] += host.force();
     }
@@ -107,9 +131,9 @@ class FrictionLoop final : public Experiment {
   }
 
   /// Moves the law from sample i - 1 to sample i. The velocity is a straight line, which may cross zero once.
-  void move(sim::LawHost& host, std::size_t i) const {
-    const Instant from = instant(i - 1);
-    const Instant to = instant(i);
+  void move(sim::LawHost& host, std::size_t i, double offset) const {
+    const Instant from = instant(i - 1, offset);
+    const Instant to = instant(i, offset);
     const double h = to.t - from.t;
     // Difference of the measured step from the step with this velocity.
     const double left = to.x - from.x - 0.5 * h * (from.v + to.v);
@@ -129,8 +153,10 @@ class FrictionLoop final : public Experiment {
 
   double start_;
   double rate_;
-  std::vector<double> x_, v_, a_;
+  std::vector<double> x_, v_, a_;      ///< measured, or derivatives or integrals of what was measured
+  std::vector<double> law_x_, law_v_;  ///< for the laws: filtered before they are differentiated
   std::optional<ZeroPhaseFilter> filter_;
+  std::vector<std::size_t> turns_;  ///< samples next to a reversal, if there is a filter
   std::size_t edge_ = 0;
 };
 

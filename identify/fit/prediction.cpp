@@ -143,8 +143,7 @@ std::string percent(double share) { return core::format_number(100.0 * share, 3)
 bool lasts(const Fit& fit) {
   constexpr double share = 0.5;
   return std::ranges::any_of(fit.signals, [](const FittedSignal& signal) {
-    const auto readings = static_cast<double>(signal.rows.end - signal.rows.begin);
-    return signal.noise_units > 1.0 && signal.independent < share * readings;
+    return signal.noise_units > 1.0 && signal.independent < share * signal.white;
   });
 }
 

@@ -43,9 +43,24 @@ std::vector<double> powers(const Eigen::VectorXd& signal) {
   return power;
 }
 
-double p_value_of_motion(const Eigen::VectorXd& measured, const Eigen::VectorXd& residuals) {
-  const std::vector<double> motion = powers(measured);
-  const std::vector<double> left = powers(residuals);
+/// Keeps the frequencies up to the cut-off of a filter that the noise has passed, and divides their power by that
+/// of its gain: what remains of noise is white again.
+void whiten(const ZeroPhaseFilter& filter, Eigen::Index length, std::vector<double>& power) {
+  constexpr double half = 0.5;
+  for (std::size_t j = 0; j < power.size(); ++j) {
+    const double gain = filter.gain(static_cast<double>(j + 1) / static_cast<double>(length));
+    if (gain < half) return power.resize(j);
+    power[j] /= gain * gain;
+  }
+}
+
+double p_value_of_motion(const Signal& signal, const Eigen::VectorXd& measured, const Eigen::VectorXd& residuals) {
+  std::vector<double> motion = powers(measured);
+  std::vector<double> left = powers(residuals);
+  if (signal.filter) {
+    whiten(*signal.filter, quick_length(measured.size()), motion);
+    whiten(*signal.filter, quick_length(measured.size()), left);
+  }
   std::vector<std::size_t> order(motion.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::ranges::sort(order, [&](std::size_t a, std::size_t b) { return motion[a] > motion[b]; });
@@ -75,7 +90,7 @@ double noise_p_value(const Signal& signal, const Eigen::VectorXd& residuals, dou
   const double size = (measured.array() - measured.mean()).matrix().norm();
   if (residuals.norm() <= exact * size) return unknown;
   if (signal.is_sampled)
-    return residuals.size() < least_test_samples ? unknown : p_value_of_motion(measured, residuals);
+    return residuals.size() < least_test_samples ? unknown : p_value_of_motion(signal, measured, residuals);
   const double freedom = static_cast<double>(residuals.size()) - spent;
   if (!signal.is_stated || freedom < 1.0) return unknown;
   // F with infinitely many degrees of freedom in the denominator is chi-square.
@@ -132,15 +147,27 @@ std::string said_of_stated(const FittedSignal& fitted, const std::string& who) {
          "the residuals";
 }
 
+/// White residuals far above the noise of their signal come from somewhere else; the fit takes them for its noise.
+std::string said_of_noise(const FittedSignal& fitted, const std::string& who) {
+  return who + " are " + core::format_number(fitted.noise_units, 3) +
+         " times the noise of that signal, though they look like noise: that of other signals of the record, which "
+         "the law and the derivatives pass on, or outliers. The estimates may be off by more than the intervals say; "
+         "measure v and a rather than x, or use 'robust' for outliers";
+}
+
 }  // namespace
 
-void warn_of_residuals(const Experiments& experiments, Fit& fit) {
+void warn_of_residuals(const Experiments& experiments, bool robust, Fit& fit) {
   for (const FittedSignal& fitted : fit.signals) {
     const Experiment& experiment = *experiments[fitted.rows.experiment];
     const Signal& signal = experiment.signals[fitted.rows.signal];
     const std::string who = experiment.label + ": the residuals of " + signal.name;
     if (contradicts_stated(fitted) != 0) fit.warnings.push_back(said_of_stated(fitted, who));
     // For readings that are not samples, `said_of_stated` has already reported residuals above the stated noise.
+    constexpr double far = 3.0;
+    if (is_noise(fitted.p_value) && contradicts_stated(fitted) == 0 && signal.is_sampled && !robust &&
+        fitted.noise_units > far)
+      fit.warnings.push_back(said_of_noise(fitted, who));
     if (is_noise(fitted.p_value) || (!signal.is_sampled && contradicts_stated(fitted) > 0)) continue;
     std::string text = who;
     if (fitted.noise_units > 1.0) text += ", " + core::format_number(fitted.noise_units, 3) + " times the noise,";

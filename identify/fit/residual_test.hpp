@@ -8,8 +8,10 @@
 ///   F = (sum_B P_j/b) / (sum_others P_j/r),   2b and 2r degrees of freedom.
 ///
 /// The test needs no noise level. It detects an error of the motion of a third of the noise, which the rms hardly
-/// shows. It also rejects noise that the sensor smoothed. Other readings with a stated noise s: chi-square test of
-/// sum r_i^2/s^2. A robust fit gives outliers little weight; its residuals enter as it counts them.
+/// shows. It also rejects noise that the sensor smoothed. Of a signal that the fit itself filtered, it takes the
+/// frequencies up to the cut-off, and divides the power by that of the gain of the filter. Other readings with a
+/// stated noise s: chi-square test of sum r_i^2/s^2. A robust fit gives outliers little weight; its residuals enter
+/// as it counts them.
 ///
 /// A stated noise may be too small or too large: a two-sided chi-square test with the readings that count as
 /// independent. It is called wrong for a chance below 0.001 and a ratio of the deviations beyond a factor of 1.3.
@@ -44,7 +46,9 @@ void compare_with_stated(double deviation, double freedom, FittedSignal& signal)
 /// Whether the residuals contradict the stated noise. > 0: they are larger; < 0: they are smaller; 0: no.
 [[nodiscard]] int contradicts_stated(const FittedSignal& signal);
 
-/// Adds warnings to `fit`: signals whose residuals are not noise, and stated noises that are wrong.
-void warn_of_residuals(const Experiments& experiments, Fit& fit);
+/// Adds warnings to `fit`: signals whose residuals are not noise, and stated noises that are wrong. Also signals
+/// whose residuals look like noise, but far above that of the sensor; not in a `robust` fit, where outliers do
+/// that.
+void warn_of_residuals(const Experiments& experiments, bool robust, Fit& fit);
 
 }  // namespace dualdamp::identify

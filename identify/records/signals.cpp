@@ -58,9 +58,45 @@ std::vector<double> second_difference(std::span<const double> x, double sample_r
   return a;
 }
 
+std::vector<double> sharp_difference(std::span<const double> x, double sample_rate) {
+  const std::size_t n = x.size();
+  std::vector<double> v = central_difference(x, sample_rate);
+  for (std::size_t i = 2; i + 2 < n; ++i) {
+    const double near = x[i + 1] - x[i - 1];
+    const double next = x[i + 2] - x[i - 2];
+    const bool is_inside = i >= 3 && i + 3 < n;
+    v[i] = is_inside ? sample_rate / 60.0 * (45.0 * near - 9.0 * next + (x[i + 3] - x[i - 3]))
+                     : sample_rate / 12.0 * (8.0 * near - next);
+  }
+  return v;
+}
+
+std::vector<double> sharp_second_difference(std::span<const double> x, double sample_rate) {
+  const std::size_t n = x.size();
+  const double unit = sample_rate * sample_rate;
+  std::vector<double> a = second_difference(x, sample_rate);
+  for (std::size_t i = 2; i + 2 < n; ++i) {
+    const double near = x[i + 1] - 2.0 * x[i] + x[i - 1];
+    const double next = x[i + 2] - 2.0 * x[i] + x[i - 2];
+    const bool is_inside = i >= 3 && i + 3 < n;
+    a[i] = is_inside ? unit / 180.0 * (270.0 * near - 27.0 * next + 2.0 * (x[i + 3] - 2.0 * x[i] + x[i - 3]))
+                     : unit / 12.0 * (16.0 * near - next);
+  }
+  return a;
+}
+
 std::vector<double> running_integral(std::span<const double> x, double sample_rate) {
   std::vector<double> sum(x.size(), 0.0);
   for (std::size_t i = 1; i < x.size(); ++i) sum[i] = sum[i - 1] + 0.5 / sample_rate * (x[i - 1] + x[i]);
+  return sum;
+}
+
+std::vector<double> sharp_integral(std::span<const double> x, double sample_rate) {
+  std::vector<double> sum(x.size(), 0.0);
+  for (std::size_t i = 1; i < x.size(); ++i) {
+    const double curve = i >= 2 && i + 1 < x.size() ? x[i + 1] - x[i] - x[i - 1] + x[i - 2] : 0.0;
+    sum[i] = sum[i - 1] + (0.5 * (x[i - 1] + x[i]) - curve / 24.0) / sample_rate;
+  }
   return sum;
 }
 
@@ -89,14 +125,30 @@ ZeroPhaseFilter::ZeroPhaseFilter(double cutoff, double sample_rate) {
                          "> 0 and < " + core::format_number(0.5 * sample_rate, 6) + " Hz",
                          core::format_number(cutoff, 6) + " Hz",
                          {}});
-  const double warped = std::tan(pi * cutoff / sample_rate);
-  const double norm = 1.0 / (1.0 + std::numbers::sqrt2 * warped + warped * warped);
-  b_ = warped * warped * norm;
-  a1_ = 2.0 * (warped * warped - 1.0) * norm;
-  a2_ = (1.0 - std::numbers::sqrt2 * warped + warped * warped) * norm;
+  warped_ = std::tan(pi * cutoff / sample_rate);
+  const double norm = 1.0 / (1.0 + std::numbers::sqrt2 * warped_ + warped_ * warped_);
+  b_ = warped_ * warped_ * norm;
+  a1_ = 2.0 * (warped_ * warped_ - 1.0) * norm;
+  a2_ = (1.0 - std::numbers::sqrt2 * warped_ + warped_ * warped_) * norm;
   // The transient of the filter decays like exp(-2 pi cutoff t/sqrt(2)), to a thousandth in seven time constants.
   constexpr double time_constants = 7.0;
   edge_ = static_cast<std::size_t>(std::ceil(time_constants * sample_rate / (std::numbers::sqrt2 * pi * cutoff)));
+}
+
+double ZeroPhaseFilter::gain(double frequency) const {
+  const double ratio = std::tan(pi * frequency) / warped_;
+  return 1.0 / (1.0 + ratio * ratio * ratio * ratio);
+}
+
+double ZeroPhaseFilter::noise_gain() const {
+  // Midpoint rule: the gain is a smooth periodic function of the frequency.
+  constexpr int steps = 4096;
+  double sum = 0.0;
+  for (int i = 0; i < steps; ++i) {
+    const double here = gain(0.5 * (i + 0.5) / steps);
+    sum += here * here;
+  }
+  return std::sqrt(sum / steps);
 }
 
 /// Filters in place, from the steady state for the value of the first sample.

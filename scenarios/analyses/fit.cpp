@@ -62,8 +62,8 @@ Setup setup_of(const Json& analysis, const Json& system, const sim::Model& model
   refuse_idle_drive(all, model, faults);
   setup.warnings = remove_zeros(data, model, sought);
   std::ranges::move(remove_zeros(validation, model, {}), std::back_inserter(setup.warnings));
-  setup.data = experiments_from(data, "data", model, initial_is_known, faults);
-  setup.validation = experiments_from(validation, "validate", model, false, faults);
+  setup.data = experiments_from(data, "data", model, sought, faults);
+  setup.validation = experiments_from(validation, "validate", model, {sought.free, sought.bounds}, faults);
   if (setup.data.empty()) return setup;
   std::vector<std::string> laws = {""};
   if (analysis.contains("laws")) laws = analysis.at("laws").get<std::vector<std::string>>();

@@ -111,7 +111,7 @@ std::unique_ptr<const Question> ask_predict(CheckedValues&& values) {
   std::vector<identify::FitParameter> parameters = fitted_parameters(rig, values.analysis, faults);
   std::vector<DataItem> items = items_of(values.analysis, values.files, "data");
   std::vector<std::string> warnings = remove_zeros(items, values.model, {});
-  identify::Experiments data = experiments_from(items, "data", values.model, false, faults);
+  identify::Experiments data = experiments_from(items, "data", values.model, {}, faults);
   refuse_other_drives(items, "data", values.model, values.drive_start, {}, faults);
   refuse(faults);
   std::ranges::move(drive_warnings(values.model), std::back_inserter(warnings));

@@ -341,8 +341,21 @@ void refuse(const std::vector<SetupFault>& faults) {
   throw core::InputError(std::move(problems));
 }
 
+namespace {
+
+/// Whether the mass is part of the equation of motion. A fit of loops alone goes without one that is neither stated
+/// nor sought.
+bool has_mass(const sim::Model& model, const std::vector<DataItem>& items, const Sought& sought) {
+  const auto is_loop = [](const DataItem& item) { return item.keys.value("loop", false); };
+  const auto is_mass = [](const std::string& name) { return name == "mass" || name == "system.mass"; };
+  if (!std::ranges::all_of(items, is_loop)) return true;
+  return model.oscillator.mass > 0.0 || std::ranges::any_of(sought.free, is_mass);
+}
+
+}  // namespace
+
 identify::Experiments experiments_from(const std::vector<DataItem>& items, const std::string& key,
-                                       const sim::Model& model, bool initial_is_known,
+                                       const sim::Model& model, const Sought& sought,
                                        std::vector<SetupFault>& faults) {
   identify::Experiments all;
   const sim::Excitation& drive = model.excitation;
@@ -352,6 +365,7 @@ identify::Experiments experiments_from(const std::vector<DataItem>& items, const
     identify::ExperimentOptions options{
         .name = items[i].file,
         .loop = keys.value("loop", false),
+        .has_mass = has_mass(model, items, sought),
         .frequency = drive.is_harmonic() && drive.frequency > 0.0 ? drive.frequency : identify::unknown,
         .force_driven = drive.type == sim::ExcitationType::force_harmonic};
     for (const auto& [name, value] : {std::pair{"sigma_x", &options.sigma_x},
@@ -371,7 +385,7 @@ identify::Experiments experiments_from(const std::vector<DataItem>& items, const
       if (experiment->kind == identify::ExperimentKind::history && drive.is_harmonic() && !(drive.amplitude > 0.0))
         faults.push_back(
             {place, items[i].file + ": a history under a harmonic drive needs 'excitation.amplitude'"});
-      if (initial_is_known && experiment->kind == identify::ExperimentKind::history) {
+      if (sought.initial_is_known && experiment->kind == identify::ExperimentKind::history) {
         experiment->own_start[static_cast<std::size_t>(Own::position)] = model.initial.position;
         experiment->own_start[static_cast<std::size_t>(Own::velocity)] = model.initial.velocity;
       }

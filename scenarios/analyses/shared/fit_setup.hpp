@@ -58,7 +58,7 @@ void refuse(const std::vector<SetupFault>& faults);
 
 /// Experiments of all items; data that cannot be used are reported in `faults`, with the `index` of the item.
 [[nodiscard]] identify::Experiments experiments_from(const std::vector<DataItem>& items, const std::string& key,
-                                                     const sim::Model& model, bool initial_is_known,
+                                                     const sim::Model& model, const Sought& sought,
                                                      std::vector<SetupFault>& faults);
 
 /// Subtracts zeros of x that are larger than the displacement at which friction can hold the mass, as `identify`
