@@ -1,5 +1,7 @@
 #include "identify/fit/experiment.hpp"
 
+#include <algorithm>
+
 #include "identify/fit/experiments.hpp"
 
 namespace dualdamp::identify {
@@ -45,6 +47,13 @@ FitParameter own_parameter(const Experiment& experiment, std::size_t index, Own 
           .index = index,
           .own = own,
           .stated = experiment.own_start[at]};
+}
+
+std::vector<Own> sought_own(const Experiment& experiment, bool feels_place) {
+  std::vector<Own> sought = experiment.own_free;
+  for (const Own own : experiment.own_of_place)
+    if (feels_place && std::ranges::find(sought, own) == sought.end()) sought.push_back(own);
+  return sought;
 }
 
 std::vector<std::unique_ptr<Experiment>> experiments_of(const Record& record, const ExperimentOptions& options,

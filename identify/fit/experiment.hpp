@@ -68,7 +68,8 @@ class Experiment {
   std::vector<Signal> signals;
   OwnValues own_start{};          ///< start values, from the record or known
   std::vector<Own> own_free;      ///< parameters that are sought unless they are known
-  std::vector<Own> own_others;  ///< parameters that may be sought as well
+  std::vector<Own> own_of_place;  ///< also sought unless they are known, if a force depends on the position
+  std::vector<Own> own_others;    ///< parameters that may be sought as well
 
   /// Input amplitude [m or N] and frequency [rad/s] of each steady state; empty for other kinds.
   [[nodiscard]] virtual std::vector<std::pair<double, double>> levels() const { return {}; }
@@ -94,6 +95,9 @@ class Experiment {
 
 /// A parameter of a single record. `is_alone`: there is one record only, so the name needs no number.
 [[nodiscard]] FitParameter own_parameter(const Experiment& experiment, std::size_t index, Own own, bool is_alone);
+
+/// The parameters of a record that are sought unless they are known. `feels_place`: that of the rig.
+[[nodiscard]] std::vector<Own> sought_own(const Experiment& experiment, bool feels_place);
 
 /// What the caller states about a record.
 struct ExperimentOptions {

@@ -45,6 +45,7 @@ class FrictionLoop final : public Experiment {
       signal.at.push_back(start_ + static_cast<double>(i) / rate_);
     signals.push_back(std::move(signal));
     own_others = {Own::offset};
+    if (history.x.empty()) own_of_place = {Own::offset};
   }
 
   [[nodiscard]] bool predict(const sim::Model& model, const OwnValues& own,

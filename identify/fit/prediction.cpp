@@ -13,10 +13,11 @@ namespace dualdamp::identify {
 
 namespace {
 
-std::vector<FitParameter> own_parameters(const Experiments& experiments) {
+std::vector<FitParameter> own_parameters(const Rig& rig, const Experiments& experiments) {
   std::vector<FitParameter> list;
+  const bool placed = feels_place(rig, {});
   for (std::size_t e = 0; e < experiments.size(); ++e)
-    for (const Own own : experiments[e]->own_free)
+    for (const Own own : sought_own(*experiments[e], placed))
       list.push_back(own_parameter(*experiments[e], e, own, experiments.size() == 1));
   return list;
 }
@@ -180,7 +181,7 @@ Prediction predict_records(const Rig& rig, const std::vector<FitParameter>& para
   Prediction found;
   FitOptions quick = options;
   quick.profile = false;
-  found.fit = fit_rig(rig, own_parameters(experiments), experiments, quick);
+  found.fit = fit_rig(rig, own_parameters(rig, experiments), experiments, quick);
   if (!found.fit.outcome.ok()) {
     found.outcome = found.fit.outcome;
     found.text = found.outcome.reason;
@@ -204,7 +205,7 @@ Prediction predict_records(const Rig& rig, const std::vector<FitParameter>& para
     if (same.size() == 1) all.back().stated = same.front().stated;
   }
   const std::vector<FitParameter> shared = all;
-  std::ranges::move(own_parameters(experiments), std::back_inserter(all));
+  std::ranges::move(own_parameters(rig, experiments), std::back_inserter(all));
   const Fit attainable = fit_rig(rig, all, experiments, quick);
   if (!attainable.outcome.ok()) {
     found.text = "the record alone does not determine the rig: " + attainable.outcome.reason;

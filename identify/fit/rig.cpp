@@ -5,7 +5,9 @@
 #include <map>
 #include <utility>
 
+#include "friction_models/law_fault.hpp"
 #include "friction_models/registry.hpp"
+#include "sim/conformance/law_host.hpp"
 
 namespace dualdamp::identify {
 
@@ -318,6 +320,34 @@ std::optional<Rig> with_values(const Rig& rig, const std::vector<FitParameter>& 
     if (!friction::complete(*law.entry, completed).empty()) return std::nullopt;
   }
   return result;
+}
+
+bool feels_place(const Rig& rig, const std::vector<FitParameter>& sought) {
+  Eigen::VectorXd values(static_cast<Eigen::Index>(sought.size()));
+  for (std::size_t i = 0; i < sought.size(); ++i) {
+    const double stated = sought[i].stated;
+    const bool counts = stated < 0.0 || stated > 0.0;
+    values[static_cast<Eigen::Index>(i)] =
+        counts ? stated : std::clamp(1.0, sought[i].range.low, sought[i].range.high);
+  }
+  try {
+    const std::optional<Rig> whole = with_values(rig, sought, values);
+    const std::optional<sim::Model> model = whole ? model_of(*whole) : std::nullopt;
+    if (!model) return false;
+    const auto depends = [](const friction::Law& law) {
+      constexpr double far = 100.0;      // m
+      constexpr double rounding = 1e-5;  // N
+      const auto force_at = [&](double x) {
+        sim::LawHost host(law, {.x = x});
+        host.change_direction(friction::Direction::forward);
+        return host.force();
+      };
+      return std::abs(force_at(0.0) - force_at(far)) > rounding;
+    };
+    return model->oscillator.stiffness > 0.0 || std::ranges::any_of(model->friction, depends);
+  } catch (const friction::LawFault&) {
+    return false;  // a law that cannot be computed is reported by the fit
+  }
 }
 
 std::optional<sim::Model> model_of(Rig rig) {

@@ -93,6 +93,10 @@ void arrange(const Rig& rig, std::vector<FitParameter>& parameters);
 [[nodiscard]] std::optional<Rig> with_values(const Rig& rig, const std::vector<FitParameter>& parameters,
                                              const Eigen::VectorXd& values);
 
+/// Whether a force of the rig depends on the position itself, as that of a spring, and not only on ways. Sought
+/// numbers count as they are stated, but those that are unknown or zero as 1.
+[[nodiscard]] bool feels_place(const Rig& rig, const std::vector<FitParameter>& sought);
+
 /// The model of a rig. Nothing if a law refuses its values.
 [[nodiscard]] std::optional<sim::Model> model_of(Rig rig);
 

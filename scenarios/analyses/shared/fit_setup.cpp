@@ -423,8 +423,9 @@ std::vector<FitParameter> parameters_for(const identify::Rig& rig, const identif
     for (FitParameter& parameter : found) add_new(std::move(parameter), parameters);
   }
   refuse_without_scale(rig, parameters, experiments, faults);
+  const bool placed = identify::feels_place(rig, parameters);
   for (std::size_t e = 0; e < experiments.size(); ++e)
-    for (const Own free : experiments[e]->own_free) {
+    for (const Own free : identify::sought_own(*experiments[e], placed)) {
       const bool is_history = experiments[e]->kind == identify::ExperimentKind::history;
       if (sought.initial_is_known && is_history && free != Own::offset) continue;
       FitParameter parameter = identify::own_parameter(*experiments[e], e, free, experiments.size() == 1);

@@ -62,6 +62,8 @@ identify::Fit fit_of_loop(const RigLoop& plan, std::uint64_t seed, double sigma 
   REQUIRE(fault.empty());
   std::vector<identify::FitParameter> parameters =
       test::sought_in(rig, {"mass", "stiffness", "damping", "kinetic"}, 1.0);
+  for (const identify::Own own : identify::sought_own(*experiments.front(), identify::feels_place(rig, parameters)))
+    parameters.push_back(identify::own_parameter(*experiments.front(), 0, own, true));
   identify::Fit fit = identify::fit_rig(rig, parameters, experiments, {.profile = false});
   REQUIRE(fit.outcome.ok());
   return fit;
@@ -140,4 +142,17 @@ TEST_CASE("loop: the filter of a loop without a velocity is no fault of the law"
   }
   // About 180 independent readings of each: a standard deviation of 0.05.
   CHECK(chi2 == Approx(1.0).margin(0.2));
+}
+
+TEST_CASE("loop: a loop of a velocity alone seeks its first position if there is a spring", "[identify][fit]") {
+  // From zero, the stiffness is 288 N/m.
+  const identify::Fit fit = fit_of_loop({.rate = 100.0, .x = false}, 9);
+  CHECK(std::abs(found_in(fit, "mass").value - 2.0) < 4.0 * found_in(fit, "mass").std);
+  CHECK(std::abs(found_in(fit, "stiffness").value - 300.0) < 4.0 * found_in(fit, "stiffness").std);
+  const double first = 10e-3 * std::sin(0.1) + 4e-3 * std::sin(0.3);
+  CHECK(found_in(fit, "offset").value == Approx(-first).epsilon(0.01));
+  // Friction feels ways only, a stop the position itself.
+  const identify::Rig free = test::loop_alone(test::rig_with(test::law_case_of("contact_compliance")));
+  CHECK(!identify::feels_place(free, {}));
+  CHECK(identify::feels_place(test::loop_alone(test::rig_with(test::law_case_of("gap_spring"))), {}));
 }
