@@ -24,9 +24,10 @@ function scenarioBox({ scenario }) {
 
 /** What was sought, first of all: values with their intervals, and how large the residuals are. */
 function fittedNumbers({ parameters, residual }) {
-  const range = ([low, high]) => (low === null || high === null ? "–" : `${short(low, 5)} to ${short(high, 5)}`);
+  const digits = (one) => digitsWithin(one.value, one.interval95);
+  const range = (one) => (one.interval95.includes(null) ? "–" : one.interval95.map((end) => short(end, digits(one))).join(" to "));
   const rows = parameters.map((one, i) => [one.name,
-    { text: make("span", { "data-path": `parameters[${i}].value`, "data-value": JSON.stringify(one.value) }, short(one.value), make("small", { class: "under" }, range(one.interval95))), class: "text" },
+    { text: make("span", { "data-path": `parameters[${i}].value`, "data-value": JSON.stringify(one.value) }, short(one.value, digits(one)), make("small", { class: "under" }, range(one))), class: "text" },
     { text: one.unit, class: "text" }, { text: one.reason ?? "", class: "long" }]);
   const noise = residual.noise_units === null ? "" : `, ${short(residual.noise_units, 3)} times the noise`;
   return [make("h2", {}, "Fitted numbers"), grid(["", "value (95 %)", "unit", ""], rows, { caption: "Fitted numbers" }),

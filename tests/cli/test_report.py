@@ -249,11 +249,11 @@ class Page(unittest.TestCase):
         self.assertLessEqual(self.ask("identify_xy_curve", "document.documentElement.scrollWidth - innerWidth", size="390,800"), 0)
 
     def test_a_fit_opens_with_its_numbers(self):
-        """Not with the text of the fitted scenario in a card, and the residual in the unit that stands beside it."""
-        head = self.ask("fit", '[...document.querySelectorAll("h2")].map((e) => e.textContent)')
-        self.assertEqual(head[0], "Fitted numbers")
-        first = self.ask("fit", 'document.querySelector("[data-path=\'parameters[0].value\']").textContent')
-        self.assertRegex(first, r"^1\.000\d+.* to ")
+        """Not with the text of the fitted scenario in a card, the residual in its unit, and each value inside its interval."""
+        self.assertEqual(self.ask("fit", 'document.querySelector("h2").textContent'), "Fitted numbers")
+        close = self.ask("fit", 'fittedNumbers({ parameters: [{ value: 2.00000449, interval95: [2.0000043, 2.0000047] }], residual: { noise_units: null } })[1].textContent')
+        self.assertIn("2.000004492.0000043 to 2.0000047", close)
+        self.assertRegex(self.ask("fit", 'document.querySelector("[data-path=\'parameters[0].value\']").textContent'), r"^1\.000\d+.* to ")
         self.assertEqual(self.ask("fit", 'document.querySelectorAll("dl [data-path=scenario]").length'), 0)
 
     def test_paper_is_light_and_says_where_the_numbers_come_from(self):
