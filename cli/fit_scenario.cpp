@@ -111,6 +111,10 @@ std::string prediction_of(const Json& result, const PredictCommand& command) {
   std::string text = "{type: predict, data: " + data_of(command.data, command);
   if (!shared.empty()) text += ", free: " + in_quotes(names) + ", covariance: [" + numbers + "]";
   if (!shared.empty() && !undetermined.empty()) text += ", undetermined: [" + undetermined + "]";
+  const bool states_drive =
+      !command.frequency.empty() || !command.amplitude.empty() ||
+      std::ranges::any_of(command.set, [](const std::string& one) { return one.starts_with("excitation"); });
+  if (!states_drive) text += ", drive_of_fit: true";
   return text + "}";
 }
 

@@ -110,7 +110,8 @@ def predict(fitted, data, *, excitation=None, record=None, out=None, threads=0):
     data, record
         As in `fit`.
     excitation : Excitation or mapping, optional
-        The drive of these records, if it is not that of the fit.
+        The drive of these records. Without it that of the fit is assumed, and refused where the records show that
+        they had another one; ``{"type": "none"}`` states that they had none.
     out, threads
         As in `run`.
 
@@ -129,6 +130,8 @@ def predict(fitted, data, *, excitation=None, record=None, out=None, threads=0):
     found, texts = fitted.result, {}
     shared = [i for i, row in enumerate(found.parameters) if row["name"].split("[")[0] not in _OF_RECORDS]
     analysis = {"type": "predict", "data": _records(_listed(data), record, texts)}
+    if excitation is None:
+        analysis["drive_of_fit"] = True
     if shared:
         analysis["free"] = ", ".join(found.parameters[i]["name"] for i in shared)
         analysis["covariance"] = [found.covariance[i][j] for i in shared for j in shared]

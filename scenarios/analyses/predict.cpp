@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <numbers>
 #include <utility>
 
+#include "core/numbers.hpp"
 #include "friction_models/registry.hpp"
 #include "identify/fit/prediction.hpp"
 #include "scenarios/analyses/shared/record_drive.hpp"
@@ -32,7 +34,10 @@ Section predict_keys() {
            quantities("undetermined", {"1"},
                       "changes of these numbers that the fit does not determine, one after the other, SI; their "
                       "size does not matter")
-               .items(1, most_parameters * most_parameters)}};
+               .items(1, most_parameters * most_parameters),
+           boolean("drive_of_fit",
+                   "the drive is that of the fit, and nothing states that these records had it: the prediction is "
+                   "refused if they show that they had not")}};
 }
 
 std::vector<identify::FitParameter> fitted_parameters(const identify::Rig& rig, const Json& analysis,
@@ -105,6 +110,91 @@ void check_predict(CheckedFile& file) {
                   "mass, stiffness, damping, on the command line --set system.mass='2 kg'");
 }
 
+/// "base_harmonic, 0.004 m, 3.7 Hz"
+std::string drive_text(const Json& section, const sim::Excitation& drive) {
+  if (drive.type == sim::ExcitationType::none) return "none";
+  std::string text = section.at("type").get<std::string>();
+  if (section.contains("file")) return text + ", file " + section.at("file").get<std::string>();
+  if (drive.is_harmonic() || drive.is_chirp())
+    text += ", " + core::format_number(drive.amplitude, 6) + (drive.moves_base() ? " m" : " N");
+  if (drive.is_harmonic())
+    text += ", " + core::format_number(drive.frequency / (2.0 * std::numbers::pi), 6) + " Hz";
+  return text;
+}
+
+/// The drive of the fit, if it is assumed for a history; empty if the records hold their drive, or need none.
+std::string assumed_drive(const CheckedValues& values, const std::vector<DataItem>& items) {
+  if (!values.analysis.value("drive_of_fit", false)) return {};
+  const sim::Excitation& drive = values.model.excitation;
+  const bool is_assumed = std::ranges::any_of(items, [&](const DataItem& item) {
+    if (item.keys.is_object() && item.keys.value("loop", false)) return false;
+    return std::ranges::any_of(item.data.record.histories, [&](const identify::History& history) {
+      return drive.type == sim::ExcitationType::none || (drive.moves_base() ? history.y : history.force).empty();
+    });
+  });
+  return is_assumed ? drive_text(values.excitation, drive) : std::string();
+}
+
+/// rms of the residuals over the rms of the signal for each experiment.
+std::vector<double> errors_of(const identify::Fit& fit, std::size_t experiments) {
+  std::vector<double> squares(experiments);
+  std::vector<double> counts(experiments);
+  for (const identify::FittedSignal& signal : fit.signals) {
+    const auto size = static_cast<double>(signal.rows.end - signal.rows.begin);
+    squares[signal.rows.experiment] += size * std::pow(signal.rms / signal.range, 2);
+    counts[signal.rows.experiment] += size;
+  }
+  for (std::size_t e = 0; e < experiments; ++e) squares[e] = std::sqrt(squares[e] / counts[e]);
+  return squares;
+}
+
+/// A record that the rig explains without the drive that was assumed.
+std::string undriven_record(const identify::Rig& rig, const identify::Prediction& prediction,
+                            const identify::Experiments& data, const std::string& drive) {
+  constexpr double part = 0.5;   // of the error under the drive
+  constexpr double good = 0.25;  // of the motion: a rig at rest misses by all of it
+  identify::Rig undriven = rig;
+  undriven.known.excitation = {};
+  std::vector<identify::FitParameter> own;
+  for (std::size_t e = 0; e < data.size(); ++e)
+    for (const identify::Own each : data[e]->own_free)
+      own.push_back(identify::own_parameter(*data[e], e, each, data.size() == 1));
+  const identify::Fit fit = identify::fit_rig(undriven, own, data, {.profile = false});
+  if (!fit.outcome.ok()) return {};
+  const std::vector<double> with = errors_of(prediction.fit, data.size());
+  const std::vector<double> without = errors_of(fit, data.size());
+  for (std::size_t e = 0; e < data.size(); ++e)
+    if (without[e] < good && without[e] < part * with[e])
+      return data[e]->label + ": nothing states the drive of this record. Under the drive of the fit (" + drive +
+             ") the prediction misses by " + core::format_number(100.0 * with[e], 3) +
+             " %, and without a drive by " + core::format_number(100.0 * without[e], 3) +
+             " %: excitation: {type: none}, on the command line --set excitation='{type: none}', or state its drive";
+  return {};
+}
+
+/// A record that goes on where the rig without a drive comes to rest.
+std::string driven_record(const identify::Prediction& prediction, const identify::Experiments& data) {
+  constexpr double part = 0.5;
+  const auto size_of = [](const Eigen::VectorXd& values) {
+    return (values.array() - values.mean()).matrix().norm();
+  };
+  for (const identify::FittedSignal& fitted : prediction.fit.signals) {
+    const identify::Experiment& experiment = *data[fitted.rows.experiment];
+    const Eigen::Index quarter = (fitted.rows.end - fitted.rows.begin) / 4;
+    if (experiment.kind != identify::ExperimentKind::history || quarter < 2) continue;
+    const std::vector<double>& values = experiment.signals[fitted.rows.signal].measured;
+    const Eigen::Map<const Eigen::VectorXd> measured(values.data(), static_cast<Eigen::Index>(values.size()));
+    const double last = size_of(measured.tail(quarter));
+    const double predicted = size_of(prediction.fit.outputs.segment(fitted.rows.end - quarter, quarter));
+    if (last > part * size_of(measured.head(quarter)) && predicted < part * last)
+      return experiment.label +
+             ": nothing states the drive of this record, and the fit had none; the record goes on where the rig "
+             "without a drive comes to rest: a drive seems to be missing. State it by --frequency and --amplitude or "
+             "--set excitation='{...}', or '{type: none}' if there was none";
+  }
+  return {};
+}
+
 std::unique_ptr<const Question> ask_predict(CheckedValues&& values) {
   std::vector<SetupFault> faults;
   identify::Rig rig = rig_of(values.system, values.model);
@@ -121,14 +211,23 @@ std::unique_ptr<const Question> ask_predict(CheckedValues&& values) {
       rows_of(values.analysis, "covariance", parameters.size()),
       rows_of(values.analysis, "undetermined", parameters.size()).transpose()};
   return std::make_unique<PredictQuestion>(std::move(rig), std::move(parameters), std::move(uncertainty),
-                                           std::move(data), std::move(warnings));
+                                           std::move(data), std::move(warnings), assumed_drive(values, items));
 }
 
 }  // namespace
 
 Answer PredictQuestion::run(const RunContext& /*context*/) const {
-  const identify::Prediction prediction = identify::predict_records(rig_, parameters_, uncertainty_, data_);
+  identify::Prediction prediction = identify::predict_records(rig_, parameters_, uncertainty_, data_);
   if (!prediction.outcome.ok()) return failed(prediction.outcome.reason);
+  if (!assumed_drive_.empty() && !std::isnan(prediction.error)) {
+    const bool is_driven = rig_.known.excitation.type != sim::ExcitationType::none;
+    const std::string fault =
+        is_driven ? undriven_record(rig_, prediction, data_, assumed_drive_) : driven_record(prediction, data_);
+    if (!fault.empty()) return failed(fault);
+    if (is_driven || prediction.is_wrong)
+      prediction.text +=
+          "; this holds if the record had the drive of the fit, which was assumed: " + assumed_drive_;
+  }
   Answer answer;
   answer.warnings = warnings_;
   answer.result["validation"] = validation_json(prediction);

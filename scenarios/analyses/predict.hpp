@@ -2,6 +2,7 @@
 /// `predict`: comparison of a fitted rig with a record that was not fitted.
 
 #include <Eigen/Core>
+#include <string>
 #include <vector>
 
 #include "scenarios/analyses/analysis.hpp"
@@ -13,12 +14,13 @@ class PredictQuestion final : public Question {
  public:
   PredictQuestion(identify::Rig rig, std::vector<identify::FitParameter> parameters,
                   identify::SharedUncertainty uncertainty, identify::Experiments data,
-                  std::vector<std::string> warnings)
+                  std::vector<std::string> warnings, std::string assumed_drive)
       : rig_(std::move(rig)),
         parameters_(std::move(parameters)),
         uncertainty_(std::move(uncertainty)),
         data_(std::move(data)),
-        warnings_(std::move(warnings)) {}
+        warnings_(std::move(warnings)),
+        assumed_drive_(std::move(assumed_drive)) {}
 
   [[nodiscard]] Answer run(const RunContext& context) const override;
 
@@ -28,6 +30,7 @@ class PredictQuestion final : public Question {
   identify::SharedUncertainty uncertainty_;         ///< of these
   identify::Experiments data_;
   std::vector<std::string> warnings_;
+  std::string assumed_drive_;  ///< that of the fit, if nothing states the drive of the records; else empty
 };
 
 [[nodiscard]] const Analysis& predict_analysis();

@@ -17,9 +17,9 @@ CONSTANTS = ("--mass", "1 kg", "--stiffness", "1000 N/m")
 
 
 class Prediction(case.Case):
-    def record(self, name, drive, kinetic=1.0, after=0.0, base=None):
+    def record(self, name, drive, kinetic=1.0, after=0.0, base=None, initial=0.0):
         """A motion of the rig, 400 samples a second from the time `after` on, with a rough error of 2 um; `base`: y [m] at t."""
-        text = f"schema: dualdamp/1\n{RIG % kinetic}excitation: {drive}\nanalysis: {{type: simulate, duration: 2 s, sample_rate: 400 Hz}}\n"
+        text = f"schema: dualdamp/1\n{RIG % kinetic}excitation: {drive}\ninitial: {{position: {initial} m}}\nanalysis: {{type: simulate, duration: 2 s, sample_rate: 400 Hz}}\n"
         self.run_program("run", self.write("motion.yaml", text), "--out", "motion")
         with open(self.folder / "motion/history.csv") as file:
             rows = list(csv.DictReader(line for line in file if not line.startswith("#")))
@@ -95,6 +95,34 @@ class Prediction(case.Case):
         driven = (late, *CONSTANTS, "--frequency", "4 Hz", "--amplitude", "5 mm", "--no-profile")
         self.run_program("fit", "coulomb", *driven, "--free", "phase")
         self.assertIn("differs from the drive", self.run_program("fit", "coulomb", *driven, status=3).stderr)
+
+    def test_no_law_is_called_wrong_where_only_the_drive_of_the_fit_was_assumed(self):
+        drive = "{type: base_harmonic, amplitude: %s mm, frequency: 4 Hz}"
+        told = ("--frequency", "4 Hz", "--amplitude", "5 mm")
+        first, second = self.record("driven.csv", drive % 5), self.record("larger.csv", drive % 8)
+        decay = self.record("decay.csv", "{type: none}", initial=0.04)
+        sampled = self.record("base.csv", drive % 5, base=lambda t: 5e-3 * math.cos(8.0 * math.pi * t))
+        measured = ("--set", "excitation={type: measured_base, file: base.csv, column: y, interpolation: cubic}")
+        none = ("--set", "excitation={type: none}")
+        for name, record, stated, assumed in (("by_harmonic", first, told, "base_harmonic, 0.005 m, 4 Hz"), ("by_file", sampled, measured, "measured_base, file base.csv")):
+            self.run_program("fit", "coulomb", record, *CONSTANTS, *stated, "--no-profile", "--out", name)
+            refused = self.run_program("predict", name, decay, status=4).stderr
+            self.assertIn(f"Under the drive of the fit ({assumed})", refused)
+            self.assertIn("--set excitation='{type: none}'", refused)
+            self.assertNotIn("wrong", refused)
+            self.assert_right(self.predicted(name, decay, *none))
+            told_back = self.predicted(name, first)
+            self.assert_right(told_back)
+            self.assertIn("this holds if the record had the drive of the fit, which was assumed: " + assumed, told_back["text"])
+        # Another amplitude: the record goes with neither drive.
+        self.assertIn("which was assumed", self.predicted("by_harmonic", second)["text"])
+        self.assertNotIn("assumed", self.predicted("by_harmonic", second, "--amplitude", "8 mm")["text"])
+        self.run_program("fit", "coulomb", decay, *CONSTANTS, "--no-profile", "--out", "by_decay")
+        refused = self.run_program("predict", "by_decay", first, status=4).stderr
+        self.assertIn("a drive seems to be missing", refused)
+        self.assertNotIn("wrong", refused)
+        self.assert_right(self.predicted("by_decay", first, *told))
+        self.assert_right(self.predicted("by_decay", self.record("again.csv", "{type: none}", initial=0.03)))
 
     def test_the_times_of_a_record_are_those_of_its_drive(self):
         for drive in ("{type: base_chirp, amplitude: 5 mm, from: 2 Hz, to: 6 Hz, duration: 2 s}",
