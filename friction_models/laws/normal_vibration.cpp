@@ -75,19 +75,20 @@ double NormalVibration::respond(const Memory& memory, const Instant& now, Direct
 }
 
 LawEntry normal_vibration_entry() {
-  return {
-      .name = "normal_vibration",
-      .summary = "Coulomb friction under a vibrating normal load, with a lift that grows with the speed",
-      .equation =
-          "F = mu N sgn v, N = weight (1 - y/h0)^2 while y < h0;  normal_mass y'' + d y' = N - weight + lift "
-          "|v|/(1 + |v|/lift_velocity);  stick: F = pull while |pull| <= mu_static N",
-      .engine = EngineKind::smooth,
-      .states = "separation y and its rate, and whether the contact is open",
-      .sources = "tolstoi1967, oden1985",
-      .modifiers = {"drift", "fluctuation", "warming"},
-      .parameters = NormalVibration::parameters(),
-      .make = [](const ParameterValues& p) -> std::vector<Law> { return {modified(Law(NormalVibration(p)), p)}; },
-      .warnings = NormalVibration::warnings};
+  return {.name = "normal_vibration",
+          .summary = "Coulomb friction under a vibrating normal load, with a lift that grows with the speed",
+          .equation =
+              "F = mu N sgn v, N = weight (1 - y/h0)^2 while y < h0;  normal_mass y'' + d y' = N - weight + lift "
+              "|v|/(1 + |v|/lift_velocity);  stick: F = pull while |pull| <= mu_static N",
+          .engine = EngineKind::smooth,
+          .states = "separation y and its rate, and whether the contact is open",
+          .sources = "tolstoi1967, oden1985",
+          .modifiers = {"drift", "fluctuation", "warming"},
+          .parameters = NormalVibration::parameters(),
+          .make = [](const ParameterValues& p) -> std::vector<Law> {
+            return {modified(Law(NormalVibration(p)), p, {}, WithoutLimits::states_move)};
+          },
+          .warnings = NormalVibration::warnings};
 }
 
 }  // namespace dualdamp::friction

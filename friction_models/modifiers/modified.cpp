@@ -56,8 +56,8 @@ class ModifiedLaw final : public LawModel,
                           public ScheduleAbility,
                           public AperiodicAbility {
  public:
-  ModifiedLaw(Law law, const ModifierSettings& settings, std::vector<double> limits)
-      : law_(std::move(law)), limits_(settings, std::move(limits)) {}
+  ModifiedLaw(Law law, const ModifierSettings& settings, std::vector<double> limits, WithoutLimits without)
+      : law_(std::move(law)), limits_(settings, std::move(limits)), without_(without) {}
 
   [[nodiscard]] Abilities abilities() const override;
   [[nodiscard]] double force(const Memory& memory, const Instant& now, Direction direction) const override {
@@ -72,8 +72,7 @@ class ModifiedLaw final : public LawModel,
     const Parts parts = parts_of(memory);
     for (const Affine& guard : limits_.guards(parts.course(), parts.power(), now))
       values.push_back(value(guard, now));
-    if (!limits_.are_gone(parts.course()))
-      law_.guards(parts.inner(), modify(parts, now, direction), direction, values);
+    if (!stands(parts.course())) law_.guards(parts.inner(), modify(parts, now, direction), direction, values);
   }
   void jump(Memory& memory, Trigger trigger, const Instant& now, Direction direction) const override;
 
@@ -123,6 +122,10 @@ class ModifiedLaw final : public LawModel,
 
  private:
   [[nodiscard]] bool warms() const { return limits_.settings().warms(); }
+  /// The states of the law stand still.
+  [[nodiscard]] bool stands(const ModifierCourse& course) const {
+    return without_ == WithoutLimits::states_stand && limits_.are_gone(course);
+  }
   [[nodiscard]] Parts parts_of(const Memory& memory) const { return {memory, warms()}; }
 
   /// The instant as the law inside sees it.
@@ -146,6 +149,7 @@ class ModifiedLaw final : public LawModel,
 
   Law law_;
   ForceLimits limits_;
+  WithoutLimits without_;
 };
 
 Abilities ModifiedLaw::abilities() const {
@@ -207,7 +211,9 @@ double ModifiedLaw::respond(const Memory& memory, const Instant& now, Direction 
     rates.back() = rate;
     rates = rates.first(rates.size() - 1);
   }
-  return limits_.are_gone(parts.course()) ? 0.0 : law_.respond(parts.inner(), modified, direction, rates);
+  if (stands(parts.course())) return 0.0;
+  const double force = law_.respond(parts.inner(), modified, direction, rates);
+  return limits_.are_gone(parts.course()) ? 0.0 : force;
 }
 
 /// The law inside decides again, under the force limits of the present course.
@@ -282,10 +288,10 @@ void ModifiedLaw::jump(Memory& memory, Trigger trigger, const Instant& now, Dire
 
 }  // namespace
 
-Law modified(const Law& law, const ParameterValues& values, std::vector<double> limits) {
+Law modified(const Law& law, const ParameterValues& values, std::vector<double> limits, WithoutLimits without) {
   const ModifierSettings settings(values);
   if (settings.do_nothing()) return law;
-  return Law(std::make_shared<const ModifiedLaw>(law, settings, std::move(limits)));
+  return Law(std::make_shared<const ModifiedLaw>(law, settings, std::move(limits), without));
 }
 
 }  // namespace dualdamp::friction

@@ -16,7 +16,8 @@
 ///   guards   where the load is lost or comes back; the ends of cells over position; x = 0, where the slope changes
 ///            its sign; a force limit that becomes zero, or comes back.
 /// Before force limits rise by a step the law gets `Trigger::limit_change` under the old limits. While all force
-/// limits are zero the law has no force; when one comes back the law starts again, unstretched.
+/// limits are zero the law has no force. The states of a law either stand still then, so that a spring comes back
+/// unstretched, or go on moving without force (`WithoutLimits`).
 ///
 /// Cost: a few operations a call; with warming also a copy of what the law remembers.
 
@@ -27,8 +28,16 @@
 
 namespace dualdamp::friction {
 
+/// What the states of a law do while all its force limits are zero.
+enum class WithoutLimits {
+  states_stand,  ///< deflections and ages of a contact that is not there
+  states_move,   ///< states that do not need the contact, such as a late velocity; rates and guards stay those of
+                 ///< the law
+};
+
 /// `law` under the modifiers among `values`; `law` itself if no modifier has an effect. `limits`: the nominal force
 /// limits of a law that supports `position_slope` [N].
-[[nodiscard]] Law modified(const Law& law, const ParameterValues& values, std::vector<double> limits = {});
+[[nodiscard]] Law modified(const Law& law, const ParameterValues& values, std::vector<double> limits = {},
+                           WithoutLimits without = WithoutLimits::states_stand);
 
 }  // namespace dualdamp::friction

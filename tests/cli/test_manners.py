@@ -5,6 +5,7 @@ usage: test_manners.py PROGRAM ROOT [TEST...]
 """
 
 import json
+import math
 import sys
 import unittest
 from pathlib import Path
@@ -67,6 +68,22 @@ class Manners(Case):
                 result = self.run_program(*line, status=status)
                 self.assertIn("\ufffd", result.stderr)
                 self.assertFalse(set("\x1b\x07\x9b") & set(result.stderr + result.stdout))
+
+    def result_of(self, text):
+        return json.loads(self.run_program("run", self.write("motion.yaml", "schema: dualdamp/1\n" + text), "--json").stdout)
+
+    def test_a_late_velocity_follows_the_mass_while_the_load_is_lost(self):
+        motion = ("""system: {mass: 1 kg, stiffness: 100 N/m, damping: 0, friction: {law: friction_lag, kinetic: 2 N, static: %s N, stribeck_velocity: 0.5 m/s, lag: %s ms, load_gradient: 5 1/m}}
+initial: {position: 0.5 m}
+analysis: {type: simulate, duration: 1 s}
+""")
+        final = self.result_of(motion % (3, 50))["result"]["final"]
+        # SciPy, DOP853, steps that end at v = 0 and at the loss of the load.
+        self.assertAlmostEqual(final["x"], -0.32883853, delta=1e-8)
+        self.assertAlmostEqual(final["v"], 1.25061707, delta=1e-8)
+        # A level that does not fall with speed does not depend on the lag.
+        constant = [self.result_of(motion % (2, lag))["result"]["final"] for lag in (5, 500)]
+        self.assertAlmostEqual(constant[0]["x"], constant[1]["x"], delta=1e-9)
 
     def test_a_scenario_to_begin_with(self):
         names = [line.split()[0] for line in self.run_program("analyses").stdout.splitlines()]
