@@ -220,10 +220,10 @@ TEST_CASE("Stick-slip under a base ramp with static > kinetic, every slip and st
       CAPTURE(static_level, side);
       const auto events = events_of(model, first + 20.5 * (slip + stick) + slip);
       REQUIRE(events.size() >= 40);
-      for (std::size_t n = 0; n < 20; ++n) {
-        const double begin = first + static_cast<double>(n) * (slip + stick);
-        const EngineEvent& release = events[2 * n];
-        const EngineEvent& stop = events[2 * n + 1];
+      for (int n = 0; n < 20; ++n) {
+        const double begin = first + n * (slip + stick);
+        const EngineEvent& release = events[static_cast<std::size_t>(2 * n)];
+        const EngineEvent& stop = events[static_cast<std::size_t>(2 * n + 1)];
         CHECK(release.kind == EventKind::release);
         CHECK(stop.kind == EventKind::stop);
         // Pull and speed are known to a few eps of static and of static/(m w): as times, over their rates k V and
@@ -245,7 +245,7 @@ TEST_CASE("A mass that no law holds moves on where a slow drive turns beside a f
   // must not stick for ever.
   for (const double damping : {24.0, 240.0, 2400.0}) {
     Model model = base_driven(0.18, 0.009, damping, 2.8e-3, 1.2);
-    model.friction.emplace_back(friction::ContactCompliance(1e-3, 1e-3, 5.5e5, 0.0));
+    model.friction.push_back(friction::Law(friction::ContactCompliance(1e-3, 1e-3, 5.5e5, 0.0)));
     model.initial.position = -0.013;
     CAPTURE(damping);
     ExactEngine engine(model);
