@@ -59,13 +59,13 @@ function short(value, digits = 6) {
   return text.replace(/(\.\d*?)0+($|e)/, "$1$2").replace(/\.($|e)/, "$1").replace("-", "−").replace("e−", "e-");
 }
 
-/** Digits that show a value and its interval to a hundredth of the half width, so that the value stays inside. */
+/** Digits that show a value and its interval to a tenth of the half width or finer, so that the value stays inside. */
 function digitsWithin(value, interval) {
   const [low, high] = interval ?? [];
   const half = (high - low) / 2;
   if (typeof low !== "number" || typeof high !== "number" || !(half > 0)) return 6;
   const largest = Math.max(Math.abs(value), Math.abs(low), Math.abs(high));
-  return Math.min(15, Math.max(3, Math.floor(Math.log10(largest)) - Math.floor(Math.log10(half)) + 3));
+  return Math.min(15, Math.max(3, Math.floor(Math.log10(largest)) - Math.floor(Math.log10(half)) + 2));
 }
 
 const prefixes = [[1, ""], [1e-3, "m"], [1e-6, "µ"], [1e-9, "n"]];

@@ -16,10 +16,9 @@ function ellipse(estimate) {
   };
 }
 
-const ends = (value, interval) => interval.map((end) => short(end, digitsWithin(value, interval))).join(' to ');
-
-const range = (value, interval, unit = '') =>
-    (interval && interval[0] !== null ? `95 %: ${ends(value, interval)}${unit}` : 'no interval');
+const range = (interval, unit = '') =>
+    (interval && interval[0] !== null ? `95 %: ${short(interval[0], 4)} to ${short(interval[1], 4)}${unit}` :
+                                        'no interval');
 
 /** The answer with its ranges, or that there is none and why. */
 function answerBox({answer, answer_reason: reason}) {
@@ -42,8 +41,8 @@ function answerBox({answer, answer_reason: reason}) {
                         'data-value': JSON.stringify(answer[key]),
                         title: String(answer[key])
                       },
-                      short(answer[key], digitsWithin(answer[key], answer.interval95?.[key])) + unit,
-                      make('small', {class: 'under'}, range(answer[key], answer.interval95?.[key], unit)))))),
+                      short(answer[key], 5) + unit,
+                      make('small', {class: 'under'}, range(answer.interval95?.[key], unit)))))),
       make('p', {}, `By ${answer.method}: ${reason}.`));
 }
 
@@ -110,9 +109,9 @@ function estimateTable(estimates) {
     text: value === null ?
         '–' :
         make(
-            'span', {}, short(value, digitsWithin(value, interval)),
+            'span', {}, short(value, 5),
             interval && interval[0] !== null ?
-                make('small', {class: 'under'}, ` ${ends(value, interval)}`) :
+                make('small', {class: 'under'}, ` ${short(interval[0], 4)} to ${short(interval[1], 4)}`) :
                 null),
     path,
     value
