@@ -361,12 +361,12 @@ class DecayReader {
     return {};
   }
 
-  /// Between two swings that shrink hardly, the noise of their extremes may show a growth up to this.
+  /// Between two swings that shrink hardly, the noise of their extremes may show a growth up to this. `extreme`,
+  /// the last of the three, is the third or a later one.
   static double error_of_growth(const DerivedDecay& result, std::size_t extreme) {
     constexpr double deviations = 4.0;
-    const double* error = &result.standard_errors[extreme];
-    return deviations * std::sqrt(error[0] * error[0] + 4.0 * error[-1] * error[-1] +
-                                  (extreme > 1 ? error[-2] * error[-2] : 0.0));
+    const std::vector<double>& errors = result.standard_errors;
+    return deviations * std::hypot(errors[extreme - 2], 2.0 * errors[extreme - 1], errors[extreme]);
   }
 
   [[nodiscard]] std::size_t sample_of(const DerivedDecay& result, std::size_t extreme) const {

@@ -14,6 +14,9 @@ namespace dualdamp::identify {
 
 namespace {
 
+constexpr std::string_view without_x =
+    "the displacement x was not recorded: record it, or add it to the file as the integral of v or a without its drift";
+
 using std::numbers::pi;
 
 double mean_square(std::span<const double> signal) {
@@ -181,13 +184,6 @@ std::vector<double> ZeroPhaseFilter::operator()(std::span<const double> signal) 
   const auto first = all.begin() + static_cast<std::ptrdiff_t>(pad);
   return {first, first + static_cast<std::ptrdiff_t>(n)};
 }
-
-namespace {
-
-constexpr std::string_view without_x =
-    "the displacement x was not recorded: record it, or add it to the file as the integral of v or a without its drift";
-
-}  // namespace
 
 Motion motion_of(const History& history, double cutoff) {
   if (std::string fault = history.x.empty() ? std::string(without_x) : shape_fault(history); !fault.empty())

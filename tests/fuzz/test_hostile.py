@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Files made to cost more than they are worth: each is refused within a second of processor time and 100 MB, with its place.
+"""Files made to cost more than they are worth: each is refused quickly (execution.py has the limits), with its place.
 
 usage: test_hostile.py PROGRAM ROOT [TEST...]
 """

@@ -1,5 +1,4 @@
-"""Many steady states at once: shapes, closed forms, the numbers of scenarios, outcomes, speed."""
-
+"""Many steady states at once: shapes, closed forms, the numbers of scenarios, outcomes."""
 
 import dualdamp as dd
 import numpy as np
