@@ -25,16 +25,14 @@ bool lists(const JointModel& model, const std::string& test) {
 
 TEST_CASE("Constants of a decay that are off by a large factor are charged, and no single fit answers") {
   for (const double factor : {0.25, 0.5, 2.0, 4.0}) {
-    for (std::uint64_t seed = first_seed; seed < first_seed + 3; ++seed) {
-      CAPTURE(factor, seed);
-      Measured m = measured(Kind::decay, seed);
-      m.constants.stiffness *= factor;
-      const Ledger ledger = ledger_of(m.record, m.constants);
-      REQUIRE(ledger.is_violated(Assumption::constants));
-      CHECK(ledger.entry(Assumption::constants).p_value.value_or(1.0) < 1e-6);
-      const Identification found = concluded({output_error(m.record, m.constants, {})}, ledger);
-      CHECK_FALSE(found.estimates[0].usable);
-    }
+    CAPTURE(factor);
+    Measured m = measured(Kind::decay, first_seed);
+    m.constants.stiffness *= factor;
+    const Ledger ledger = ledger_of(m.record, m.constants);
+    REQUIRE(ledger.is_violated(Assumption::constants));
+    CHECK(ledger.entry(Assumption::constants).p_value.value_or(1.0) < 1e-6);
+    const Identification found = concluded({output_error(m.record, m.constants, {})}, ledger);
+    CHECK_FALSE(found.estimates[0].usable);
   }
 }
 

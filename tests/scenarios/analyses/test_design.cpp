@@ -83,8 +83,10 @@ TEST_CASE("design: uncertain constants are in the ranges now and after, as in th
           "[scenarios][design]") {
   const auto answer_to = [](const std::string& mass, const std::string& analysis) {
     std::string text = compliant_rig;
+    const std::string without_slow_laws =
+        ", without: [bouc_wen, elasto_plastic, friction_lag, generalized_maxwell_slip, lugre]";
     text.replace(text.find("1.042 kg"), 8, mass);
-    text.replace(text.find("type: design"), 12, analysis);
+    text.replace(text.find("type: design"), 12, analysis + without_slow_laws);
     return testing::result_of(scenarios::run(scenarios::parse_scenario(text, "test.yaml")));
   };
   const auto width = [](const nlohmann::json& ends) { return ends[1].get<double>() - ends[0].get<double>(); };
