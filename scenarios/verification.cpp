@@ -21,7 +21,9 @@ constexpr double tight = 1e-13;
 constexpr double multiplier_tolerance = 1e-4;
 
 /// Numbers about the computation of a result.
-bool is_account(const std::string& path) { return path.starts_with("certificate") || path == "energy.defect"; }
+bool is_account(const std::string& path) {
+  return path.starts_with("certificate") || path == "energy.defect" || path == "fades";
+}
 
 /// "sticks[2].start" in the form of the fields: "sticks[].start".
 std::string without_indices(const std::string& path) {
@@ -204,8 +206,12 @@ class Comparison {
     const auto other = std::ranges::find(other_.tables, table.name, &Table::name);
     const std::string& name = table.key.empty() ? table.name : table.key;
     if (other == other_.tables.end()) return differ(name, "the other result has none");
-    const std::vector<std::size_t> mine = rows_of(table);
-    const std::vector<std::size_t> theirs = rows_of(*other);
+    std::vector<std::size_t> mine = rows_of(table);
+    std::vector<std::size_t> theirs = rows_of(*other);
+    if (table.ends_with_accuracy) {
+      mine.resize(std::min(mine.size(), theirs.size()));
+      theirs.resize(mine.size());
+    }
     if (mine.size() != theirs.size())
       return differ(name, std::to_string(mine.size()) + " rows, the other result " + std::to_string(theirs.size()));
     const std::vector<char> compared = compared_rows(table, mine, *other, theirs);

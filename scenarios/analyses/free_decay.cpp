@@ -1,7 +1,12 @@
 #include "scenarios/analyses/free_decay.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
 #include "scenarios/format/common_keys.hpp"
 #include "scenarios/results/motion.hpp"
+#include "sim/engine/engine.hpp"
 #include "sim/motion/simulate.hpp"
 
 namespace dualdamp::scenarios {
@@ -9,11 +14,26 @@ namespace dualdamp::scenarios {
 namespace {
 
 ResultFields free_decay_fields() {
-  return {{"peaks[].t", "s", "time of the extreme"},
-          {"peaks[].x", "m", "its position, signed"},
-          {"came_to_rest", "", "fewer extremes than wanted because the mass sticks"},
-          {"creeps", "",
-           "fewer extremes than wanted because the motion did not turn again within 100 natural periods"}};
+  return {
+      {"peaks[].t", "s", "time of the extreme"},
+      {"peaks[].x", "m", "its position, signed"},
+      {"came_to_rest", "", "fewer extremes than wanted because the mass sticks"},
+      {"creeps", "", "fewer extremes than wanted because the motion did not turn again within 100 natural periods"},
+      {"fades", "", "fewer extremes than wanted because further swings are below the error of the solver"}};
+}
+
+/// Leaves out the extremes after swings that are below ten times the error of the engine, which hold its rounding
+/// errors. Are there any?
+bool leave_out_faded(std::vector<sim::Extreme>& peaks, double accuracy) {
+  double largest = 0.0;
+  for (std::size_t i = 1; i < peaks.size(); ++i) {
+    const double swing = std::abs(peaks[i].x - peaks[i - 1].x);
+    largest = std::max(largest, swing);
+    if (swing >= 10.0 * accuracy * largest) continue;
+    peaks.resize(i);
+    return true;
+  }
+  return false;
 }
 
 std::unique_ptr<const Question> ask_free_decay(CheckedValues&& values) {
@@ -23,20 +43,26 @@ std::unique_ptr<const Question> ask_free_decay(CheckedValues&& values) {
 }  // namespace
 
 Answer FreeDecayQuestion::run(const RunContext& context) const {
-  const sim::FreeDecay decay = sim::free_decay(context.model, peaks_);
+  sim::FreeDecay decay = sim::free_decay(context.model, peaks_);
   if (!decay.outcome.ok()) return failed(decay.outcome.reason);
+  const bool fades = leave_out_faded(decay.peaks, sim::make_engine(context.model)->accuracy());
+  const bool creeps = decay.creeps && !fades;
   Answer answer;
   answer.result["peaks"] = nullptr;
   answer.result["came_to_rest"] = decay.came_to_rest;
-  answer.result["creeps"] = decay.creeps;
-  if (decay.creeps)
+  answer.result["creeps"] = creeps;
+  answer.result["fades"] = fades;
+  if (creeps || fades)
     answer.warnings.push_back("only " + std::to_string(decay.peaks.size()) + " of " + std::to_string(peaks_) +
-                              " extremes: the motion does not turn any more within 100 natural periods");
+                              " extremes: " +
+                              (fades ? "further swings are below the error of the solver"
+                                     : "the motion does not turn any more within 100 natural periods"));
   answer.tables.push_back({.name = "peaks",
                            .columns = {column("t", "s", decay.peaks, &sim::Extreme::t),
                                        column("x", "m", decay.peaks, &sim::Extreme::x)},
                            .key = "peaks",
-                           .is_complete = true});
+                           .is_complete = true,
+                           .ends_with_accuracy = true});
   return answer;
 }
 

@@ -62,6 +62,8 @@ struct Table {
   std::string key = {};  ///< key of the list in the result that has these rows; empty: the table is only a file
   /// Every row has all its numbers or a `reason`; otherwise the result is refused.
   bool is_complete = false;
+  /// How many rows there are depends on the error of the solver; a verification compares the rows of both results.
+  bool ends_with_accuracy = false;
 
   [[nodiscard]] std::size_t size() const { return columns.empty() ? 0 : columns.front().size(); }
 };

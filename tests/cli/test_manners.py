@@ -85,6 +85,26 @@ analysis: {type: simulate, duration: 1 s}
         constant = [self.result_of(motion % (2, lag))["result"]["final"] for lag in (5, 500)]
         self.assertAlmostEqual(constant[0]["x"], constant[1]["x"], delta=1e-9)
 
+    def test_a_free_decay_ends_where_the_tolerance_of_the_solver_does(self):
+        decay = """system: {mass: 1 kg, stiffness: 100 N/m, damping: 4, friction: {law: viscous_power, coefficient: 0 N, exponent: 2}}
+initial: {position: 1 m}
+analysis: {type: free_decay, peaks: 100}
+"""
+        document = self.result_of(decay)
+        result = document["result"]
+        self.assertTrue(result["fades"])
+        self.assertFalse(result["creeps"] or result["came_to_rest"])
+        self.assertIn("below the error of the solver", json.dumps(document["warnings"]))
+        x = [peak["x"] for peak in result["peaks"]]
+        ratio = -math.exp(-math.pi * 0.2 / math.sqrt(1 - 0.2**2))
+        self.assertGreater(len(x), 25)
+        for before, after in zip(x, x[1:]):
+            self.assertAlmostEqual(after / before, ratio, delta=0.02)
+        # A verification at another tolerance follows the decay further and agrees.
+        verified = self.result_of(decay + "numerics: {verify: true}\n")
+        self.assertTrue(verified["result"]["fades"])
+        self.assertTrue(verified["verification"]["agrees"])
+
     def test_a_scenario_to_begin_with(self):
         names = [line.split()[0] for line in self.run_program("analyses").stdout.splitlines()]
         self.assertIn("xy_curve", names)
