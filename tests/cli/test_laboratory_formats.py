@@ -83,7 +83,8 @@ class LaboratoryFormats(unittest.TestCase):
                 place = generator.randrange(len(text))
                 change = generator.randrange(3)
                 text[place:place + (0 if change == 0 else 1)] = [] if change == 1 else [generator.choice(letters)]
-            result = self.identify("changed.csv", "".join(text), *RIG, "--json")
+            # What is tried is how a file is read: the methods are those that take no time.
+            result = self.identify("changed.csv", "".join(text), *RIG, "--method", "resonance_least_squares", "--method", "den_hartog_fit", "--json")
             self.assertIn(result.returncode, outcomes, result.stderr)
             outcomes[result.returncode] += 1
             if result.returncode == 3:
