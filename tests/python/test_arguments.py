@@ -66,7 +66,8 @@ def test_masked_values_are_not_taken_for_numbers():
     with pytest.raises(TypeError, match="masked value"):
         dd.System(mass=1, stiffness=100, damping=4).xy_curve(dd.excitation("base_harmonic", frequency="1 Hz"), amplitudes=hidden)
     nothing_hidden = np.ma.array(PAIRS["x [mm]"], mask=False)
-    assert dd.identify({**PAIRS, "x [mm]": nothing_hidden}, **KNOWN).answer == dd.identify(PAIRS, **KNOWN).answer
+    hidden_and_plain = [dd.identify({**PAIRS, "x [mm]": x}, methods=["resonance_least_squares"], **KNOWN) for x in (nothing_hidden, PAIRS["x [mm]"])]
+    assert hidden_and_plain[0].answer == hidden_and_plain[1].answer
 
 
 def test_more_entries_than_can_be_counted():
@@ -199,7 +200,7 @@ def test_an_error_in_a_callback_ends_its_own_run_alone(rig, drive):
 
     def run_long():
         try:
-            ended["long"] = len(slow.xy_curve(drive.replace(amplitude=None), amplitudes=np.linspace(0.05, 0.3, 100)).points)
+            ended["long"] = len(slow.xy_curve(drive.replace(amplitude=None), amplitudes=np.linspace(0.05, 0.3, 40)).points)
         except BaseException as error:
             ended["long"] = repr(error)
 
@@ -216,7 +217,7 @@ def test_an_error_in_a_callback_ends_its_own_run_alone(rig, drive):
             dd.steady_state(**RIG, F0=2, Y=np.full(300_000, 0.1), progress=refuse)
         times += 1
     thread.join()
-    assert times > 1 and ended == {"long": 100}
+    assert times > 1 and ended == {"long": 40}
 
 
 def sums(Y):

@@ -105,10 +105,10 @@ def test_refusals(tmp_path):
 def test_next_as_the_program(program, tmp_path):
     import json
 
-    rig = {"mass": "1.042 kg", "stiffness": "1568 N/m", "frequency": "6.17 Hz"}
-    options = [part for name, value in rig.items() for part in (f"--{name}", value)]
+    known = {"mass": "1.042 kg", "stiffness": "1568 N/m", "frequency": "6.17 Hz", "sigma_x": "5 um"}
+    options = [part for name, value in known.items() for part in (f"--{name.replace('_', '-')}", value)]
     status, text, _ = program("next", "scenarios/examples/my_rig.csv", *options, "--json", "--out", tmp_path)
     assert status == 0
-    assert dd.next("scenarios/examples/my_rig.csv", **rig).result == json.loads(text)["result"]
+    assert dd.next("scenarios/examples/my_rig.csv", **known).result == json.loads(text)["result"]
     with pytest.raises(dd.InvalidScenario, match="these are a free vibration"):
         dd.next("scenarios/examples/free_run.csv", mass=1.0, stiffness=1000.0)

@@ -23,6 +23,7 @@ LONG = {
     "identify_histories",
     "identify_intervals",
     "open_question",
+    "open_question_any_law",
     "open_question_waiting",
     "regime_map_undamped",
     "stochastic_averaging",
