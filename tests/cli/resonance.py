@@ -6,7 +6,7 @@ MASS, STIFFNESS, ZETA, F0 = 1.042, 1568.0, 0.0987, 4.39  # of scenarios/stress/s
 
 
 def amplitude(Y, omega, damper=None, bristle=None, forward=0.0, cubic=0.0, third=0.0, rider=None):
-    """Amplitude of a motion that reverses without rest: Runge and Kutta from reversal to reversal, 60 periods.
+    """Amplitude of a motion that reverses without rest: Runge and Kutta from reversal to reversal until they repeat.
 
     damper: force over velocity; bristle: stiffness of Dahl's law in place of Coulomb friction; forward: what friction and damping
     are more by in this direction, relative; cubic: k3; third: third harmonic of the base; rider: share of the mass that rides on a
@@ -34,8 +34,9 @@ def amplitude(Y, omega, damper=None, bristle=None, forward=0.0, cubic=0.0, third
         return [s + h / 6 * (a + 2 * b + 2 * c + d) for s, a, b, c, d in zip(state, k1, k2, k3, k4)]
 
     period, h = 2 * math.pi / omega, 2 * math.pi / omega / (400 if rider else 100)
-    t, state, direction, turns = 0.0, [0.0, omega * Y, 0.0, 0.0, 0.0], 1, []
-    while t < 60 * period:
+    t, state, direction, turns = 0.0, [0.0, omega * Y, 0.0, 0.0, 0.0], 1, [0.0, 0.0, 0.0]
+    while t < 10 * period or abs(turns[-1] - turns[-3]) > 1e-8 * abs(turns[-1]):
+        assert t < 60 * period
         new = step(t, state, h, direction)
         if new[1] * direction > 0:
             t, state = t + h, new
@@ -47,7 +48,6 @@ def amplitude(Y, omega, damper=None, bristle=None, forward=0.0, cubic=0.0, third
         t, state, direction = t + part, step(t, state, part, direction), -direction
         state[1] = 0.0
         turns.append(state[0])
-    assert abs(turns[-1] - turns[-3]) < 1e-7 * abs(turns[-1])
     return abs(turns[-1] - turns[-2]) / 2
 
 

@@ -23,6 +23,7 @@ PROGRAM = str(Path(sys.argv[1]).resolve())
 # Coulomb and viscous friction at resonance: laboratory_records.py.
 PAIRS = "Y [mm],x [mm]\n4.4,5.787\n4.8,7.454\n5.2,9.122\n5.6,10.790\n"
 CONSTANTS = ["--mass", "1.042 kg", "--stiffness", "1568 N/m", "--frequency", "6.1739 Hz"]
+QUICK = ["--method", "resonance_least_squares", "--method", "den_hartog_fit"]  # of all methods one takes most of a second
 
 
 def history(times, form="{:.4f}"):
@@ -152,7 +153,7 @@ class DataFiles(unittest.TestCase):
     def test_accepted(self):
         for name, content in ACCEPTED.items():
             with self.subTest(name):
-                result = self.identify(self.write(name, content))
+                result = self.identify(self.write(name, content), *QUICK)
                 self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
                 self.assertNotIn("error", result.stderr)
 
@@ -201,8 +202,8 @@ class DataFiles(unittest.TestCase):
 
     def test_columns_and_units_of_the_caller(self):
         plain = self.write("plain.csv", PAIRS.replace("Y [mm]", "LVDT 1").replace("x [mm]", "LVDT 2"))
-        told = self.identify(plain, "--column", "Y=LVDT 1", "--column", "x=2", "--unit", "Y=mm", "--unit", "x=mm", "--json")
-        stated = self.identify(self.write("pairs.csv", PAIRS), "--json")
+        told = self.identify(plain, "--column", "Y=LVDT 1", "--column", "x=2", "--unit", "Y=mm", "--unit", "x=mm", "--json", *QUICK)
+        stated = self.identify(self.write("pairs.csv", PAIRS), "--json", *QUICK)
         self.assertEqual(told.returncode, 0, told.stderr)
         estimates = [document[document.index('"estimates"'):document.index('"excluded"')] for document in (told.stdout, stated.stdout)]
         self.assertEqual(*estimates)

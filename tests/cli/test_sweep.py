@@ -32,12 +32,12 @@ TWO_KEYS = SYSTEM + """sweep:
   system.friction.kinetic: {from: 1 N, to: 4 N, count: 3}
   excitation.frequency: [5.1 Hz, 6.3 Hz]
 """
-# Long enough to be killed in the middle: 60 steady states under a smooth law.
+# Long enough to be killed in the middle: 30 steady states under a smooth law.
 SLOW = """schema: dualdamp/1
 system: {mass: 1 kg, stiffness: 100 N/m, damping: 4 N.s/m, friction: {law: dahl, kinetic: 2 N, sigma0: 2000 N/m}}
 excitation: {type: base_harmonic, amplitude: 0.1 m, frequency: 10 rad/s}
 analysis: {type: steady_state}
-sweep: {system.friction.kinetic: {from: 0.5 N, to: 3 N, count: 60}}
+sweep: {system.friction.kinetic: {from: 0.5 N, to: 3 N, count: 30}}
 """
 # A point that has no steady state.
 HALF_FAILS = SYSTEM + "sweep: {system.damping_ratio: [0, 0.1], system.friction.kinetic: [0 N]}\n"
@@ -166,7 +166,7 @@ class Sweep(Case):
 
     def test_a_warning_with_numbers_of_each_point_is_told_once(self):
         lugre = "{law: lugre, kinetic: 2 N, static: 3 N, stribeck_velocity: 0.05 m/s, sigma0: 10000 N/m, sigma1: 20 N.s/m}"
-        self.write("warned.yaml", SLOW.replace("{law: dahl, kinetic: 2 N, sigma0: 2000 N/m}", lugre).replace("count: 60", "count: 4"))
+        self.write("warned.yaml", SLOW.replace("{law: dahl, kinetic: 2 N, sigma0: 2000 N/m}", lugre).replace("count: 30", "count: 4"))
         told = [line for line in self.run_program("run", "warned.yaml", "--out", "out").stderr.splitlines() if "warning" in line]
         self.assertEqual(len(told), 1, told)
         self.assertIn("= 100 N.s/m (3 points, with numbers of their own; first system.friction.kinetic = 0.5 N)", told[0])
