@@ -302,10 +302,6 @@ class Others(Case):
         self.assertIn("Exit status", self.run_program("--help").stdout)
         self.assertIn("--set", self.run_program("run", "--help").stdout)
 
-    def test_the_mechanisms_of_the_open_question(self):
-        """The one shipped scenario that the tests of scenarios/ leave out; its `expect` holds the page's numbers."""
-        self.run_program("run", ROOT / "scenarios/paper/open_question.yaml", "--jobs", "2", "--quiet", timeout=900)
-
 
 class Identify(Case):
     PAIRS = "Y [m],x [m]\n0.1,0.1860780979567862\n0.6,1.4361439607891241\n"

@@ -19,7 +19,7 @@ CONSTANTS = ("--mass", "1 kg", "--stiffness", "1000 N/m")
 class Prediction(case.Case):
     def record(self, name, drive, kinetic=1.0, after=0.0, base=None, initial=0.0):
         """A motion of the rig, 200 samples a second from the time `after` on, with a rough error of 2 um; `base`: y [m] at t."""
-        text = f"schema: dualdamp/1\n{RIG % kinetic}excitation: {drive}\ninitial: {{position: {initial} m}}\nanalysis: {{type: simulate, duration: 2 s, sample_rate: 200 Hz}}\n"
+        text = f"schema: dualdamp/1\n{RIG % kinetic}excitation: {drive}\ninitial: {{position: {initial} m}}\nanalysis: {{type: simulate, duration: 1 s, sample_rate: 200 Hz}}\n"
         self.run_program("run", self.write("motion.yaml", text), "--out", "motion")
         with open(self.folder / "motion/history.csv") as file:
             rows = list(csv.DictReader(line for line in file if not line.startswith("#")))
