@@ -59,9 +59,6 @@ EXAMPLES = {
     "stepped_response": 3,
 }
 
-# The shipped fit takes half a minute.
-SETTINGS = {"fit": ["--set", "analysis.laws=[coulomb, asymmetric_coulomb]"]}
-
 
 def at(document, path):
     """The value at a path such as estimates[0].zeta."""
@@ -89,7 +86,7 @@ class Page(unittest.TestCase):
         """The directory of a shipped scenario's results, which are computed once for all tests."""
         out = self.folder / name
         if not out.exists():
-            self.run_program("run", ROOT / "scenarios" / folder / f"{name}.yaml", "--out", out, "--quiet", *SETTINGS.get(name, []))
+            self.run_program("run", ROOT / "scenarios" / folder / f"{name}.yaml", "--out", out, "--quiet")
         return out
 
     def load(self, page):

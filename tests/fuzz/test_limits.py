@@ -142,8 +142,6 @@ class Limits(unittest.TestCase):
             resource.setrlimit(resource.RLIMIT_STACK, (1 << 42, resource.RLIM_INFINITY))
             resource.setrlimit(resource.RLIMIT_AS, (8 << 30, 8 << 30))
 
-        # The shipped fit takes half a minute.
-        (self.folder / "fit.yaml").write_text(COMMANDS["fit"].replace("viscous_saturating", "asymmetric_coulomb"))
         for name in ("xy_curve", "fit", "stress"):
             with self.subTest(name):
                 tables = []
