@@ -45,6 +45,7 @@ void Flow::freeze(const std::vector<Memory>& memories, Direction direction, doub
   memories_ = memories;
   direction_ = direction;
   offset_ = offset;
+  past_frame_ = past_.frame();
   size_ = 2;
   for (std::size_t i = 0; i < memories.size(); ++i) {
     first_[i] = size_;
@@ -99,7 +100,7 @@ Instant Flow::instant(std::span<const double> X, double t) const {
 /// Adds the past velocity for law i.
 void Flow::remember(std::size_t i, Instant& now, double t) const {
   const double delay = model_.friction[i].delay();
-  if (delay > 0.0) now.past_velocity = past_.at(t - delay);
+  if (delay > 0.0) now.past_velocity = past_.at(t - delay, past_frame_);
 }
 
 Instant Flow::instant(std::size_t i, std::span<const double> X, double t) const {

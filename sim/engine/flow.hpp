@@ -86,6 +86,7 @@ class Flow final : public VectorField {
   const VelocityHistory& past_;
   friction::Direction direction_ = friction::Direction::none;
   double offset_ = 0.0;
+  long past_frame_ = 0;  ///< frame of time of `past_` in which the flow counts
   std::size_t size_ = 2;
   std::vector<std::size_t> first_;  ///< of each law: index of its first state in X
   std::vector<std::size_t> count_;  ///< of each law

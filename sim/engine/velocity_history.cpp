@@ -35,9 +35,12 @@ void VelocityHistory::add(double begin, double duration, const Values& values) {
 
 void VelocityHistory::shift(double period) {
   for (Step& step : steps_) step.begin -= period;
+  ++frame_;
+  last_shift_ = period;
 }
 
-double VelocityHistory::at(double t) const {
+double VelocityHistory::at(double t, long frame) const {
+  if (frame != frame_) t -= last_shift_;
   const auto after = std::ranges::upper_bound(steps_, t, {}, &Step::begin);
   if (after == steps_.begin()) return steps_.empty() ? first_ : steps_.front().values.front();
   const Step& step = *std::prev(after);

@@ -18,10 +18,13 @@ class VelocityHistory {
   /// Starts with the velocity v [m/s]. `reach` [s]: the longest delay.
   void clear(double v, double reach);
   void add(double begin, double duration, const Values& values);
+  /// Counts time anew from `period` [s] later: a new frame of time.
   void shift(double period);
+  [[nodiscard]] long frame() const { return frame_; }
 
-  /// The velocity at t [m/s]; after the last step its polynomial is extrapolated.
-  [[nodiscard]] double at(double t) const;
+  /// The velocity [m/s] at t, counted in `frame`: the present frame or the one before. After the last step its
+  /// polynomial is extrapolated.
+  [[nodiscard]] double at(double t, long frame) const;
 
  private:
   struct Step {
@@ -31,6 +34,8 @@ class VelocityHistory {
   };
   double first_ = 0.0;
   double reach_ = 0.0;
+  long frame_ = 0;
+  double last_shift_ = 0.0;
   std::deque<Step> steps_;
 };
 

@@ -85,6 +85,15 @@ analysis: {type: simulate, duration: 1 s}
         constant = [self.result_of(motion % (2, lag))["result"]["final"] for lag in (5, 500)]
         self.assertAlmostEqual(constant[0]["x"], constant[1]["x"], delta=1e-9)
 
+    def test_a_dead_time_reaches_over_the_end_of_a_period(self):
+        """Samples and work of the last step of a period: the past velocity is that of a dead time before them."""
+        motion = """system: {mass: 1 kg, stiffness: 100 N/m, damping: 4, friction: {law: friction_lag, kinetic: 2 N, static: 3 N, stribeck_velocity: 0.5 m/s, lag: 50 ms, delay: true}}
+excitation: {type: base_harmonic, amplitude: 0.1 m, frequency: 10 rad/s}
+analysis: {type: simulate, cycles: 3, sample_rate: 1000}
+"""
+        result = self.result_of(motion)["result"]
+        self.assertLess(abs(result["energy"]["defect"]), 1e-9 * result["energy"]["input"])
+
     def test_a_free_decay_ends_where_the_tolerance_of_the_solver_does(self):
         decay = """system: {mass: 1 kg, stiffness: 100 N/m, damping: 4, friction: {law: viscous_power, coefficient: 0 N, exponent: 2}}
 initial: {position: 1 m}
