@@ -6,7 +6,6 @@
 
 #include "scenarios/format/common_keys.hpp"
 #include "scenarios/results/motion.hpp"
-#include "sim/engine/engine.hpp"
 #include "sim/motion/simulate.hpp"
 
 namespace dualdamp::scenarios {
@@ -45,7 +44,7 @@ std::unique_ptr<const Question> ask_free_decay(CheckedValues&& values) {
 Answer FreeDecayQuestion::run(const RunContext& context) const {
   sim::FreeDecay decay = sim::free_decay(context.model, peaks_);
   if (!decay.outcome.ok()) return failed(decay.outcome.reason);
-  const bool fades = leave_out_faded(decay.peaks, sim::make_engine(context.model)->accuracy());
+  const bool fades = leave_out_faded(decay.peaks, decay.accuracy);
   const bool creeps = decay.creeps && !fades;
   Answer answer;
   answer.result["peaks"] = nullptr;

@@ -69,6 +69,7 @@ FreeDecay free_decay(const Model& model, int peaks) {
     }
   }
   decay.outcome = engine.outcome();
+  decay.accuracy = engine.accuracy();
   return decay;
 }
 

@@ -49,6 +49,7 @@ struct FreeDecay {
   std::vector<Extreme> peaks;  ///< the initial position is the first if the mass is released from rest
   bool came_to_rest = false;   ///< fewer peaks than requested because the mass sticks
   bool creeps = false;         ///< fewer because the motion has no turning point within 100 natural periods
+  double accuracy = 0.0;       ///< error of the engine, relative to the motion
 };
 
 /// Successive extremes of the motion from `model.initial`; at most `peaks` of them. The excitation must be `none`.

@@ -21,10 +21,9 @@ constexpr double mass = 1.042;
 constexpr double stiffness = 1568.0;
 const double natural = std::sqrt(stiffness / mass);
 
-/// Laws whose fits take most of the time, and of which no test here speaks.
+/// Laws whose fits take most of the time. The tests that leave them out do not speak of them.
 const std::vector<std::string> slow_laws = {
-    "bouc_wen", "elasto_plastic",   "friction_lag", "generalized_maxwell_slip",
-    "lugre",    "normal_vibration", "rate_state",   "rough_way"};
+    "bouc_wen", "elasto_plastic", "friction_lag", "generalized_maxwell_slip", "lugre", "normal_vibration"};
 
 /// Eight amplitudes, without phases, of a rig with a compliant contact; at resonance, or spread over `spread` of
 /// the frequency about it. `noise`: over the amplitude in the middle.
@@ -98,8 +97,7 @@ TEST_CASE(
 
 TEST_CASE("design: no measurement is expected to widen the ranges, however different the laws fit the record") {
   // The paper's points: a film fits far better than the contacts that are allowed beside it.
-  const auto found =
-      design_after(pairs(subset_trend), soft_spring, {}, {.largest_severity = 1.0, .without = slow_laws});
+  const auto found = design_after(pairs(subset_trend), soft_spring, {}, {.largest_severity = 1.0});
   REQUIRE(std::holds_alternative<Design>(found));
   const Design& design = std::get<Design>(found);
   constexpr double rounding = 1.01;
@@ -108,7 +106,7 @@ TEST_CASE("design: no measurement is expected to widen the ranges, however diffe
     CHECK(advice.hull.zeta < rounding);
     CHECK(advice.hull.F0 < rounding);
   }
-  CHECK(named(design, "record the phase of the same states").hull.zeta < 0.4);
+  CHECK(named(design, "record the phase of the same states").hull.zeta < 0.3);
 }
 
 TEST_CASE("design: a record without steady states gets no advice, with the reason") {
