@@ -259,11 +259,13 @@ std::string fault_of(const History& history) {
 
 std::string fault_of_cutoff(const History& history, double cutoff) {
   if (cutoff == 0.0) return {};
-  const std::string text = "the cut-off frequency " + core::format_number(cutoff, 4) + " Hz ";
+  const std::string text = "a cut-off frequency of " + core::format_number(cutoff, 4) + " Hz ";
   if (!(cutoff > 0.0)) return text + "is not positive";
   if (cutoff > 0.45 * history.sample_rate) return text + "is above 0.45 of the sample rate";
-  if (history.x.size() < 4 * ZeroPhaseFilter(cutoff, history.sample_rate).edge())
-    return text + "is too low for a record of this length";
+  const std::size_t fewest = 4 * ZeroPhaseFilter(cutoff, history.sample_rate).edge();
+  if (history.x.size() < fewest)
+    return "the record is too short for its filter: it has " + std::to_string(history.x.size()) + " samples, and " +
+           text + "needs " + std::to_string(fewest);
   return {};
 }
 

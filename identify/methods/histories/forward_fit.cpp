@@ -137,25 +137,28 @@ std::vector<ForceParameters> starts(const Record& record, const std::vector<Forw
       list.push_back(*start);
   const double length = ForwardLayout::length(tests);
   const double critical = 2.0 * std::sqrt(force.m * force.k);
-  for (const double zeta : {0.02, 0.1, 0.25})
+  for (const double zeta : {0.02, 0.1, 0.25, 0.5, 0.8, 1.2})
     for (const double share : {0.02, 0.1, 0.25})
       list.push_back({force.m, zeta * critical, force.k, share * force.k * length});
   return list;
 }
 
-/// The starting point with the smallest sum of squares.
-Eigen::VectorXd best_start(const std::vector<ForceParameters>& list, const std::vector<ForwardTest>& tests,
-                           const ForwardLayout& layout, const ForwardResiduals& residuals) {
-  Eigen::VectorXd best = layout.pack(list.front(), tests);
-  double least = std::numeric_limits<double>::infinity();
+/// The starting points in the order of their sums of squares. The first of the list comes last if none has one.
+std::vector<Eigen::VectorXd> sorted_starts(const std::vector<ForceParameters>& list,
+                                           const std::vector<ForwardTest>& tests, const ForwardLayout& layout,
+                                           const ForwardResiduals& residuals) {
+  std::vector<std::pair<double, Eigen::VectorXd>> rated;
   Eigen::VectorXd r;
   for (const ForceParameters& force : list) {
-    const Eigen::VectorXd p = layout.pack(force, tests);
-    if (!residuals.evaluate(p, r, nullptr) || !(r.squaredNorm() < least)) continue;
-    least = r.squaredNorm();
-    best = p;
+    Eigen::VectorXd p = layout.pack(force, tests);
+    if (residuals.evaluate(p, r, nullptr) && std::isfinite(r.squaredNorm()))
+      rated.emplace_back(r.squaredNorm(), std::move(p));
   }
-  return best;
+  std::ranges::stable_sort(rated, {}, [](const auto& start) { return start.first; });
+  std::vector<Eigen::VectorXd> sorted;
+  for (auto& start : rated) sorted.push_back(std::move(start.second));
+  if (sorted.empty()) sorted.push_back(layout.pack(list.front(), tests));
+  return sorted;
 }
 
 /// Free vibrations, cut off where they stay below `share` of their largest deflection; nothing if that cuts off
@@ -199,7 +202,8 @@ std::string fault_of_tests(const std::vector<ForwardTest>& tests, const KnownCon
 
 ForwardFit::ForwardFit(const Record& record, const KnownConstants& constants, const RegressionOptions& options,
                        Estimate& estimate) {
-  for (const NumberedHistory& item : usable_histories(record, options, estimate)) {
+  // The motion is compared as it is: no filter limits how short a history may be.
+  for (const NumberedHistory& item : usable_histories(record, {.cutoffs = {0.0}}, estimate)) {
     if (range_of(item.history->x) > 0.0)
       tests_.emplace_back(item);
     else
@@ -216,7 +220,8 @@ void ForwardFit::search(const Record& record, const KnownConstants& constants, c
     return;
   }
   LeastSquaresProblem problem = set_up(constants, list.front());
-  problem.start = best_start(list, tests_, *layout_, *residuals_);
+  const std::vector<Eigen::VectorXd> sorted = sorted_starts(list, tests_, *layout_, *residuals_);
+  problem.start = sorted.front();
   constexpr double large = 0.3;
   if (const std::optional<Record> part = large_motion(tests_, large)) {
     Estimate taken;
@@ -229,10 +234,29 @@ void ForwardFit::search(const Record& record, const KnownConstants& constants, c
   LeastSquaresFit last = fit(problem);
   const bool is_first = found_.parameters.size() == 0;
   if (is_first || (last.outcome.ok() && last.sum_of_squares < found_.sum_of_squares)) found_ = std::move(last);
+  search_further(std::move(problem), sorted);
   if (!found_.outcome.ok())
     problem_ = found_.outcome.reason;
   else
     free_speeds(constants);
+}
+
+void ForwardFit::search_further(LeastSquaresProblem problem, const std::vector<Eigen::VectorXd>& starts) {
+  if (!found_.outcome.ok()) return;
+  const ForceParameters force = layout_->force(found_.parameters);
+  // A motion of few half swings: the place where it stops tells F0, and each number of half swings has a minimum.
+  constexpr double heavy = 0.25;
+  const double zeta = force.c / (2.0 * std::sqrt(force.m * force.k));
+  const double share = force.F0 / (force.k * layout_->length());
+  const bool all_free = std::ranges::all_of(tests_, [](const ForwardTest& test) { return is_free(*test.history); });
+  const bool is_short = zeta > heavy || (all_free && share > 0.5 * heavy);
+  const bool without_friction = found_.parameters[1] <= problem.low[1];
+  const std::size_t count = is_short ? 6 : without_friction ? 2 : 0;
+  for (std::size_t i = 0; i < std::min(count, starts.size()); ++i) {
+    problem.start = starts[i];
+    LeastSquaresFit other = fit(problem);
+    if (other.outcome.ok() && other.sum_of_squares < found_.sum_of_squares) found_ = std::move(other);
+  }
 }
 
 LeastSquaresProblem ForwardFit::set_up(const KnownConstants& constants, const ForceParameters& start) {

@@ -148,6 +148,9 @@ class ForwardFit {
   /// A driven mass that hardly moves at first is at rest, or near a turn: its speed stays free if the data need it.
   void free_speeds(const KnownConstants& constants);
   void search(const Record& record, const KnownConstants& constants, const RegressionOptions& options);
+  /// Descends from more of the starting points where there are several minima: in a motion of few half swings, and
+  /// where the fit ended without Coulomb friction.
+  void search_further(LeastSquaresProblem problem, const std::vector<Eigen::VectorXd>& starts);
 
   std::string problem_;
   std::vector<ForwardTest> tests_;

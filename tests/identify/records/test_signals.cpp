@@ -100,5 +100,6 @@ TEST_CASE("Unsound histories say what is wrong") {
   CHECK(fault_of_cutoff(history, 0.0).empty());
   CHECK_FALSE(fault_of_cutoff(history, -1.0).empty());
   CHECK_FALSE(fault_of_cutoff(history, 460.0).empty());
-  CHECK(fault_of_cutoff(history, 5.0) == "the cut-off frequency 5 Hz is too low for a record of this length");
+  CHECK(fault_of_cutoff(history, 5.0) ==
+        "the record is too short for its filter: it has 100 samples, and a cut-off frequency of 5 Hz needs 1264");
 }

@@ -126,7 +126,7 @@ TEST_CASE("A record that cannot be used says why") {
   RegressionOptions options;
   options.cutoffs = {300.0};
   CHECK(reason(bearing_constants, options) ==
-        "no history can be used: the cut-off frequency 300 Hz is above 0.45 of the sample rate");
+        "no history can be used: a cut-off frequency of 300 Hz is above 0.45 of the sample rate");
   for (double& x : history.x) x = 0.0;
   CHECK(acceleration_velocity_displacement(record_of({history}), bearing_constants, {}).outcome.ok() == false);
 }

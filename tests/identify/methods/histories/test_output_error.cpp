@@ -6,6 +6,7 @@
 
 #include "friction_models/laws/viscous_saturating.hpp"
 #include "identify/models/sampled_oscillator.hpp"
+#include "identify/records/signals.hpp"
 #include "tests/identify/histories.hpp"
 
 using namespace dualdamp;
@@ -117,6 +118,42 @@ TEST_CASE("The speed of the first sample is found near a turn, where noise hides
     CHECK(e.others.back().name == "residual_deviation");
     CHECK(e.others.back().value == Approx(noise).epsilon(0.08));
   }
+}
+
+TEST_CASE("Heavily damped releases are found among the minima of their fit") {
+  // A minimum for each number of half swings, and one without Coulomb friction, which costs three times the noise.
+  const double mass = 1.042;
+  const double stiffness = 1568.0;
+  for (const auto& [zeta, F0] : {std::pair(0.763, 1.08), std::pair(0.789, 1.48), std::pair(0.841, 2.79),
+                                 std::pair(0.854, 1.88), std::pair(1.2, 2.0)}) {
+    const double c = 2.0 * zeta * std::sqrt(mass * stiffness);
+    sim::Model model = driven_bearing(c, F0, 0.0);
+    model.excitation = {};
+    model.initial = {100.0 * F0 / stiffness, 0.0};
+    const History clean = sampled(model, 1.5, 1000.0);
+    for (std::uint64_t seed = 0; seed < 4; ++seed) {
+      Normal normal(seed);
+      const double noise = 0.1 * F0 / stiffness;
+      const Estimate e = output_error(record_of({displacement_only(clean, noise, normal)}), bearing_constants, {});
+      CAPTURE(zeta, seed, e.value.F0);
+      REQUIRE(e.outcome.ok());
+      CHECK(e.value.c == Approx(c).epsilon(5e-3));
+      CHECK(e.value.F0 == Approx(F0).epsilon(0.05));
+      CHECK(e.others.back().value == Approx(noise).epsilon(0.1));
+    }
+  }
+}
+
+TEST_CASE("A history shorter than the filters of other methods is fitted") {
+  sim::Model model = driven_bearing(bearing_c, bearing_F0, 0.0);
+  model.excitation = {};
+  model.initial = {20e-3, 0.0};
+  const History history = base_and_displacement(model, 0.06);
+  REQUIRE_FALSE(fault_of_cutoff(history, cutoffs_for(history, {}).back()).empty());
+  const Estimate e = output_error(record_of({history}), bearing_constants, {});
+  CAPTURE(e.reason);
+  REQUIRE(e.outcome.ok());
+  CHECK(e.value.F0 == Approx(bearing_F0).epsilon(1e-6));
 }
 
 TEST_CASE("Intervals cover the truth under noise, with a tenth of the regression's error") {
