@@ -10,6 +10,7 @@
 
 #include "core/numbers.hpp"
 #include "identify/records/derived_records.hpp"
+#include "identify/records/turning_points.hpp"
 #include "identify/statistics/median.hpp"
 #include "identify/statistics/noise_level.hpp"
 #include "identify/validate.hpp"
@@ -17,60 +18,6 @@
 namespace dualdamp::identify {
 
 namespace {
-
-/// A turning point of the samples, before the fit.
-struct Turn {
-  std::size_t index = 0;
-  bool at_rest = false;  ///< the mass is held or stays there
-};
-
-/// Alternating extremes that are farther apart than `band`. The signal has not yet turned back from the last one.
-std::vector<std::size_t> zigzag(std::span<const double> x, double band) {
-  std::vector<std::size_t> turns;
-  std::size_t low = 0;
-  std::size_t high = 0;
-  int direction = 0;
-  for (std::size_t i = 1; i < x.size(); ++i) {
-    if (x[i] > x[high]) high = i;
-    if (x[i] < x[low]) low = i;
-    if (direction >= 0 && x[i] < x[high] - band) {
-      turns.push_back(high);
-      direction = -1;
-      low = i;
-    } else if (direction <= 0 && x[i] > x[low] + band) {
-      turns.push_back(low);
-      direction = 1;
-      high = i;
-    }
-  }
-  turns.push_back(direction > 0 ? high : low);
-  return turns;
-}
-
-/// Removes ripple: swings that are smaller than both neighbours and last less than half of `half_period`. Of two
-/// tops with a ripple between them, the higher one is left.
-std::vector<std::size_t> without_ripple(std::span<const double> x, std::vector<std::size_t> turns,
-                                        double half_period) {
-  const auto swing = [&](std::size_t i) { return std::abs(x[turns[i]] - x[turns[i - 1]]); };
-  const auto is_ripple = [&](std::size_t i) {
-    return swing(i) <= swing(i - 1) && swing(i) <= swing(i + 1) &&
-           2.0 * static_cast<double>(turns[i] - turns[i - 1]) < half_period;
-  };
-  std::size_t before = 0;
-  while (before != turns.size()) {
-    before = turns.size();
-    std::vector<std::size_t> left = {turns.front()};
-    for (std::size_t i = 1; i < turns.size(); ++i) {
-      const bool has_neighbours = i >= 2 && i + 1 < turns.size() && left.back() == turns[i - 1];
-      if (has_neighbours && is_ripple(i))
-        left.pop_back();
-      else
-        left.push_back(turns[i]);
-    }
-    turns = std::move(left);
-  }
-  return turns;
-}
 
 struct LocalFit {
   double value = 0.0;
@@ -138,9 +85,9 @@ class DecayReader {
     }
     width_ = std::max(half_period_ / 4.0, narrowest);
 
-    add_first(result, turns.front());
     for (std::size_t i = 0; i + 1 < turns.size(); ++i)
       if (turns[i] > 0 && !is_held(turns[i])) add(result, turns[i]);
+    add_first(result, turns.front());
     add_last(result, turns.back());
     const std::string fault = keep_decay(result);
     return fault.empty() ? result : refused(fault);
@@ -204,14 +151,26 @@ class DecayReader {
     result.standard_errors.push_back(std);
   }
 
-  void put_mean(DerivedDecay& result, std::size_t first, std::size_t last, std::size_t index) const {
+  void put_first(DerivedDecay& result, std::size_t index, double value, double std) const {
+    put(result, static_cast<double>(index), value, std);
+    for (std::vector<double>* list : {&result.record.extremes, &result.record.times, &result.standard_errors})
+      std::rotate(list->begin(), list->end() - 1, list->end());
+  }
+
+  struct Mean {
+    double value = 0.0;
+    double std = 0.0;
+  };
+
+  /// Of the samples [first, last).
+  [[nodiscard]] Mean mean_of(std::size_t first, std::size_t last) const {
     const auto n = static_cast<double>(last - first);
     const double mean = std::reduce(x_.begin() + static_cast<std::ptrdiff_t>(first),
                                     x_.begin() + static_cast<std::ptrdiff_t>(last)) /
                         n;
     double square = 0.0;
     for (std::size_t i = first; i < last; ++i) square += (x_[i] - mean) * (x_[i] - mean);
-    put(result, static_cast<double>(index), mean, std::sqrt(square / n / std::max(n - 1.0, 1.0)));
+    return {mean, std::sqrt(square / n / std::max(n - 1.0, 1.0))};
   }
 
   /// Number of samples at the beginning that are equal to the first one within the noise: the mass is held.
@@ -228,7 +187,8 @@ class DecayReader {
   void add_first(DerivedDecay& result, std::size_t first_turn) const {
     const std::size_t held = held_until();
     if (static_cast<double>(held) > 2.0 * width_) {
-      put_mean(result, 0, held, held - 1);
+      const Mean mean = mean_of(0, held);
+      put_first(result, held - 1, mean.value, mean.std);
       result.first = held;
       return;
     }
@@ -248,9 +208,37 @@ class DecayReader {
     constexpr double errors = 3.0;
     const double swing = std::abs(x_[static_cast<std::size_t>(half_period_)] - x_[0]);
     const double largest_slope = 0.5 * swing * std::numbers::pi * width_ / half_period_;
-    if (std::abs(fit.slope) <
-        std::clamp(errors * fit.slope_std, least_slope * largest_slope, most_slope * largest_slope))
-      put(result, 0.0, fit.value, fit.std);
+    const double hidden = errors * fit.slope_std;
+    if (std::abs(fit.slope) < std::clamp(hidden, least_slope * largest_slope, most_slope * largest_slope)) {
+      put_first(result, 0, fit.value, fit.std);
+      return;
+    }
+    if (std::abs(fit.slope) >= hidden || !turns_at_first(result, fit.std / (0.5 * swing), swing)) return;
+    const LocalFit level = local_fit(x_, 0, last, 0.0, width_, start_columns - 1, [](double u, auto row) {
+      for (Eigen::Index k = 0; k < row.size(); ++k) row(k) = std::pow(u, static_cast<double>(k > 0 ? k + 1 : 0));
+    });
+    put_first(result, 0, level.value, level.std);
+  }
+
+  /// Where noise hides the first slope, the time of the first turning point tells whether the mass began at rest:
+  /// one half swing, `swing` long, later. An amplitude is uncertain by `share`: a phase that changes it by less is
+  /// none.
+  [[nodiscard]] bool turns_at_first(const DerivedDecay& result, double share, double swing) const {
+    const std::vector<double>& e = result.record.extremes;
+    constexpr double least_share = 0.25;  // the times of smaller swings are uncertain
+    std::size_t count = 0;
+    while (count + 1 < e.size() && std::abs(e[count + 1] - e[count]) >= least_share * swing) ++count;
+    if (count == 0) return false;
+    const auto n = static_cast<double>(count);
+    const std::vector<double>& times = result.record.times;
+    const double half_swing = (times[count] - times[0]) / n;
+    const double phase = std::numbers::pi * ((times[0] - history_.start) / half_swing - 1.0);
+    // The noise moves a fitted turning point by about one and a half of its error over the amplitude.
+    const auto error = [&](std::size_t i) {
+      return 1.5 * result.standard_errors[i] / std::abs(0.5 * (e[i] - e[i > 0 ? i - 1 : 1]));
+    };
+    return std::abs(phase) <
+           std::sqrt(2.0 * share) + 2.0 * std::hypot((1.0 + 1.0 / n) * error(0), error(count) / n);
   }
 
   /// Adds the value of the fit where its slope is zero. The powers 2, 3 and 4 have a coefficient on each side.
@@ -298,7 +286,8 @@ class DecayReader {
     while (first > 0 && std::abs(x_[first - 1] - x_.back()) < band_) --first;
     const bool rests = static_cast<double>(x_.size() - first) > half_period_;
     if (!rests || first == 0 || turn + 1 < first) return;
-    put_mean(result, first, x_.size(), first);
+    const Mean mean = mean_of(first, x_.size());
+    put(result, static_cast<double>(first), mean.value, mean.std);
     // A hundred samples at one position would repeat the error of the sensor there a hundred times.
     result.last = std::min(x_.size(), first + 2 * static_cast<std::size_t>(half_period_));
     // The noise hides the moment of the stop, which is half a period after the last turning point.
@@ -306,7 +295,38 @@ class DecayReader {
     if (times.size() < 3) return;
     const std::size_t turned = times.size() - 2;
     const std::size_t from = turned > 1 ? 1 : 0;  // the noise hides the moment of release as well
-    times.back() = times[turned] + (times[turned] - times[from]) / static_cast<double>(turned - from);
+    const double half_swing = (times[turned] - times[from]) / static_cast<double>(turned - from);
+    times.back() = times[turned] + half_swing;
+    add_small_swing(result, half_swing * history_.sample_rate);
+  }
+
+  /// A mass that turns just outside of the band in which it sticks moves once more, by less than `band_`: the rest
+  /// is not the last turning point but the next. Between them it follows (1 + cos)/2.
+  void add_small_swing(DerivedDecay& result, double half_swing) const {
+    std::vector<double>& extremes = result.record.extremes;
+    const double turned = (result.record.times.back() - history_.start) * history_.sample_rate;
+    const auto begin = static_cast<std::size_t>(std::max(0.0, std::ceil(turned)));
+    const auto stop = static_cast<std::size_t>(std::ceil(turned + half_swing));
+    if (stop <= begin || 2 * stop > begin + x_.size()) return;  // the rest is shorter than the swing
+    const Mean rest = mean_of(stop, x_.size());
+    Eigen::ArrayXd path(static_cast<Eigen::Index>(stop - begin));
+    for (Eigen::Index i = 0; i < path.size(); ++i)
+      path[i] = 0.5 + 0.5 * std::cos(std::numbers::pi * (std::ceil(turned) + static_cast<double>(i) - turned) /
+                                     half_swing);
+    const Eigen::ArrayXd moved = Eigen::Map<const Eigen::ArrayXd>(&x_[begin], path.size()) - rest.value;
+    const double swing = (path * moved).sum() / path.square().sum();
+    // The band is at least eight deviations of the noise, or as wide for the steps of a converter.
+    const double noise = std::max(rest.std * std::sqrt(static_cast<double>(x_.size() - stop)), band_ / 9.0);
+    const double std = std::hypot(noise / std::sqrt(path.square().sum()), rest.std);
+    const double onwards = std::copysign(1.0, extremes.back() - extremes[extremes.size() - 2]);
+    constexpr double deviations = 3.0;
+    constexpr double most_left = 1.5;  // a contact that gives moves otherwise
+    const double left = std::sqrt((moved - swing * path).square().mean());
+    if (swing * onwards < deviations * std || left > most_left * noise) return;
+    extremes.back() = rest.value + swing;
+    result.standard_errors.back() = std;
+    put(result, turned + half_swing, rest.value, rest.std);
+    result.last = std::min(x_.size(), result.last + static_cast<std::size_t>(half_swing));
   }
 
   /// The swings of a free decay shrink and last equally long. They may grow before the release, while a blow pushes

@@ -86,6 +86,64 @@ TEST_CASE("Ripple, and the fast motion of a mass that sticks to its contact, are
   CHECK(cut.last < stop + 200);
 }
 
+TEST_CASE("A release from rest at the first sample is an extreme, however much noise hides its slope") {
+  // Fourteen x_f, 40 samples a half swing, noise of 0.4 % and 1 % of the release.
+  sim::Model model = soft_bearing();
+  model.oscillator.damping = 2.0 * 0.03 * std::sqrt(mass * stiffness);
+  const double X = 14.0 * soft_x_f;
+  model.initial = {X, 0.0};
+  const History still = sampled_displacements(model, 2.0, 500.0);
+  model.initial = {0.9 * X, -0.4 * X * natural};  // an eighth of a half swing after the turn
+  const History moving = sampled_displacements(model, 2.0, 500.0);
+  for (const double share : {0.004, 0.01}) {
+    int begun = 0;
+    int turned = 0;
+    for (std::uint64_t seed = 0; seed < 20; ++seed) {
+      testing::Normal normal(seed);
+      const auto noisy = [&](History history) {
+        history.y.clear();
+        for (double& x : history.x) x += share * X * normal();
+        return history;
+      };
+      const DerivedDecay decay = decay_of(noisy(still));
+      begun += decay.first == 0 ? 1 : 0;
+      if (decay.first == 0) CHECK(decay.record.extremes[0] == Approx(X).margin(4.0 * share * X));
+      turned += decay_of(noisy(moving)).first > 0 ? 1 : 0;
+    }
+    CAPTURE(share);
+    CHECK(begun >= (share < 0.005 ? 18 : 14));  // at 1 % the times of the later turning points are uncertain too
+    CHECK(turned == 20);
+  }
+}
+
+TEST_CASE("A last swing that is smaller than the noise's band is told from a stop at the last turning point") {
+  // In units of x_f, the last turning point is at `last`, and the mass comes to rest on the same side.
+  const double zeta = 0.01;
+  sim::Model model = soft_bearing();
+  model.oscillator.damping = 2.0 * zeta * std::sqrt(mass * stiffness);
+  const double R = std::exp(-M_PI * zeta / std::sqrt(1.0 - zeta * zeta));
+  const double noise = 0.05 * soft_x_f;
+  for (const double last : {0.5, 0.98, 1.05, 1.1, 1.3}) {
+    double X = last;
+    for (int swing = 0; swing < 10; ++swing) X = (X + 1.0 + R) / R;
+    model.initial = {X * soft_x_f, 0.0};
+    const std::vector<double> exact = sim::analytic::free_decay_extremes(zeta, soft_x_f, X * soft_x_f, 20);
+    REQUIRE(exact.size() == (last > 1.0 ? 12 : 11));
+    const History clean = sampled_displacements(model, 3.0, 500.0);
+    for (std::uint64_t seed = 0; seed < 10; ++seed) {
+      History history = clean;
+      history.y.clear();
+      testing::Normal normal(seed);
+      for (double& x : history.x) x += noise * normal();
+      const DerivedDecay decay = decay_of(history);
+      CAPTURE(last, seed, decay.fault);
+      REQUIRE(decay.record.extremes.size() == exact.size());
+      CHECK(decay.record.extremes[10] == Approx(exact[10]).margin(2.0 * noise));
+      CHECK(decay.record.extremes.back() == Approx(exact.back()).margin(0.5 * noise));
+    }
+  }
+}
+
 TEST_CASE("A blow within the first samples is no part of the free motion") {
   // The mass is pushed for 20 ms, from the first sample on; the period is ten times as long.
   sim::Model model = soft_bearing();

@@ -1,0 +1,53 @@
+#include "identify/records/turning_points.hpp"
+
+#include <cmath>
+#include <utility>
+
+namespace dualdamp::identify {
+
+std::vector<std::size_t> zigzag(std::span<const double> x, double band) {
+  std::vector<std::size_t> turns;
+  std::size_t low = 0;
+  std::size_t high = 0;
+  int direction = 0;
+  for (std::size_t i = 1; i < x.size(); ++i) {
+    if (x[i] > x[high]) high = i;
+    if (x[i] < x[low]) low = i;
+    if (direction >= 0 && x[i] < x[high] - band) {
+      turns.push_back(high);
+      direction = -1;
+      low = i;
+    } else if (direction <= 0 && x[i] > x[low] + band) {
+      turns.push_back(low);
+      direction = 1;
+      high = i;
+    }
+  }
+  turns.push_back(direction > 0 ? high : low);
+  return turns;
+}
+
+std::vector<std::size_t> without_ripple(std::span<const double> x, std::vector<std::size_t> turns,
+                                        double half_period) {
+  const auto swing = [&](std::size_t i) { return std::abs(x[turns[i]] - x[turns[i - 1]]); };
+  const auto is_ripple = [&](std::size_t i) {
+    return swing(i) <= swing(i - 1) && swing(i) <= swing(i + 1) &&
+           2.0 * static_cast<double>(turns[i] - turns[i - 1]) < half_period;
+  };
+  std::size_t before = 0;
+  while (before != turns.size()) {
+    before = turns.size();
+    std::vector<std::size_t> left = {turns.front()};
+    for (std::size_t i = 1; i < turns.size(); ++i) {
+      const bool has_neighbours = i >= 2 && i + 1 < turns.size() && left.back() == turns[i - 1];
+      if (has_neighbours && is_ripple(i))
+        left.pop_back();
+      else
+        left.push_back(turns[i]);
+    }
+    turns = std::move(left);
+  }
+  return turns;
+}
+
+}  // namespace dualdamp::identify
