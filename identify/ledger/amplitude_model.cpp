@@ -9,6 +9,7 @@
 #include <set>
 #include <vector>
 
+#include "identify/ledger/amplitude_noise.hpp"
 #include "identify/ledger/amplitude_terms.hpp"
 #include "identify/methods/amplitudes/steady_states.hpp"
 #include "identify/statistics/decompositions.hpp"
@@ -18,13 +19,6 @@
 namespace dualdamp::identify {
 
 namespace {
-
-/// Standard deviations of the three channels.
-struct Deviations {
-  double x = 1.0;
-  double Y = 0.0;
-  double phase = 1.0;
-};
 
 /// Y and phase of the drive that a motion needs.
 using Asked = Eigen::Vector2d;
@@ -68,6 +62,7 @@ class SteadyStates {
       phases_ += with_phases && !std::isnan(point.phase) ? 1 : 0;
     }
     with_phases_ = phases_ >= 2;
+    largest_ = largest_deviations(points_);
     for (const AmplitudeTerm& term : amplitude_terms()) {
       const bool by_frequency = term.several_frequencies && frequencies_.size() < 2;
       if (!by_frequency) terms_.push_back(&term);
@@ -77,6 +72,7 @@ class SteadyStates {
   [[nodiscard]] const std::vector<SteadyPoint>& points() const { return points_; }
   [[nodiscard]] const std::vector<const AmplitudeTerm*>& terms() const { return terms_; }
   [[nodiscard]] bool with_phases() const { return with_phases_; }
+  [[nodiscard]] const Deviations& largest() const { return largest_; }
   [[nodiscard]] std::size_t frequencies() const { return frequencies_.size(); }
   [[nodiscard]] int sweeps() const { return sweeps_; }
   [[nodiscard]] Eigen::Index amplitudes() const { return static_cast<Eigen::Index>(points_.size()); }
@@ -200,6 +196,7 @@ class SteadyStates {
 
   std::vector<SteadyPoint> points_;
   std::vector<double> true_x_;
+  Deviations largest_;
   std::set<long> frequencies_;
   std::vector<const AmplitudeTerm*> terms_;
   int sweeps_ = 0;
@@ -271,6 +268,7 @@ AmplitudeFit fit_with(SteadyStates states, const PlainFriction& begin, const Tak
     fit.deviations.x *= amplitude;
     fit.deviations.Y *= amplitude;
     if (states.phases() > 0) fit.deviations.phase *= scale_of(states, left, states.amplitudes(), states.phases());
+    limit(fit.deviations, states.largest());
   }
   fit.rows = states.linearise(fit.at, fit.deviations);
   const Eigen::MatrixXd columns = free_columns(fit.rows.base, fit.rows.relaxed, taken);
@@ -382,6 +380,8 @@ JointModel amplitude_model_of(const AmplitudeFit& fit, const SteadyStates& state
   model.relaxed = fit.rows.relaxed;
   leave_out_unseen(states, fit.at.friction, relaxed, model);
   model.spent = states.with_phases() ? 1.0 : 0.0;
+  const Eigen::Index channels = states.phases() > 0 ? 2 : 1;
+  model.noise_freedom = static_cast<double>(model.base.rows() - channels * smooth_columns(states));
   model.scale_freedom = static_cast<double>(states.amplitudes() - smooth_columns(states));
   model.refit = [states, begin = start_beside(fit.at.friction, states.points()), hidden = model.hidden, unit,
                  stated](const Taken& taken) {

@@ -65,8 +65,30 @@ Complex with_force(const PlainFriction& friction, double x, double r, double g) 
   return plain_drive(friction, x, r) + g * force(x, r);
 }
 
+// The spring stretches by x - y. Its fundamental e under the drive D = x - e obeys D = plain + g |e|^2 e, which is
+// e (1 + g |e|^2) = x - plain: the spring has the pull of a linear one, and |e| is a root of a cubic. Beyond the
+// largest pull of a softening spring it stays at that one.
+Complex elongation(const PlainFriction& friction, double x, double r, double g) {
+  const Complex pull = x - plain_drive(friction, x, r);
+  const double root = std::sqrt(3.0 * std::abs(g));
+  const double share = 1.5 * root * std::abs(pull);
+  if (!(share > 0.0)) return pull;
+  const double third =
+      g > 0.0 ? std::sinh(std::asinh(share) / 3.0) : std::sin(std::asin(std::min(1.0, share)) / 3.0);
+  return pull * (3.0 * third / share);
+}
+
+// Its cube also has a third harmonic, g |e|^3/3, which moves the mass at its turning points.
+Complex with_cubic_spring(const PlainFriction& friction, double x, double r, double g) {
+  const Complex e = elongation(friction, x, r, g);
+  constexpr double least = 0.5;  // near r = 1/3 the harmonic is in resonance
+  const double inertia = std::max(least, 9.0 * r * r - 1.0);
+  const double harmonic = g / 3.0 * std::pow(std::abs(e), 3) * std::cos(3.0 * std::arg(e)) / inertia;
+  const double fundamental = x - std::clamp(harmonic, -0.2 * x, 0.2 * x);
+  return fundamental - elongation(friction, fundamental, r, g);
+}
+
 // Fundamentals of forces: the real part is in phase with x, the imaginary part with its velocity.
-Complex cubic_spring(double x, double /*r*/) { return x * x * x; }
 Complex second_mode(double x, double r) { return -r * r * r * r * x; }
 Complex drag(double x, double r) { return i * (r * x) * (r * x); }
 Complex cubic_damping(double x, double r) { return i * std::pow(r * x, 3); }
@@ -97,7 +119,7 @@ constexpr std::array<AmplitudeTerm, 13> all_amplitude_terms = {{
     {sensors, "lag of the phase free", false, lagging},
     {sensors, "delay of x free", true, delayed},
     {sensors, "gain of x against y free", true, gained},
-    {spring, "cubic stiffness", false, with_force<cubic_spring>},
+    {spring, "cubic stiffness", false, with_cubic_spring},
     {one_mode, "residual inertia of a further mode", false, with_force<second_mode>},
     {friction_velocity, "quadratic term over speed", false, with_force<drag>},
     {friction_velocity, "cubic term over speed", false, with_force<cubic_damping>},

@@ -4,7 +4,9 @@
 /// A harmonic drive Y e^(i phi), phase counted from the fundamental of x, moves the mass by x. Coulomb and viscous
 /// friction alone need exactly D(x) = (Y, phi) of Den Hartog's closed form, read backwards. A further force whose
 /// fundamental is k e(x, w) adds e to D, to first order in its harmonics. So every relaxation is D with a
-/// coefficient g: a force g e, another frequency ratio, a gain or a lag.
+/// coefficient g: a force g e, another frequency ratio, a gain or a lag. x-Y pairs are of a base that moves by Y,
+/// so the spring stretches by x - y: near resonance y is in quadrature, and a cubic spring changes the damping that
+/// seems to be there as well as the stiffness.
 ///
 /// Lengths in units of the largest output, frequencies over wn. Source: denhartog1931; the fundamentals of the
 /// forces as in harmonic_balance.

@@ -41,8 +41,39 @@ bool keeps_its_findings(const Estimate& estimate, const Ledger& ledger) {
          !ledger.tests_histories;
 }
 
+/// "the joint model misses these data by 12 times their noise (p = 1e-9)"
+std::string misfit_size(const Misfit& misfit) {
+  return "the joint model misses these data by " + core::format_number(misfit.times, 2) +
+         " times their noise (p = " + core::format_number(misfit.p_value, 2) + ")";
+}
+
+std::string misfit_text(const Misfit& misfit) {
+  return misfit_size(misfit) +
+         ", and no single assumption that is given up explains them: friction, the spring and a further mode may "
+         "depart together, or in a way that is not tested";
+}
+
+/// Beyond this factor on the noise no law of the library has the readings of a range over laws.
+constexpr double most_inflation = 3.0;
+
+/// A range over laws of which none fits, and any other estimate where the joint model misses the record, is a
+/// number that does not describe it.
+bool misses(Estimate& estimate, const Ledger& ledger) {
+  if (!estimate.sound) return false;
+  if (estimate.laws && estimate.laws->inflation > most_inflation)
+    estimate.reason = "no law of the library fits: the best one misses the readings by " +
+                      core::format_number(estimate.laws->inflation, 2) + " times their noise";
+  else if (ledger.misfit && !estimate.laws)
+    estimate.reason = misfit_size(*ledger.misfit);
+  else
+    return false;
+  estimate.usable = false;
+  return true;
+}
+
 void judge(Estimate& estimate, const Ledger& ledger) {
   if (!estimate.outcome.ok()) return;
+  if (misses(estimate, ledger)) return;
   if (ledger.data.empty()) return;
   if (!estimate.sound) return;
   std::vector<Assumption> violated;
@@ -92,12 +123,36 @@ bool agree(const std::vector<Estimate>& estimates, const std::vector<std::size_t
   });
 }
 
+bool is_negative(const Estimate& estimate) { return estimate.value.c < 0.0 || estimate.value.F0 < 0.0; }
+
+/// Is zeta or F0 uncertain by more than its value?
+bool is_vague(const Estimate& estimate) {
+  const auto vague = [](double value, const std::array<double, 2>& interval) {
+    return 0.5 * (interval[1] - interval[0]) > value;
+  };
+  return !estimate.interval95 || vague(estimate.value.c, estimate.interval95->c) ||
+         vague(estimate.value.F0, estimate.interval95->F0);
+}
+
+/// The range over laws that says more than a joint fit more uncertain than its value; nothing if there is none. The
+/// narrow interval of another method beside such a fit is narrow by chance.
+std::optional<std::size_t> better_range(const std::vector<Estimate>& estimates, const Estimate& joint) {
+  if (!is_vague(joint)) return std::nullopt;
+  for (std::size_t i = 0; i < estimates.size(); ++i)
+    if (estimates[i].laws && (area(estimates[i]) < area(joint) || (is_negative(joint) && estimates[i].usable)))
+      return i;
+  return std::nullopt;
+}
+
 /// The joint fit, else the narrowest; of estimates without intervals the one in the middle, if all agree.
 std::optional<std::size_t> preferred(const std::vector<Estimate>& estimates) {
   const auto place = [&](auto found) { return static_cast<std::size_t>(found - estimates.begin()); };
   // It has all data, and what is violated is relaxed in it: a narrower interval is narrower by chance.
   const auto joint = std::ranges::find(estimates, "joint_fit", &Estimate::method);
-  if (joint != estimates.end() && std::isfinite(area(*joint))) return place(joint);
+  if (joint != estimates.end() && std::isfinite(area(*joint))) {
+    const std::optional<std::size_t> better = better_range(estimates, *joint);
+    return better ? *better : place(joint);
+  }
   // Ranges over laws count only if nothing narrower can be used.
   const bool others = std::ranges::any_of(estimates, [](const Estimate& e) { return e.usable && !e.laws; });
   const auto size = [others](const Estimate& e) {
@@ -114,6 +169,20 @@ std::optional<std::size_t> preferred(const std::vector<Estimate>& estimates) {
                     [&](std::size_t i) { return std::pair(estimates[i].value.c, estimates[i].method); });
   const std::size_t middle = usable[usable.size() / 2];
   return agree(estimates, usable, middle) ? std::optional(middle) : std::nullopt;
+}
+
+/// An answer is not negative: where the interval holds zero, zero is the nearest value that friction can have.
+void keep_physical(Estimate& estimate) {
+  const auto keep = [](double& value, std::array<double, 2>* interval) {
+    value = value < 0.0 ? 0.0 : value;
+    if (interval != nullptr) (*interval)[0] = std::max(0.0, (*interval)[0]);
+  };
+  if (!is_negative(estimate)) return;
+  ParameterIntervals* at = estimate.interval95 ? &*estimate.interval95 : nullptr;
+  keep(estimate.value.zeta, at ? &at->zeta : nullptr);
+  keep(estimate.value.c, at ? &at->c : nullptr);
+  keep(estimate.value.x_f, at ? &at->x_f : nullptr);
+  keep(estimate.value.F0, at ? &at->F0 : nullptr);
 }
 
 /// The departures of friction that the ledger can relax: a range over laws answers for them.
@@ -195,6 +264,9 @@ std::string why_contradicted(const Ledger& ledger) {
 }
 
 std::string why_none(const Identification& all) {
+  if (all.ledger.misfit)
+    return misfit_text(*all.ledger.misfit) +
+           (all.ledger.departures.empty() ? "" : "; " + why_contradicted(all.ledger));
   if (!all.ledger.departures.empty()) return why_contradicted(all.ledger);
   const auto there = std::ranges::find_if(all.estimates, [](const Estimate& e) { return e.outcome.ok(); });
   if (there == all.estimates.end())
@@ -332,6 +404,7 @@ std::string verdict_of(const Identification& all) {
   const Estimate& best = all.estimates[*all.answer];
   const bool untested = all.ledger.data.empty();
   const std::string harmless = harmless_text(all.ledger);
+  if (all.ledger.misfit) text += " As a whole, " + misfit_text(*all.ledger.misfit) + ".";
   text =
       numbers_of(best, all.ledger.coordinate) + ", by " + best.method + ". " +
       (!text.empty()       ? text.substr(1)
@@ -364,6 +437,7 @@ Identification concluded(std::vector<Estimate> estimates, Ledger ledger) {
   for (Estimate& estimate : all.estimates)
     if (estimate.laws) reached_by = extend_to_relaxed(estimate, all.ledger);
   all.answer = preferred(all.estimates);
+  if (all.answer) keep_physical(all.estimates[*all.answer]);
   all.reason = all.answer ? why_preferred(all) : why_none(all);
   const bool any = std::ranges::any_of(all.estimates, [](const Estimate& e) { return e.outcome.ok(); });
   if (any) all.verdict = verdict_of(all);

@@ -52,6 +52,9 @@ struct JointModel {
   /// Relaxations without a column, which change the record in the second order only. They are not tested, but are
   /// fitted when a departure is to be explained.
   std::vector<std::size_t> hidden = {};
+  /// Degrees of freedom of a noise that is known without the model, and that residuals of unit variance have; 0:
+  /// the noise is what the model leaves.
+  double noise_freedom = 0.0;
   /// Degrees of freedom that the estimated deviations of channels take, beside those of the columns.
   double spent = 0.0;
   double deviance = unknown;   ///< twice the negative log-likelihood, to compare fits of the record; NaN: not known

@@ -199,6 +199,17 @@ class Writer {
     }
   }
 
+  /// Where the model misses the record, no assumption is known to hold.
+  void withdraw(const Misfit& misfit, Ledger& ledger) const {
+    for (LedgerEntry& entry : ledger.entries) {
+      if (entry.standing != Standing::holds) continue;
+      entry = {.assumption = entry.assumption,
+               .reason = "the joint model misses these data by " + rounded(misfit.times) +
+                         " times their noise, so this record cannot tell; " +
+                         std::string(what_would_tell(entry.assumption)) + " would tell"};
+    }
+  }
+
  private:
   const JointModel& model_;
   const RelaxationTests& tests_;
@@ -348,13 +359,15 @@ Ledger ledger_of(const Record& record, const KnownConstants& constants, const Le
   Writer writer(model, tests, constants, options);
   writer.write(ledger);
   writer.add_sight(ledger);
+  ledger.misfit = tests.misfit;
+  if (ledger.misfit) writer.withdraw(*ledger.misfit, ledger);
   // If friction over speed or displacement may be what departs, and it matters, no relaxed model has one zeta and
   // one F0. With friction that differs between the directions, they are the means of both.
   const bool is_friction = std::ranges::any_of(ledger.departures, [](const std::vector<Assumption>& named) {
     return std::ranges::any_of(named, [](Assumption a) { return is_of_friction(a) && a != Assumption::symmetry; });
   });
   const bool has_spring = constants.stiffness > 0.0 && constants.mass > 0.0;
-  if (is_friction || !has_spring) return ledger;
+  if (is_friction || !has_spring || ledger.misfit) return ledger;
   ledger.joint = joint_estimate(model, tests);
   for (const Departure& departure : tests.departures)
     ledger.relaxed.push_back(model.relaxations[departure.explanations.front().index].test);

@@ -45,6 +45,12 @@ struct LedgerEntry {
   std::string reason;  ///< why it is untested, what else explains a departure, or how large a one would be seen
 };
 
+/// The joint model misses the record by more than its noise.
+struct Misfit {
+  double p_value = 1.0;  ///< of the family of all tests
+  double times = 1.0;    ///< rms of what the model leaves, over that of the noise
+};
+
 struct LedgerOptions {
   double least_change = 0.02;  ///< relative change of zeta or F0 that matters
   /// A departure that errors of this size explain violates nothing.
@@ -68,9 +74,11 @@ struct Ledger {
   ParameterSet plain;                                            ///< of the joint model with nothing relaxed
   core::Coordinate coordinate = core::Coordinate::displacement;  ///< for the units in sentences
   std::vector<std::string> left_out;  ///< parts of the record outside the tests' conditions, each a sentence
-  std::vector<std::string> relaxed;   ///< tests of the relaxations that the joint estimate has free
+  /// The joint model misses the record, whatever is relaxed: no single assumption explains it.
+  std::optional<Misfit> misfit = {};
+  std::vector<std::string> relaxed;  ///< tests of the relaxations that the joint estimate has free
   /// Estimate of the joint model with the departures relaxed. Nothing without a model, without mass and stiffness,
-  /// or if a departure that matters may be one of friction over speed or displacement.
+  /// or if a departure that matters may be one of friction over speed or displacement, or beside a misfit.
   std::optional<Estimate> joint;
 
   [[nodiscard]] const LedgerEntry& entry(Assumption assumption) const {

@@ -22,6 +22,9 @@ constexpr double found_at = 2.8;
 /// does.
 constexpr double at_most_shared = 2.0;
 
+/// Twice the gain of the log-likelihood that a relaxation needs where only the misfit as a whole rejects.
+constexpr double far_better = 4.0 * equal_likelihood;
+
 /// The relaxations beside a base, projected.
 struct Projection {
   Eigen::VectorXd residuals;
@@ -192,13 +195,15 @@ std::vector<RelaxationTest> tests_beside(const JointModel& model, const Projecti
   const double deviation = std::sqrt(squares / projection.freedom);
   const Scores scores(weights_of(model, projection, deviation, least_change), projection.scale_freedom);
   const std::vector<double> largest = largest_scores(model, projection, scores);
+  const double share = model.noise_freedom >= 1.0 ? 1.0 - misfit_share : 1.0;
   for (Eigen::Index j = 0; j < t.size(); ++j) {
     RelaxationTest test;
     test.index = projection.indices[static_cast<std::size_t>(j)];
     test.t = t[j];
     if (is_possible(model, test.index, t[j])) {
       const double sides = model.relaxations[test.index].sign == 0 ? 1.0 : 0.5;
-      test.p_value = family_p_value(scores, j, t[j], projection.scale_freedom - 1.0, largest);
+      const double p_value = family_p_value(scores, j, t[j], projection.scale_freedom - 1.0, largest);
+      test.p_value = std::min(1.0, p_value / share);
       test.p_alone = sides * two_sided(t[j], projection.scale_freedom - 1.0);
       const double rows = projection.freedom + static_cast<double>(model.base.cols());
       test.explained = rows * std::log1p(t[j] * t[j] / (projection.freedom - 1.0));
@@ -222,20 +227,21 @@ std::vector<RelaxationTest> tests_beside(const JointModel& model, const Projecti
 
 /// Relaxations that may explain the departure, best first, at most two of an assumption. Far from the fit the true
 /// one may explain only half as much as the best. Constants are always candidates: a motion that is out of step
-/// with the model's is far from the fit.
-std::vector<RelaxationTest> candidates(const JointModel& model, std::vector<RelaxationTest> tests) {
+/// with the model's is far from the fit. `missed`: the model misses the whole record, and every one is a candidate.
+std::vector<RelaxationTest> candidates(const JointModel& model, std::vector<RelaxationTest> tests, bool missed) {
   std::ranges::sort(tests, std::greater<>(), &RelaxationTest::explained);
   std::vector<RelaxationTest> list;
   for (const RelaxationTest& test : tests) {
+    if (missed && test.explained == 0.0) continue;  // of a sign that its departure cannot have
     const double share = model.relaxations[test.index].assumption == Assumption::constants ? 0.0 : 0.5;
     const double least = std::min(tests.front().explained - equal_likelihood, share * tests.front().explained);
-    if (test.explained < (model.refit ? least : tests.front().explained - equal_likelihood)) continue;
+    if (!missed && test.explained < (model.refit ? least : tests.front().explained - equal_likelihood)) continue;
     const Assumption assumption = model.relaxations[test.index].assumption;
     const auto known = std::ranges::count_if(
         list, [&](const RelaxationTest& other) { return model.relaxations[other.index].assumption == assumption; });
-    if (known < 2) list.push_back(test);
+    if (missed || known < 2) list.push_back(test);
   }
-  if (!model.refit) return list;
+  if (!model.refit || list.empty()) return list;
   for (const std::size_t index : model.hidden) {
     RelaxationTest test;
     test.index = index;
@@ -269,11 +275,11 @@ Rest rest_of(const JointModel& model, std::vector<std::size_t> taken, std::size_
 
 /// The departure that the tests show: the relaxation that explains it best, and those that explain it as well. Far
 /// from the fit a linearised model ranks them wrongly. Where the model can be fitted again, candidates are
-/// therefore judged by the misfit that they leave.
+/// therefore judged by the misfit that they leave. `missed`: the model misses the whole record.
 Departure charged(const JointModel& model, const std::vector<std::size_t>& taken,
-                  const std::vector<RelaxationTest>& tests, double least_change) {
-  std::vector<RelaxationTest> list = candidates(model, tests);
-  if (!model.refit || list.size() == 1) return {list};
+                  const std::vector<RelaxationTest>& tests, double least_change, bool missed) {
+  std::vector<RelaxationTest> list = candidates(model, tests, missed);
+  if (!model.refit || list.size() <= 1) return {list};
   std::vector<Rest> rests;
   for (RelaxationTest& test : list) {
     rests.push_back(rest_of(model, taken, test.index, least_change));
@@ -300,6 +306,14 @@ Departure charged(const JointModel& model, const std::vector<std::size_t>& taken
   return departure;
 }
 
+/// Does a relaxed model explain what the one before missed as a whole: far better, with nothing left beside it?
+bool explains(const JointModel& relaxed, const std::vector<std::size_t>& taken, double deviance_before,
+              double least_change) {
+  if (!(relaxed.deviance < deviance_before - far_better) || misfit_of(relaxed, taken, least_change)) return false;
+  const std::vector<RelaxationTest> tests = tests_beside(relaxed, project(relaxed, taken), least_change);
+  return std::ranges::all_of(tests, [](const RelaxationTest& test) { return test.p_value >= family_level; });
+}
+
 }  // namespace
 
 RelaxationTests test_relaxations(const JointModel& model, double least_change) {
@@ -315,20 +329,30 @@ RelaxationTests test_relaxations(const JointModel& model, double least_change) {
     const JointModel& here = result.relaxed ? *result.relaxed : model;
     result.tests = tests_beside(here, projection, least_change);
     result.freedom = projection.freedom;
+    result.misfit = misfit_of(here, taken, least_change);
     const auto least = std::ranges::min_element(result.tests, {}, &RelaxationTest::p_value);
-    if (least == result.tests.end() || least->p_value >= family_level || taken.size() == most_departures) break;
-    result.departures.push_back(charged(here, taken, result.tests, least_change));
+    if (least == result.tests.end() || taken.size() == most_departures) break;
+    const bool rejects = least->p_value < family_level;
+    if (!rejects && !(result.misfit && model.refit)) break;
+    Departure found = charged(here, taken, result.tests, least_change, result.misfit.has_value());
+    if (found.explanations.empty()) break;
+    RelaxationTest& best = found.explanations.front();
+    std::vector<std::size_t> further = taken;
+    further.push_back(best.index);
+    std::optional<JointModel> relaxed;
+    if (model.refit) relaxed = model.refit(further);
+    if (!rejects && !explains(*relaxed, further, here.deviance, least_change)) break;
     // All explanations of a departure have the p-value of the departure.
-    for (RelaxationTest& test : result.departures.back().explanations) test.p_value = least->p_value;
-    RelaxationTest& best = result.departures.back().explanations.front();
-    taken.push_back(best.index);
-    if (model.refit) {
-      JointModel relaxed = model.refit(taken);
-      best.zeta_change = relaxed.value.zeta - here.value.zeta;
-      best.F0_change = relaxed.value.F0 - here.value.F0;
-      best.constants = relaxed.constants;
+    const double p_value = rejects ? least->p_value : result.misfit->p_value;
+    for (RelaxationTest& test : found.explanations) test.p_value = p_value;
+    if (relaxed) {
+      best.zeta_change = relaxed->value.zeta - here.value.zeta;
+      best.F0_change = relaxed->value.F0 - here.value.F0;
+      best.constants = relaxed->constants;
       result.relaxed = std::move(relaxed);
     }
+    result.departures.push_back(std::move(found));
+    taken = std::move(further);
     projection = project(result.relaxed ? *result.relaxed : model, taken);
   }
   return result;

@@ -12,12 +12,17 @@
 /// A relaxation that explains nearly as much (log-likelihood within `equal_likelihood` of the best, at equal number
 /// of parameters) is named beside it: the record cannot tell them apart.
 ///
+/// Far from the fit no single test may reject, because the misfit is in the residuals of all. Where the model
+/// misses the record as a whole (misfit.hpp), every relaxation is fitted, and the best is taken if it explains far
+/// more. What then is still missed is stated: no relaxation explains it.
+///
 /// Cost: a few milliseconds beside the projection of the columns.
 
 #include <optional>
 #include <vector>
 
 #include "identify/ledger/joint_model.hpp"
+#include "identify/ledger/misfit.hpp"
 
 namespace dualdamp::identify {
 
@@ -51,6 +56,7 @@ struct RelaxationTests {
   std::vector<std::size_t> alone;     ///< relaxations that cannot be told from the base parameters
   std::vector<Departure> departures;  ///< in the order found
   double freedom = 0.0;               ///< degrees of freedom left
+  std::optional<Misfit> misfit;       ///< that is left beside all departures
   std::optional<JointModel> relaxed;  ///< the model linearised with the departures relaxed, where it has such a fit
 };
 

@@ -24,6 +24,7 @@ class Laboratory {
   Laboratory(Kind kind, std::uint64_t seed, void (*alter)(Rig&), const Off& off)
       : kind_(kind), random_(1'000'003 * seed + static_cast<std::uint64_t>(kind)), off_(off) {
     Rig& rig = result_.rig;
+    rig.on_base = kind == Kind::xy || kind == Kind::xy_phase || kind == Kind::response;
     rig.m = uniform(0.5, 5.0);
     rig.k = rig.m * std::pow(2.0 * pi * uniform(2.0, 10.0), 2);
     rig.zeta = 0.02 * std::pow(5.0, uniform(0.0, 1.0));

@@ -29,7 +29,7 @@ class Integrator {
     double left = h;
     for (int events = 0; left > 0.0 && events < 20; ++events) {
       if (rigid_ && direction_ == 0) {
-        const double pull = drive_(t_) - spring(state_[0]) + rider();
+        const double pull = drive_(t_) - spring(state_[0], t_) + rider();
         const double limit = friction_limit(0.0);
         if (std::abs(pull) <= limit) {
           const State moved = rungekutta(left);  // the riding mass goes on
@@ -62,8 +62,10 @@ class Integrator {
   [[nodiscard]] double acceleration() const { return rigid_ && direction_ == 0 ? 0.0 : slope(state_, t_)[1]; }
 
  private:
-  [[nodiscard]] double spring(double x) const {
-    return rig_.k * x * (1.0 + rig_.cubic * (x / rig_.L) * (x / rig_.L));
+  /// Pull of the spring, less the drive of a base that moves.
+  [[nodiscard]] double spring(double x, double t) const {
+    const double stretch = (rig_.on_base ? x - drive_(t) / rig_.k : x) / rig_.L;
+    return rig_.k * (x + rig_.cubic * rig_.L * stretch * stretch * stretch);
   }
 
   /// Force of the riding mass.
@@ -99,7 +101,7 @@ class Integrator {
   }
 
   [[nodiscard]] State slope(const State& s, double t) const {
-    const double force = drive_(t) - spring(s[0]) - viscous(s[1]) - friction(s) + rider(s);
+    const double force = drive_(t) - spring(s[0], t) - viscous(s[1]) - friction(s) + rider(s);
     State d{};
     d[0] = s[1];
     d[1] = force / (rig_.m * (1.0 - rig_.second_mass));

@@ -19,7 +19,8 @@ struct Rig {
   double zeta = 0.05;
   double F0 = 1.0;  ///< N
 
-  double cubic = 0.0;         ///< spring k x (1 + cubic (x/L)^2)
+  bool on_base = false;       ///< the drive moves the far end of the spring by drive/k; false: a force on the mass
+  double cubic = 0.0;         ///< spring k z (1 + cubic (z/L)^2) of the elongation z
   double second_mass = 0.0;   ///< share of m that rides on a spring of its own
   double second_ratio = 4.3;  ///< its natural frequency over the first
   double drag = 0.0;          ///< c v (1 + drag |v|/V)

@@ -240,3 +240,62 @@ TEST_CASE("A departure that is seen and does no harm stands in the verdict") {
                  "in a way that matters; seen is: friction force of its own or zero of x free (p = 1e-20)"));
   CHECK_FALSE(mentions(found.verdict, "do not contradict any"));
 }
+
+TEST_CASE("A joint fit more uncertain than its value leaves the answer to a range over laws that says more") {
+  Estimate ranges = estimate("any_law", 0.06, 2.0, 0.3);
+  ranges.laws = std::make_shared<const LawIntervals>();
+  Ledger with_joint = ledger({});
+  with_joint.joint = estimate("joint_fit", 0.06, 2.0, 1.5);
+  const Estimate narrow = estimate("energy_balance", 0.06, 2.0, 0.1);
+  CHECK(answering(concluded({ranges, *with_joint.joint}, ledger({}))) == "any_law");
+  CHECK(answering(concluded({ranges, narrow, *with_joint.joint}, ledger({}))) == "any_law");
+  CHECK(answering(concluded({narrow, *with_joint.joint}, ledger({}))) == "joint_fit");
+  // A joint fit that says something answers, however wide the others are.
+  with_joint.joint = estimate("joint_fit", 0.06, 2.0, 0.5);
+  CHECK(answering(concluded({ranges, *with_joint.joint}, ledger({}))) == "joint_fit");
+}
+
+TEST_CASE("No answer has negative friction") {
+  Estimate ranges = estimate("any_law", 0.06, 2.0, 0.3);
+  ranges.laws = std::make_shared<const LawIntervals>();
+  Estimate joint = estimate("joint_fit", 0.06, 2.0, 0.5);
+  joint.value = {-0.01, -1.0, 2e-3, 2.0};
+  joint.interval95->zeta = {-0.03, 0.01};
+  joint.interval95->c = {-3.0, 1.0};
+  CHECK(answering(concluded({ranges, joint}, ledger({}))) == "any_law");
+  // Where nothing else can answer it is zero, which the interval holds.
+  const Identification alone = concluded({joint, joint}, ledger({}));
+  REQUIRE(alone.answer);
+  const Estimate& answer = alone.estimates[*alone.answer];
+  CHECK(answer.value.zeta == 0.0);
+  CHECK(answer.value.c == 0.0);
+  CHECK(answer.interval95->zeta == std::array<double, 2>{0.0, 0.01});
+  CHECK(answer.value.F0 == 2.0);
+}
+
+TEST_CASE("Where the joint model misses the record no narrow estimate answers, and the verdict says so") {
+  Ledger missed = ledger({});
+  missed.misfit = Misfit{1e-5, 12.0};
+  Estimate ranges = estimate("any_law", 0.06, 2.0, 0.3);
+  LawIntervals laws;
+  laws.zeta_hull = ranges.interval95->zeta;
+  laws.F0_hull = ranges.interval95->F0;
+  ranges.laws = std::make_shared<const LawIntervals>(laws);
+  const Estimate narrow = estimate("den_hartog_fit", 0.06, 2.0, 0.01);
+  const Identification none = concluded({narrow}, missed);
+  CHECK_FALSE(none.answer);
+  CHECK(mentions(none.reason, "misses these data by 12 times their noise"));
+  CHECK(mentions(none.verdict, "no single assumption"));
+  Estimate finder = narrow;  // what a method found does not make it usable
+  finder.usable = false;
+  finder.findings = {"the line is curved"};
+  CHECK_FALSE(concluded({finder}, missed).answer);
+  const Identification wide = concluded({narrow, ranges}, missed);
+  CHECK(answering(wide) == "any_law");
+  CHECK(mentions(wide.verdict, "no single assumption"));
+  // A range of which no law fits the record does not answer either.
+  laws.inflation = 3.5;
+  ranges.laws = std::make_shared<const LawIntervals>(laws);
+  CHECK_FALSE(concluded({narrow, ranges}, missed).answer);
+  CHECK_FALSE(concluded({ranges}, ledger({})).answer);
+}

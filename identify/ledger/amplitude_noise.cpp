@@ -1,0 +1,68 @@
+#include "identify/ledger/amplitude_noise.hpp"
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <limits>
+
+#include "identify/record.hpp"
+#include "identify/statistics/decompositions.hpp"
+
+namespace dualdamp::identify {
+
+namespace {
+
+/// 1, 1/x, x at one frequency; r, r^2 and x^2 as well at several.
+Eigen::MatrixXd curves(const std::vector<SteadyPoint>& points) {
+  const bool several = std::ranges::any_of(
+      points, [&](const SteadyPoint& point) { return !is_same_frequency(point.r, points.front().r); });
+  Eigen::MatrixXd columns(static_cast<Eigen::Index>(points.size()), several ? 6 : 3);
+  for (Eigen::Index i = 0; i < columns.rows(); ++i) {
+    const auto& [Y, x, phase, r, sweep, number] = points[static_cast<std::size_t>(i)];
+    columns.row(i).head(3) << 1.0, 1.0 / x, x;
+    if (several) columns.row(i).tail(3) << r - 1.0, (r - 1.0) * (r - 1.0), x * x;
+  }
+  return columns;
+}
+
+}  // namespace
+
+Deviations largest_deviations(const std::vector<SteadyPoint>& points) {
+  constexpr double infinite = std::numeric_limits<double>::infinity();
+  constexpr double margin = 4.0;
+  std::vector<SteadyPoint> with_phase;
+  std::ranges::copy_if(points, std::back_inserter(with_phase),
+                       [](const SteadyPoint& point) { return !std::isnan(point.phase); });
+  if (with_phase.empty()) return {infinite, infinite, infinite};
+  const Eigen::MatrixXd columns = curves(with_phase);
+  const Eigen::Index freedom = columns.rows() - columns.cols();
+  if (freedom < 2) return {infinite, infinite, infinite};
+  Eigen::VectorXcd drive(columns.rows());
+  for (Eigen::Index i = 0; i < drive.size(); ++i) {
+    const SteadyPoint& point = with_phase[static_cast<std::size_t>(i)];
+    drive[i] = std::polar(point.Y / point.x, point.phase);
+  }
+  const Eigen::VectorXd real = drive.real();
+  const Eigen::VectorXd imaginary = drive.imag();
+  const Eigen::VectorXd left_real = real - columns * pivoted_least_squares(columns, real);
+  const Eigen::VectorXd left_imaginary = imaginary - columns * pivoted_least_squares(columns, imaginary);
+  Deviations squares{0.0, 0.0, 0.0};
+  for (Eigen::Index i = 0; i < drive.size(); ++i) {
+    const SteadyPoint& point = with_phase[static_cast<std::size_t>(i)];
+    const std::complex<double> relative = std::complex<double>(left_real[i], left_imaginary[i]) / drive[i];
+    squares.x += std::pow(relative.real() * point.x, 2);
+    squares.Y += std::pow(relative.real() * point.Y, 2);
+    squares.phase += std::pow(relative.imag(), 2);
+  }
+  const auto largest = [&](double sum) { return margin * std::sqrt(sum / static_cast<double>(freedom)); };
+  return {largest(squares.x), largest(squares.Y), largest(squares.phase)};
+}
+
+void limit(Deviations& deviations, const Deviations& largest) {
+  const double excess = std::max(deviations.x / largest.x, deviations.Y / largest.Y);
+  if (excess > 1.0) deviations.x /= excess, deviations.Y /= excess;
+  deviations.phase = std::min(deviations.phase, largest.phase);
+}
+
+}  // namespace dualdamp::identify

@@ -1,0 +1,44 @@
+#include "identify/ledger/misfit.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "identify/assumption.hpp"
+#include "identify/statistics/decompositions.hpp"
+#include "identify/statistics/distributions.hpp"
+#include "identify/statistics/least_squares.hpp"
+
+namespace dualdamp::identify {
+
+namespace {
+
+/// Relative change of zeta or F0 by an error of this length along their columns. A value smaller than its standard
+/// error counts as that error.
+double largest_change(const JointModel& model, const Eigen::MatrixXd& columns, double length) {
+  const std::optional<Eigen::MatrixXd> covariance = unit_covariance(columns);
+  if (!covariance) return std::numeric_limits<double>::infinity();
+  const auto change = [&](Eigen::Index j, double value) {
+    const double unit = std::sqrt((*covariance)(j, j));
+    return length * unit / std::max(std::abs(value), unit);
+  };
+  return std::max(change(0, model.value.zeta), change(1, model.value.F0));
+}
+
+}  // namespace
+
+std::optional<Misfit> misfit_of(const JointModel& model, const std::vector<std::size_t>& taken,
+                                double least_change) {
+  const Eigen::MatrixXd columns = free_columns(model.base, model.relaxed, taken);
+  const double freedom = static_cast<double>(columns.rows() - columns.cols()) - model.spent;
+  if (model.noise_freedom < 1.0 || freedom < 1.0) return std::nullopt;
+  const double squares =
+      (model.residuals - columns * pivoted_least_squares(columns, model.residuals)).squaredNorm();
+  const double F = squares / freedom;
+  const Misfit misfit{std::min(1.0, f_test_p_value(F, freedom, model.noise_freedom) / misfit_share), std::sqrt(F)};
+  if (!(misfit.p_value < family_level)) return std::nullopt;
+  const bool matters = largest_change(model, columns, std::sqrt(std::max(0.0, squares - freedom))) >= least_change;
+  return matters ? std::optional(misfit) : std::nullopt;
+}
+
+}  // namespace dualdamp::identify

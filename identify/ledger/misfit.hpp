@@ -1,0 +1,27 @@
+#pragma once
+/// Does a joint model fit its record at all? The test of a relaxation compares one column with residuals that hold
+/// the whole misfit: where the model misses everything, nothing stands out.
+///
+/// An F test compares what the model leaves with the noise that the record has without it: the rest beside smooth
+/// curves over amplitude and frequency. A misfit matters if an error as long along the columns of zeta or F0 would
+/// change one of them by the least change that matters: without noise the smallest error of a model is significant.
+///
+/// It has a share of the family level of the record, and the tests of the relaxations have the rest.
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "identify/ledger/joint_model.hpp"
+#include "identify/ledger/ledger.hpp"
+
+namespace dualdamp::identify {
+
+/// Share of the family level that the test of the misfit has.
+inline constexpr double misfit_share = 0.1;
+
+/// The misfit of a model with these relaxations taken; nothing if it is not significant or does not matter.
+[[nodiscard]] std::optional<Misfit> misfit_of(const JointModel& model, const std::vector<std::size_t>& taken,
+                                              double least_change);
+
+}  // namespace dualdamp::identify

@@ -1,0 +1,165 @@
+#include "identify/ledger/amplitude_model.hpp"
+
+#include <algorithm>
+#include <array>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <numbers>
+#include <variant>
+
+#include "identify/ledger/amplitude_noise.hpp"
+#include "identify/ledger/amplitude_terms.hpp"
+#include "identify/ledger/answer.hpp"
+#include "identify/ledger/misfit.hpp"
+#include "identify/methods.hpp"
+#include "tests/identify/ledger/laboratory.hpp"
+
+using namespace dualdamp::identify;
+using namespace dualdamp::identify::testing;
+
+namespace {
+
+constexpr std::uint64_t model_seed = 100;
+
+/// Rows of frequency [Hz], Y [mm], x [mm] and phase [deg].
+template <std::size_t count>
+Record record_of(const std::array<std::array<double, 4>, count>& rows) {
+  Record record;
+  record.pairs.emplace();
+  for (const auto& [frequency, Y, x, phase] : rows) {
+    Pair pair;
+    pair.omega = 2.0 * std::numbers::pi * frequency;
+    pair.Y = 1e-3 * Y;
+    pair.x = 1e-3 * x;
+    pair.phase = phase * std::numbers::pi / 180.0;
+    pair.number = static_cast<int>(record.pairs->pairs.size()) + 1;
+    record.pairs->pairs.push_back(pair);
+  }
+  return record;
+}
+
+constexpr KnownConstants bench{1.042, 1568.0, unknown};
+
+/// A spring whose pull hardens by 15 %: zeta 0.03, F0 3.276 N.
+constexpr std::array<std::array<double, 4>, 8> hardening = {{{5.247812, 6.685225, 20.13419, 33.36038},
+                                                             {5.741723, 6.69932, 31.69164, 39.56798},
+                                                             {5.988679, 6.700799, 40.91357, 44.57527},
+                                                             {6.112157, 6.703867, 46.22204, 48.63046},
+                                                             {6.173896, 6.697876, 48.86451, 49.44325},
+                                                             {6.297374, 6.705584, 54.4218, 52.51609},
+                                                             {6.482591, 6.701015, 62.58942, 57.40007},
+                                                             {6.791285, 6.706007, 75.38566, 65.03407}}};
+/// Free play of 0.8 x_f to each side in the spring: zeta 0.06, F0 2 N.
+constexpr std::array<std::array<double, 4>, 6> free_play = {{{6.173896, 2.55333, 0.07421266, 108.9446},
+                                                             {6.173896, 3.190629, 7.263904, 113.8202},
+                                                             {6.173896, 3.826639, 13.98586, 109.9402},
+                                                             {6.173896, 4.463558, 19.90904, 106.7899},
+                                                             {6.173896, 5.102243, 25.63111, 104.8738},
+                                                             {6.173896, 6.375911, 36.77088, 101.5811}}};
+
+bool joint_holds(const Ledger& ledger, double zeta, double F0) {
+  if (!ledger.joint || !ledger.joint->interval95) return false;
+  const ParameterIntervals& at = *ledger.joint->interval95;
+  return at.zeta[0] <= zeta && zeta <= at.zeta[1] && at.F0[0] <= F0 && F0 <= at.F0[1];
+}
+
+}  // namespace
+
+TEST_CASE("The drive that a cubic spring needs is that of a base whose motion stretches it by x - y") {
+  const auto terms = amplitude_terms();
+  const auto cubic = std::ranges::find(terms, "cubic stiffness", &AmplitudeTerm::test);
+  REQUIRE(cubic != terms.end());
+  for (const double hardening_share : {0.03, 0.15, -0.03}) {
+    for (const double r : {0.85, 0.97, 1.0, 1.1}) {
+      CAPTURE(hardening_share, r);
+      Rig rig;
+      rig.zeta = 0.1;
+      rig.F0 = 1.0;
+      rig.on_base = true;
+      rig.cubic = hardening_share;
+      rig.L = 0.01;
+      const double Y = 2.5 * rig.x_f();
+      const Steady state = steady_state(rig, Y, r * rig.omega());
+      const std::complex<double> drive =
+          cubic->drive({rig.zeta, rig.x_f()}, state.x, r, 0.75 * rig.cubic / (rig.L * rig.L));
+      // What the closed form leaves out are products of the harmonics of the spring and of friction.
+      CHECK(std::abs(drive) == Approx(Y).epsilon(0.004));
+      CHECK(std::arg(drive) == Approx(state.phase).margin(0.006));
+    }
+  }
+}
+
+TEST_CASE(
+    "A spring that hardens under a moving base is charged to the spring, and the fit with it holds the truth") {
+  const auto alter = [](Rig& rig) { rig.cubic = 0.1; };
+  for (const Kind kind : {Kind::xy_phase, Kind::response}) {
+    int named = 0;
+    int held = 0;
+    constexpr int records = 6;
+    for (std::uint64_t seed = model_seed; seed < model_seed + records; ++seed) {
+      const Measured m = measured(kind, seed, alter);
+      const Ledger ledger = ledger_of(m.record, m.constants);
+      named += ledger.is_violated(Assumption::spring) ? 1 : 0;
+      held += joint_holds(ledger, m.rig.zeta, m.rig.F0) ? 1 : 0;
+    }
+    CAPTURE(name_of(kind));
+    CHECK(named == records);
+    CHECK(held >= records - 2);
+  }
+}
+
+TEST_CASE("Where the plain fit misses every phase the relaxation that explains the record is still found") {
+  const Record record = record_of(hardening);
+  const auto model = amplitude_model(record, bench);
+  REQUIRE(std::holds_alternative<JointModel>(model));
+  const std::optional<Misfit> misfit = misfit_of(std::get<JointModel>(model), {}, 0.02);
+  REQUIRE(misfit);
+  CHECK(misfit->times > 10.0);
+  const Ledger ledger = ledger_of(record, bench);
+  CHECK(ledger.is_violated(Assumption::spring));
+  CHECK_FALSE(ledger.is_violated(Assumption::constants));
+  CHECK(joint_holds(ledger, 0.03, 3.276));
+}
+
+TEST_CASE("A model that misses the phases by many times their noise gives no narrow answer") {
+  const Record record = record_of(free_play);
+  const Ledger ledger = ledger_of(record, bench);
+  REQUIRE(ledger.misfit);
+  CHECK(ledger.misfit->times > 10.0);
+  CHECK_FALSE(ledger.joint);
+  for (const LedgerEntry& entry : ledger.entries) CHECK(entry.standing != Standing::holds);
+  CHECK(ledger.entry(Assumption::spring).reason.find("times their noise") != std::string::npos);
+  const Identification found = concluded({find_method("den_hartog_fit")->run(record, bench)}, ledger);
+  CHECK_FALSE(found.answer);
+  CHECK(found.reason.find("no single assumption") != std::string::npos);
+}
+
+TEST_CASE("The noise of steady states is known without a model of friction") {
+  const auto drag = [](Rig& rig) { rig.drag = 0.5; };
+  for (const Kind kind : {Kind::xy_phase, Kind::response}) {
+    CAPTURE(name_of(kind));
+    const Measured m = measured(kind, model_seed, drag);
+    std::vector<SteadyPoint> points;
+    const auto& pairs = m.record.pairs->pairs;
+    const double unit = std::ranges::max_element(pairs, {}, &Pair::x)->x;
+    for (const Pair& pair : pairs) {
+      const double omega = std::isnan(pair.omega) ? m.rig.omega() : pair.omega;
+      points.push_back({pair.Y / unit, pair.x / unit, pair.phase, omega / m.rig.omega(), 0, pair.number});
+    }
+    // Drawn with 0.005 rad; the margin is four.
+    const Deviations largest = largest_deviations(points);
+    CHECK(largest.phase > 0.01);
+    CHECK(largest.phase < 0.06);
+    points.resize(4);
+    CHECK(std::isinf(largest_deviations(points).x));
+  }
+}
+
+TEST_CASE("Plain friction is fitted without misfit") {
+  for (const Kind kind : {Kind::xy, Kind::xy_phase, Kind::response})
+    for (std::uint64_t seed = model_seed; seed < model_seed + 10; ++seed) {
+      CAPTURE(name_of(kind), seed);
+      const Measured m = measured(kind, seed);
+      CHECK_FALSE(ledger_of(m.record, m.constants).misfit);
+    }
+}
