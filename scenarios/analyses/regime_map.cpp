@@ -47,7 +47,8 @@ ResultFields regime_map_fields() {
        {"boundary[].omega", "rad/s", "forcing frequency"},
        {"boundary[].Y", "m or N", "smallest input amplitude whose steady state never sticks"},
        {"boundary[].x", "m", "output amplitude there"},
-       {"boundary[].Y_closed_form", "m", "smallest input amplitude by Den Hartog's closed form, if that holds"},
+       {"boundary[].Y_closed_form", "m or N",
+        "smallest input amplitude by Den Hartog's closed form; missing if it does not hold"},
        {"boundary[].reason", "", "if no boundary was found: the reason"}},
       certificate_fields());
 }
@@ -156,10 +157,12 @@ void add_boundary(Answer& answer, const std::vector<sim::BoundaryPoint>& boundar
   Table table{.name = "boundary",
               .columns = {column("omega", "rad/s", boundary, &sim::BoundaryPoint::omega),
                           column("Y", unit, boundary, when_ok(&sim::BoundaryPoint::amplitude)),
-                          column("x", "m", boundary, when_ok(&sim::BoundaryPoint::x)),
-                          column("Y_closed_form", unit, boundary,
-                                 [](const sim::BoundaryPoint& point) { return point.closed_form.value_or(none); })},
+                          column("x", "m", boundary, when_ok(&sim::BoundaryPoint::x))},
               .key = "boundary"};
+  if (std::ranges::any_of(boundary, [](const sim::BoundaryPoint& point) { return point.closed_form.has_value(); }))
+    table.columns.push_back(column("Y_closed_form", unit, boundary, [](const sim::BoundaryPoint& point) {
+      return point.closed_form.value_or(none);
+    }));
   if (!std::ranges::all_of(boundary, [](const sim::BoundaryPoint& point) { return point.outcome.ok(); }))
     table.columns.push_back(
         text_column("reason", boundary, [](const sim::BoundaryPoint& point) { return point.outcome.reason; }));

@@ -45,15 +45,19 @@ ForceLimits limits_of(const Model& model) {
   return limits;
 }
 
+/// Nothing if the model is not Den Hartog's oscillator. A driving force acts as a base that moves by force/k.
 std::optional<double> den_hartogs(const Model& model, const ForceLimits& limits) {
   const Oscillator& o = model.oscillator;
-  const bool his = o.loss_factor == 0.0 && limits.coulomb && limits.kinetic == limits.holding &&
-                   o.damper_to == DamperTo::ground && model.excitation.type == ExcitationType::base_harmonic &&
-                   model.excitation.harmonics.empty();
+  const Excitation& drive = model.excitation;
+  const bool is_force = drive.type == ExcitationType::force_harmonic;
+  const bool his = is_linear(o) && o.damping >= 0.0 && o.loss_factor == 0.0 && limits.coulomb &&
+                   limits.kinetic == limits.holding && (is_force || o.damper_to == DamperTo::ground) &&
+                   drive.is_harmonic() && drive.harmonics.empty() && drive.offset == 0.0;
   if (!his) return std::nullopt;
   const double zeta = o.damping / (2.0 * std::sqrt(o.mass * o.stiffness));
-  const double r = model.excitation.frequency / std::sqrt(o.stiffness / o.mass);
-  return limits.kinetic / o.stiffness / analytic::non_sticking_boundary(analytic::den_hartog(zeta, r));
+  const double r = drive.frequency / std::sqrt(o.stiffness / o.mass);
+  const double force = limits.kinetic / analytic::non_sticking_boundary(analytic::den_hartog(zeta, r));
+  return is_force ? force : force / o.stiffness;
 }
 
 SteadyState at(Model& model, double amplitude, int max_periods = SteadyStateOptions{}.max_periods) {

@@ -4,8 +4,9 @@
 /// The engine finds it by bisection, for any law, between an amplitude at which the mass sticks somewhere in the
 /// forcing period and one at which it does not; both are computed. If several amplitudes divide sticking from
 /// sliding (harmonics, offset, several steady states), it is one of them. For the oscillator of denhartog1931 (only
-/// Coulomb friction with static = kinetic, one harmonic, damper to ground) the result also has Den Hartog's closed
-/// form (`sim/analytic/den_hartog.hpp`), which shares no code with the engine.
+/// Coulomb friction with static = kinetic, a linear spring, one harmonic of a force or, with the damper to ground,
+/// of the base) the result also has Den Hartog's closed form (`sim/analytic/den_hartog.hpp`), which shares no code
+/// with the engine.
 ///
 /// Cost: some fifty steady states a frequency.
 

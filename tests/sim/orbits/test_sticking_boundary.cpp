@@ -66,6 +66,25 @@ TEST_CASE("static friction above kinetic raises the boundary, and no closed form
   CHECK_FALSE(above.closed_form.has_value());
 }
 
+TEST_CASE(
+    "Den Hartog's closed form is stated for a driving force too, and not for a spring or a drive that is not his") {
+  const auto boundary = [](const sim::Model& model) { return sim::sticking_boundary(model, std::vector{0.62})[0]; };
+  sim::Model forced = model(0.1, 2.0, 2.0);
+  forced.oscillator.stiffness = 3.0;
+  forced.excitation.type = sim::ExcitationType::force_harmonic;
+  forced.oscillator.damper_to = sim::DamperTo::base;  // a base that does not move
+  const sim::BoundaryPoint point = boundary(forced);
+  REQUIRE(point.closed_form.has_value());
+  CHECK(point.amplitude == Approx(*point.closed_form).epsilon(2e-11));
+  forced.excitation.offset = 0.5;
+  CHECK_FALSE(boundary(forced).closed_form.has_value());
+  sim::Model hardening = model(0.1, 1.0, 1.0);
+  hardening.oscillator.cubic_stiffness = 0.1;
+  const sim::BoundaryPoint cubic = boundary(hardening);
+  REQUIRE(cubic.outcome.ok());
+  CHECK_FALSE(cubic.closed_form.has_value());
+}
+
 TEST_CASE("A drive that moves the mass at less than friction over stiffness has its boundary there") {
   // x_f = 1: each boundary lies below it, where an earlier search did not look.
   sim::Model damped = model(1.5, 1.0, 1.0);
