@@ -72,7 +72,7 @@ LawEntry bouc_wen_entry() {
           .make = [](const ParameterValues& p) -> std::vector<Law> {
             const Law law(BoucWen(p.number("limit"), p.number("stiffness"), p.number("exponent"), p.number("ratio"),
                                   p.number("beta_share")));
-            return {modified(law, p)};
+            return {modified(law, p, {}, {.stiffness = p.number("ratio") * p.number("stiffness")})};
           },
           .warnings = BoucWen::warnings};
 }

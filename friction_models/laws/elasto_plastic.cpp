@@ -69,6 +69,16 @@ double ElastoPlastic::dissipation(const Memory& memory, const Instant& now, Dire
   return bristles_.heat(memory.state[0], rate, now.v);
 }
 
+namespace {
+
+std::vector<Law> make_elasto_plastic(const ParameterValues& p) {
+  const double elastic = p.number("sigma0") * p.number("elastic_limit");
+  return {modified(Law(ElastoPlastic(p)), p, {elastic, p.number("kinetic"), p.number("static")},
+                   {.damping = p.number("sigma2")})};
+}
+
+}  // namespace
+
 LawEntry elasto_plastic_entry() {
   return {.name = "elasto_plastic",
           .summary = "LuGre bristles with an elastic range, so that they do not drift (Dupont and others)",
@@ -82,11 +92,7 @@ LawEntry elasto_plastic_entry() {
           // Where the load is lost the deflection would relax infinitely fast.
           .modifiers = all_modifiers_but("load_gradient"),
           .parameters = ElastoPlastic::parameters(),
-          .make = [](const ParameterValues& p) -> std::vector<Law> {
-            return {modified(
-                Law(ElastoPlastic(p)), p,
-                {p.number("sigma0") * p.number("elastic_limit"), p.number("kinetic"), p.number("static")})};
-          },
+          .make = make_elasto_plastic,
           .check = ElastoPlastic::check,
           .warnings = Lugre::warnings};
 }

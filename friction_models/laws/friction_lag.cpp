@@ -44,7 +44,7 @@ std::vector<Law> make_friction_lag(const ParameterValues& p) {
   const StribeckCurve curve(p);
   const double lag = p.number("lag");
   const Law law = p.flag("delay") ? Law(DelayedFriction(curve, lag)) : Law(FrictionLag(curve, lag));
-  return {modified(law, p, {p.number("kinetic"), p.number("static")}, WithoutLimits::states_move)};
+  return {modified(law, p, {p.number("kinetic"), p.number("static")}, {.states_move = true})};
 }
 
 }  // namespace

@@ -66,7 +66,8 @@ LawEntry lugre_entry() {
           .modifiers = all_modifiers_but("load_gradient"),
           .parameters = Lugre::parameters(),
           .make = [](const ParameterValues& p) -> std::vector<Law> {
-            return {modified(Law(Lugre(p)), p, {p.number("kinetic"), p.number("static")})};
+            return {modified(Law(Lugre(p)), p, {p.number("kinetic"), p.number("static")},
+                             {.damping = p.number("sigma2")})};
           },
           .warnings = Lugre::warnings};
 }

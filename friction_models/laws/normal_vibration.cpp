@@ -86,7 +86,7 @@ LawEntry normal_vibration_entry() {
           .modifiers = {"drift", "fluctuation", "warming"},
           .parameters = NormalVibration::parameters(),
           .make = [](const ParameterValues& p) -> std::vector<Law> {
-            return {modified(Law(NormalVibration(p)), p, {}, WithoutLimits::states_move)};
+            return {modified(Law(NormalVibration(p)), p, {}, {.states_move = true})};
           },
           .warnings = NormalVibration::warnings};
 }

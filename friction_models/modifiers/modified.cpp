@@ -56,13 +56,13 @@ class ModifiedLaw final : public LawModel,
                           public ScheduleAbility,
                           public AperiodicAbility {
  public:
-  ModifiedLaw(Law law, const ModifierSettings& settings, std::vector<double> limits, WithoutLimits without)
+  ModifiedLaw(Law law, const ModifierSettings& settings, std::vector<double> limits, const WithoutLimits& without)
       : law_(std::move(law)), limits_(settings, std::move(limits)), without_(without) {}
 
   [[nodiscard]] Abilities abilities() const override;
   [[nodiscard]] double force(const Memory& memory, const Instant& now, Direction direction) const override {
     const Parts parts = parts_of(memory);
-    if (limits_.are_gone(parts.course())) return 0.0;
+    if (limits_.are_gone(parts.course())) return without_.force(now);
     return law_.force(parts.inner(), modify(parts, now, direction), direction);
   }
 
@@ -111,7 +111,7 @@ class ModifiedLaw final : public LawModel,
   }
   [[nodiscard]] double dissipation(const Memory& memory, const Instant& now, Direction direction) const override {
     const Parts parts = parts_of(memory);
-    if (limits_.are_gone(parts.course())) return 0.0;
+    if (limits_.are_gone(parts.course())) return without_.heat(now);
     return law_.dissipation(parts.inner(), modify(parts, now, direction), direction);
   }
 
@@ -124,7 +124,7 @@ class ModifiedLaw final : public LawModel,
   [[nodiscard]] bool warms() const { return limits_.settings().warms(); }
   /// The states of the law stand still.
   [[nodiscard]] bool stands(const ModifierCourse& course) const {
-    return without_ == WithoutLimits::states_stand && limits_.are_gone(course);
+    return !without_.states_move && limits_.are_gone(course);
   }
   [[nodiscard]] Parts parts_of(const Memory& memory) const { return {memory, warms()}; }
 
@@ -196,7 +196,7 @@ void ModifiedLaw::warm(Instant& modified, double rate) const {
 /// neglected: it is of second order in the compliance, and it depends on the rate that is computed here.
 double ModifiedLaw::warming_rate(const Memory& inner, const ModifierCourse& course, double power,
                                  const Instant& now, Direction direction) const {
-  const double heat = limits_.are_gone(course) ? 0.0 : law_.dissipation(inner, now, direction);
+  const double heat = limits_.are_gone(course) ? without_.heat(now) : law_.dissipation(inner, now, direction);
   return (heat - power) / limits_.settings().warming_time;
 }
 
@@ -211,9 +211,9 @@ double ModifiedLaw::respond(const Memory& memory, const Instant& now, Direction 
     rates.back() = rate;
     rates = rates.first(rates.size() - 1);
   }
-  if (stands(parts.course())) return 0.0;
+  if (stands(parts.course())) return without_.force(now);
   const double force = law_.respond(parts.inner(), modified, direction, rates);
-  return limits_.are_gone(parts.course()) ? 0.0 : force;
+  return limits_.are_gone(parts.course()) ? without_.force(now) : force;
 }
 
 /// The law inside decides again, under the force limits of the present course.
@@ -288,7 +288,8 @@ void ModifiedLaw::jump(Memory& memory, Trigger trigger, const Instant& now, Dire
 
 }  // namespace
 
-Law modified(const Law& law, const ParameterValues& values, std::vector<double> limits, WithoutLimits without) {
+Law modified(const Law& law, const ParameterValues& values, std::vector<double> limits,
+             const WithoutLimits& without) {
   const ModifierSettings settings(values);
   if (settings.do_nothing()) return law;
   return Law(std::make_shared<const ModifiedLaw>(law, settings, std::move(limits), without));

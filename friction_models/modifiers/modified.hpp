@@ -16,28 +16,35 @@
 ///   guards   where the load is lost or comes back; the ends of cells over position; x = 0, where the slope changes
 ///            its sign; a force limit that becomes zero, or comes back.
 /// Before force limits rise by a step the law gets `Trigger::limit_change` under the old limits. While all force
-/// limits are zero the law has no force. The states of a law either stand still then, so that a spring comes back
-/// unstretched, or go on moving without force (`WithoutLimits`).
+/// limits are zero the law has no force but the one that no limit bounds. The states of a law either stand still
+/// then, so that a spring comes back unstretched, or go on moving without force (`WithoutLimits`).
 ///
 /// Cost: a few operations a call; with warming also a copy of what the law remembers.
 
 #include <vector>
 
+#include "friction_models/instant.hpp"
 #include "friction_models/law.hpp"
 #include "friction_models/parameters.hpp"
 
 namespace dualdamp::friction {
 
-/// What the states of a law do while all its force limits are zero.
-enum class WithoutLimits {
-  states_stand,  ///< deflections and ages of a contact that is not there
-  states_move,   ///< states that do not need the contact, such as a late velocity; rates and guards stay those of
-                 ///< the law
+/// A law while all its force limits are zero.
+struct WithoutLimits {
+  /// States that do not need the contact, such as a late velocity, go on moving; rates and guards stay those of the
+  /// law. Otherwise the states stand still: deflections and ages of a contact that is not there.
+  bool states_move = false;
+  /// The force that no limit bounds is stiffness x + damping v. Not for affine laws.
+  double stiffness = 0.0;  ///< N/m
+  double damping = 0.0;    ///< N.s/m
+
+  [[nodiscard]] double force(const Instant& now) const { return stiffness * now.x + damping * now.v; }  ///< N
+  [[nodiscard]] double heat(const Instant& now) const { return damping * now.v * now.v; }               ///< W
 };
 
 /// `law` under the modifiers among `values`; `law` itself if no modifier has an effect. `limits`: the nominal force
 /// limits of a law that supports `position_slope` [N].
 [[nodiscard]] Law modified(const Law& law, const ParameterValues& values, std::vector<double> limits = {},
-                           WithoutLimits without = WithoutLimits::states_stand);
+                           const WithoutLimits& without = {});
 
 }  // namespace dualdamp::friction
