@@ -153,8 +153,17 @@ double ColumnFactors::scaled(const KnownColumn& known, const std::string& scale,
     if (!read->signal.empty()) assume(name, read->signal);
   } else if (unit != read->signal) {
     const auto conversion = read->signal.empty() ? std::nullopt : core::unit_factor(unit, read->signal).value;
-    if (!conversion)
-      return refuse(fault, "the scale of column " + name + " is not for numbers in " + unit, allowed);
+    if (!conversion) {
+      const std::string stated = text.substr(0, number.length);
+      const bool is_own = core::unit_factor(unit, known.unit, options_.coordinate).value.has_value();
+      return refuse(
+          fault,
+          "the scale of column " + name + " is for numbers " +
+              (read->signal.empty() ? "without a unit" : "in " + read->signal) +
+              ", and those of the column are in " + unit,
+          is_own ? "'" + stated + "', which leaves the numbers in " + unit
+                 : "such as '" + stated + " " + core::unit_for(options_.coordinate, known.unit) + "/" + unit + "'");
+    }
     per_signal = *conversion;
   }
   const double gain = read->is_sensitivity ? 1.0 / *number.value : *number.value;

@@ -53,17 +53,22 @@ std::vector<std::string_view> names_of(const KnownColumn& known) {
   return names;
 }
 
+/// "mm" of "in mm"
+std::string without_in(std::string_view unit) {
+  unit = trimmed(unit);
+  constexpr std::string_view in = "in ";
+  if (unit.size() > in.size() && unit.starts_with(in)) unit.remove_prefix(in.size());
+  return std::string(trimmed(unit));
+}
+
 /// The unit in a text that begins with a name and separating characters; empty if there is none.
 std::string unit_behind(std::string_view text, std::string_view name, const KnownColumn& known) {
   if (name.empty() || text.size() <= name.size() + 1 || !is_name(text.substr(0, name.size()), name)) return {};
   const std::string_view rest = text.substr(name.size());
   const std::size_t begin = rest.find_first_not_of(marks);
   if (begin == 0 || begin == std::string_view::npos) return {};
-  std::string_view unit = rest.substr(begin);
-  constexpr std::string_view in = "in ";
-  if (unit.size() > in.size() && unit.starts_with(in)) unit.remove_prefix(in.size());
-  const std::string text_of_unit(trimmed(unit));
-  return is_unit_of(text_of_unit, known) ? text_of_unit : std::string();
+  std::string unit = without_in(rest.substr(begin));
+  return is_unit_of(unit, known) ? unit : std::string();
 }
 
 }  // namespace
@@ -94,7 +99,7 @@ Heading parse_heading(std::string_view text, int column) {
   const std::string_view rest = text.substr(open + 1);
   const std::size_t close = rest.find(closing[opening.find(text[open])]);
   heading.name = trimmed(text.substr(0, open));
-  if (close != std::string_view::npos) heading.unit = trimmed(rest.substr(0, close));
+  if (close != std::string_view::npos) heading.unit = without_in(rest.substr(0, close));
   heading.well_formed = close != std::string_view::npos && close + 1 == rest.size();
   return heading;
 }
@@ -126,6 +131,17 @@ const KnownColumn* named_column(Heading& heading) {
         return &known;
       }
   return nullptr;
+}
+
+void split_unit(Heading& heading, const KnownColumn& known) {
+  const std::string_view name = heading.name;
+  if (heading.unit.empty() && heading.well_formed)
+    for (std::size_t end = name.find_first_of(marks, 1); end < name.size() && heading.unit.empty();
+         end = name.find_first_of(marks, end + 1))
+      if (std::string unit = unit_behind(name, name.substr(0, end), known); !unit.empty())
+        heading = {heading.text, std::string(name.substr(0, end)), std::move(unit), heading.column, true};
+  const std::size_t last = heading.unit.empty() ? std::string::npos : heading.name.find_last_not_of(marks);
+  if (last != std::string::npos) heading.name.resize(last + 1);
 }
 
 namespace {

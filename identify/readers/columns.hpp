@@ -53,6 +53,10 @@ struct Heading {
 /// names may be in any case. f and freq are frequencies or forces if their unit says so: `f_Hz`, `F [N]`.
 [[nodiscard]] const KnownColumn* named_column(Heading& heading);
 
+/// Moves a unit of `known` from the end of a name of the caller's choice to `heading.unit`: `Weg in mm`, `Weg/mm`,
+/// `Weg_mm`. The name of `Weg_[mm]` becomes `Weg`.
+void split_unit(Heading& heading, const KnownColumn& known);
+
 /// The warning about an unknown column, variable or field. `is_of_ignored` recognises it.
 [[nodiscard]] std::string ignored(std::string_view what, const std::string& name);
 

@@ -114,8 +114,8 @@ class HeaderReader {
     }
   }
 
-  /// The heading that the caller names by its number or by its text.
-  [[nodiscard]] std::vector<std::size_t> find(const std::string& called) const {
+  /// The heading that the caller names by its text, by its number, or by the name before its unit.
+  [[nodiscard]] std::vector<std::size_t> find(const std::string& called, const KnownColumn& known) const {
     std::vector<std::size_t> found;
     for (std::size_t i = 0; i < headings_.size(); ++i)
       if (headings_[i].text == called || headings_[i].name == called) found.push_back(i);
@@ -124,6 +124,12 @@ class HeaderReader {
     if (found.empty() && fault == std::errc{} && end == called.data() + called.size() && number >= 1 &&
         number <= headings_.size())
       found.push_back(number - 1);
+    if (!found.empty()) return found;
+    for (std::size_t i = 0; i < headings_.size(); ++i) {
+      Heading heading = headings_[i];
+      split_unit(heading, known);
+      if (heading.name == called) found.push_back(i);
+    }
     return found;
   }
 
@@ -135,7 +141,7 @@ class HeaderReader {
 
   /// The column for which the caller states this heading.
   void rename(const KnownColumn& known, const std::string& called) {
-    const std::vector<std::size_t> found = find(called);
+    const std::vector<std::size_t> found = find(called, known);
     if (is_taken(known)) {
       problems_.add(
           {{options_.name, 0, 0, {}}, "column " + std::string(known.name) + " is asked for twice", {}, {}, {}});
@@ -184,9 +190,12 @@ class HeaderReader {
 
   void take(Heading& heading, const KnownColumn& known, CsvField& field) {
     field.known = &known;
-    if (heading.unit.empty()) {  // x_mm, if the caller names the column so
+    if (heading.unit.empty()) {  // x_mm or Weg_mm, if the caller names the column so
       Heading same = heading;
-      if (named_column(same) == &known) heading.unit = same.unit;
+      if (named_column(same) == &known)
+        heading.unit = same.unit;
+      else
+        split_unit(heading, known);
     }
     core::Diagnostic where;
     where.place = at(heading.column);

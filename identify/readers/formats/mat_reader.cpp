@@ -17,6 +17,7 @@
 #include "identify/readers/column_factors.hpp"
 #include "identify/readers/formats/mat_content.hpp"
 #include "identify/readers/formats/mat_structure.hpp"
+#include "identify/readers/formats/mat_text.hpp"
 #include "identify/readers/formats/mat_variable.hpp"
 #include "identify/readers/isolated.hpp"
 #include "identify/readers/text.hpp"
@@ -32,22 +33,6 @@ using Variable = std::unique_ptr<matvar_t, decltype([](matvar_t* variable) { Mat
 void silence() {
   Mat_LogInitFunc("dualdamp", [](int, char*) {});
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
-}
-
-/// Lets HDF5 check the end of the file. matio reads a file that HDF5 cannot open as a file without variables.
-bool is_whole_hdf5(const std::string& path) {
-  const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
-  if (file >= 0) H5Fclose(file);
-  return file >= 0;
-}
-
-/// An HDF5 variable that MATLAB did not write: the attribute that states the MATLAB class is missing.
-bool lacks_class(const std::string& path, const std::string& variable) {
-  const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
-  if (file < 0) return false;
-  const htri_t has = H5Aexists_by_name(file, variable.c_str(), "MATLAB_class", H5P_DEFAULT);
-  H5Fclose(file);
-  return has == 0;
 }
 
 /// A variable, a field of a struct, or a part of a matrix, with its name in the file or in the caller's options.
@@ -126,12 +111,19 @@ class Reader {
              "numpy.bytes_('double'); or a CSV file");
   }
 
+  /// The unit that the name states, if it is used as this column: `x_mm`, `weg_mm`.
+  [[nodiscard]] static std::string unit_of(const std::string& name, const KnownColumn& known) {
+    Heading heading{name, name, {}};
+    if (named_column(heading) != &known) split_unit(heading = {name, name, {}}, known);
+    return heading.unit;
+  }
+
   /// The column of a name in the file, and the unit if the name has one: `x_mm`.
   [[nodiscard]] std::pair<const KnownColumn*, std::string> column_of(const std::string& name) const {
     Heading heading{name, name, {}};
     const KnownColumn* known = named_column(heading);
     for (const auto& [column, called] : options_.columns)
-      if (called == name) return {known_column(column), known == known_column(column) ? heading.unit : ""};
+      if (called == name) return {known_column(column), unit_of(name, *known_column(column))};
     if (known == nullptr || find_for(options_.columns, *known) != nullptr || !identify::is_wanted(options_, *known))
       return {nullptr, {}};
     return {known, heading.unit};
@@ -335,24 +327,25 @@ class Reader {
     test.columns.push_back({&known, std::move(*values)});
   }
 
-  /// A text or a number is the label of the test; a vector of numbers has the label of each row.
+  /// One text or number is the label of the test; several are the labels of its rows.
   void take_label(const Entry& entry, TestColumns& test) {
-    const matvar_t& variable = *entry.variable;
-    if (variable.class_type == MAT_C_CHAR && variable.data_type == MAT_T_UINT8 && variable.data != nullptr) {
-      test.label = to_utf8({static_cast<const char*>(variable.data), size_of(variable)});
+    auto labels = texts(*entry.variable);
+    const matio_classes type = entry.variable->class_type;
+    if (!labels && (type == MAT_C_CHAR || type == MAT_C_CELL))
+      return complain("variable '" + to_utf8(entry.name) + "' holds no text that can be read",
+                      "a text or a number for the test, or for each row", describe(*entry.variable));
+    if (!labels) {
+      const auto values = vector(entry);
+      if (!values) return;
+      labels.emplace();
+      for (const double value : *values) labels->push_back(core::format_number(value));
+    }
+    if (labels->size() == 1) {
+      test.label = labels->front();
       return;
     }
-    const auto values = vector(entry);
-    if (!values) return;
-    if (values->size() == 1) {
-      test.label = core::format_number(values->front());
-      return;
-    }
-    row_labels_.emplace();
-    label_count_ = values->size();
-    for (std::size_t row = 0; row < values->size(); ++row)
-      if (row == 0 || (*values)[row] != (*values)[row - 1])
-        row_labels_->push_back({core::format_number((*values)[row]), row});
+    label_count_ = labels->size();
+    row_labels_ = runs_of(*labels);
   }
 
   void check_lengths(const TestColumns& test) {

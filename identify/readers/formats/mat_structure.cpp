@@ -1,5 +1,7 @@
 #include "identify/readers/formats/mat_structure.hpp"
 
+#include <hdf5.h>
+
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -166,6 +168,20 @@ void check_mat(std::string_view bytes, const std::string& file) {
 
 void refuse_damaged_mat(const std::string& file) {
   refuse_file(file, "the MATLAB file is damaged or cut off", "the whole file");
+}
+
+bool is_whole_hdf5(const std::string& path) {
+  const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  if (file >= 0) H5Fclose(file);
+  return file >= 0;
+}
+
+bool lacks_class(const std::string& path, const std::string& variable) {
+  const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  if (file < 0) return false;
+  const htri_t has = H5Aexists_by_name(file, variable.c_str(), "MATLAB_class", H5P_DEFAULT);
+  H5Fclose(file);
+  return has == 0;
 }
 
 }  // namespace dualdamp::identify

@@ -17,6 +17,12 @@ namespace dualdamp::identify {
 /// its name in messages.
 void check_mat(std::string_view bytes, const std::string& file);
 
+/// Lets HDF5 check the end of the file. matio reads a file that HDF5 cannot open as a file without variables.
+[[nodiscard]] bool is_whole_hdf5(const std::string& path);
+
+/// An HDF5 variable that MATLAB did not write: the attribute that states the MATLAB class is missing.
+[[nodiscard]] bool lacks_class(const std::string& path, const std::string& variable);
+
 /// Throws `core::InputError`: the file is damaged or cut off.
 [[noreturn]] void refuse_damaged_mat(const std::string& file);
 

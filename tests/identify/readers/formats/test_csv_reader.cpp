@@ -1,5 +1,6 @@
 #include "identify/readers/record_reader.hpp"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstdio>
@@ -8,6 +9,8 @@
 
 #include "core/diagnostics.hpp"
 #include "identify/methods.hpp"
+#include "tests/identify/readers/data_files.hpp"
+#include "tests/identify/readers/refusals.hpp"
 
 using namespace dualdamp;
 using identify::MeasuredRecord;
@@ -269,4 +272,32 @@ TEST_CASE("A column f is a frequency in hertz or a force in newtons, and nothing
     REQUIRE_FALSE(read.warnings.empty());
     CHECK(read.warnings[0].find("is not known and is ignored") != std::string::npos);
   }
+}
+
+TEST_CASE("The caller may name a column by the words before its unit") {
+  const auto first_of = [](const std::string& header, const std::string& called) {
+    std::string text = header + "\n";
+    for (int i = 0; i < 20; ++i)
+      text += std::to_string(i) + ";" + std::to_string(40 + i) +
+              (std::count(header.begin(), std::find(header.begin(), header.end(), '\n'), ';') > 1 ? ";1\n" : "\n");
+    return identify::read_record(identify::testing::TemporaryFile("named.csv", text).path(),
+                                 {.columns = {{"x", called}, {"t", "Zeit"}}})
+        .record.histories.at(0)
+        .x.at(0);
+  };
+  for (const char* heading : {"Weg in mm", "Weg [mm]", "Weg (mm)", "Weg/mm", "Weg / mm", "Weg_mm", "Weg_[mm]",
+                              "Weg, mm", "Weg [in mm]"}) {
+    CAPTURE(heading);
+    CHECK(first_of("Zeit in s;" + std::string(heading), "Weg") == Approx(0.04).epsilon(1e-12));
+    CHECK(first_of("Zeit in s;" + std::string(heading), heading) == Approx(0.04).epsilon(1e-12));
+  }
+  CHECK(first_of("Zeit;Weg\ns;mm", "Weg") == Approx(0.04).epsilon(1e-12));
+  CHECK(first_of("Zeit;Weg A\ns;mm", "Weg A") == Approx(0.04).epsilon(1e-12));
+  CHECK(first_of("Zeit in s;Weg in mm;Weg", "Weg in mm") == Approx(0.04).epsilon(1e-12));
+  const auto refused = [&](const std::string& header, const std::string& called) {
+    return identify::testing::refusal([&] { (void)first_of(header, called); });
+  };
+  CHECK(
+      identify::testing::mentions(refused("Zeit;Weg A in mm", "Weg"), "there is no column 'Weg' to be used as x"));
+  CHECK(identify::testing::mentions(refused("Zeit;Weg in mm;Weg_mm", "Weg"), "there are several columns 'Weg'"));
 }

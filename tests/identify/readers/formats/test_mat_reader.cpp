@@ -35,6 +35,21 @@ class Matlab {
     std::array<std::size_t, 2> size = {1, text.size()};
     return put(Mat_VarCreate(name.c_str(), MAT_C_CHAR, MAT_T_UINT8, 2, size.data(), text.data(), 0));
   }
+  /// A char array of the given type of units, column by column.
+  template <typename Unit>
+  Matlab& add_chars(const std::string& name, matio_types type, std::vector<Unit> units, std::size_t rows = 1) {
+    std::array<std::size_t, 2> size = {rows, units.size() / rows};
+    return put(Mat_VarCreate(name.c_str(), MAT_C_CHAR, type, 2, size.data(), units.data(), 0));
+  }
+  Matlab& add_cells(const std::string& name, std::vector<std::string> texts) {
+    std::vector<matvar_t*> cells;
+    for (std::string& text : texts) {
+      std::array<std::size_t, 2> size = {1, text.size()};
+      cells.push_back(Mat_VarCreate("", MAT_C_CHAR, MAT_T_UTF8, 2, size.data(), text.data(), 0));
+    }
+    std::array<std::size_t, 2> size = {cells.size(), 1};
+    return put(Mat_VarCreate(name.c_str(), MAT_C_CELL, MAT_T_CELL, 2, size.data(), cells.data(), 0));
+  }
   Matlab& add_complex(const std::string& name, std::vector<double> values) {
     std::array<std::size_t, 2> size = {values.size(), 1};
     mat_complex_split_t parts{values.data(), values.data()};
@@ -117,6 +132,47 @@ TEST_CASE("MATLAB 5 and 7.3 files") {
     CHECK(histories[1].x == ramp(30));
     CHECK(histories[1].sweep == "2");
   }
+}
+
+TEST_CASE("MATLAB labels are texts of any encoding, char arrays and cell arrays") {
+  const auto label = [](Matlab& file) {
+    return read_record(file.add("x", ramp(20)).add("dt", {0.01}).path()).record.histories.at(0).sweep;
+  };
+  for (const mat_ft version : {MAT_FT_MAT5, MAT_FT_MAT73}) {
+    CAPTURE(version);
+    for (const matio_types type : {MAT_T_UINT8, MAT_T_UTF8}) {
+      Matlab file("bytes.mat", version);
+      CHECK(label(file.add_chars<char>("sweep", type, {'u', 'p', ' ', '1'})) == "up 1");
+    }
+    for (const matio_types type : {MAT_T_UINT16, MAT_T_UTF16}) {
+      Matlab file("units.mat", version);
+      // o with two dots, and a character beyond the first 65536
+      CHECK(label(file.add_chars<char16_t>("sweep", type, {u'\xf6', u'1', 0xD83D, 0xDE00})) ==
+            "\xc3\xb6"
+            "1\xf0\x9f\x98\x80");
+    }
+    Matlab rows("rows.mat", version);
+    rows.add("Y", {1, 2, 3, 4}).add("x", {2, 4, 6, 8}).add("omega", {9, 9, 9, 9});
+    rows.add_chars<char16_t>("sweep", MAT_T_UINT16, {'u', 'u', 'd', 'd', 'p', 'p', 'o', 'o', ' ', ' ', 'w', 'w'},
+                             4);
+    const auto pairs = read_record(rows.path()).record.pairs.value().pairs;
+    CHECK(pairs[1].sweep == "up");
+    CHECK(pairs[2].sweep == "dow");
+    Matlab cells("cells.mat", version);
+    cells.add("Y", {1, 2, 3, 4}).add("x", {2, 4, 6, 8}).add("omega", {9, 9, 9, 9});
+    cells.add_cells("sweep", {"up", "up", "down", "down"});
+    CHECK(read_record(cells.path()).record.pairs.value().pairs[2].sweep == "down");
+  }
+  Matlab bytes("int8.mat", MAT_FT_MAT5);
+  bytes.add_cells("sweep", {"a", ""}).add("x", ramp(20)).add("dt", {0.01});
+  CHECK(mentions(refusal([&] { (void)read_record(bytes.path()); }),
+                 "variable 'sweep' holds no text that can be read"));
+}
+
+TEST_CASE("The unit in the name of a MATLAB variable of the caller's choice is used") {
+  Matlab file("named.mat", MAT_FT_MAT5);
+  const std::string path = file.add("weg_mm", ramp(20)).add("dt", {0.01}).path();
+  CHECK(read_record(path, {.columns = {{"x", "weg_mm"}}}).record.histories.at(0).x[1] == Approx(0.002));
 }
 
 TEST_CASE("Parts of matrices, fields of structs and names of the caller's are columns") {
