@@ -3,8 +3,28 @@
 #include <algorithm>
 
 #include "core/diagnostics.hpp"
+#include "identify/records/derived_records.hpp"
 
 namespace dualdamp::scenarios {
+
+namespace {
+
+/// Why the histories hold no free vibration, what would do, and which rows were not searched for one.
+std::string why_no_decay(const CheckedFile& file, const std::vector<identify::Record>& records) {
+  std::string text;
+  for (const identify::Record& record : records) {
+    if (record.histories.empty()) continue;
+    const std::string fault = identify::decay_of(record.histories.front()).fault;
+    if (!fault.empty()) text += ": " + fault + "; needed are four extremes, so two periods after a release";
+    break;
+  }
+  if (!file.data) return text;
+  for (const std::string& warning : file.data->warnings)
+    if (warning.starts_with("the times have gaps")) text += "; " + warning;
+  return text;
+}
+
+}  // namespace
 
 Field methods_key(const std::string& all) {
   std::vector<std::string> names;
@@ -32,9 +52,12 @@ void resolve_methods(CheckedFile& file, const std::vector<identify::Record>& rec
   } else if (analysis.contains("methods")) {
     for (std::size_t i = 0; i < analysis.at("methods").size(); ++i) {
       const auto name = analysis.at("methods")[i].get<std::string>();
-      if (const std::string lack = lack_of(*identify::find_method(name)); !lack.empty())
-        file.complain("analysis.methods[" + std::to_string(i) + "]",
-                      "method '" + name + "' cannot be used: " + lack, core::joined(fitting));
+      const identify::MethodEntry& method = *identify::find_method(name);
+      std::string lack = lack_of(method);
+      if (lack.empty()) continue;
+      if (method.needs == identify::RecordKind::decay) lack += why_no_decay(file, records);
+      file.complain("analysis.methods[" + std::to_string(i) + "]", "method '" + name + "' cannot be used: " + lack,
+                    core::joined(fitting));
     }
   }
 }

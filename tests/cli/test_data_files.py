@@ -157,6 +157,16 @@ class DataFiles(unittest.TestCase):
                 self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
                 self.assertNotIn("error", result.stderr)
 
+    def test_a_missing_free_vibration_is_explained(self):
+        """A gap behind a complete decay leaves the rest behind it as the longest stretch: the refusal says so."""
+        times = [k / 500 for k in range(1250) if not 400 <= k < 440]
+        moved = [40 * math.cos(39 * t) * max(0, 1 - t / 0.7) + 0.02 * math.sin(7919.3 * t * t) for t in times]
+        rows = "".join(f"{t:.4f},{x:.4f}\n" for t, x in zip(times, moved))
+        options = ["--mass", "1 kg", "--stiffness", "1521 N/m", "--method", "free_decay"]
+        said = self.identify(self.write("behind.csv", "t [s],x [mm]\n" + rows), constants=options).stderr
+        self.assertIn("no extremes of a free vibration: x turns back less than twice; needed are four extremes", said)
+        self.assertIn("of 1210 rows only the longest uninterrupted stretch is used, 810 rows from t = 0.88 s", said)
+
     def test_gaps_are_told(self):
         times = [t for i, t in enumerate(EVEN) if i not in (10, 11)]
         result = self.identify(self.write("gaps.csv", history(times).replace("t,x", "t,x [mm]")))
