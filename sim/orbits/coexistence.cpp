@@ -99,16 +99,6 @@ std::optional<State> sliding_start(Model model) {
   return orbit ? start_of(*orbit, model) : std::nullopt;
 }
 
-/// The model mirrored in x = 0, with the drive half a forcing period later: the mirrored motion obeys the same
-/// equations if the model is its own mirror image.
-Model mirrored(const Model& model) {
-  Model mirror = model;
-  mirror.initial = {-model.initial.position, -model.initial.velocity};
-  mirror.excitation.phase += std::numbers::pi;
-  for (Harmonic& harmonic : mirror.excitation.harmonics) harmonic.phase += harmonic.order * std::numbers::pi;
-  return mirror;
-}
-
 }  // namespace
 
 std::vector<Orbit> other_orbits(const Model& model, const Orbit& orbit, std::vector<Orbit> met,
@@ -130,17 +120,9 @@ std::vector<Orbit> other_orbits(const Model& model, const Orbit& orbit, std::vec
   return others;
 }
 
-bool is_symmetric(const Model& model) {
-  PeriodMap map(model);
-  PeriodMap mirror(mirrored(model));
-  const InitialState& at = model.initial;
-  static_cast<void>(map.from_start(at.position, at.velocity, Monodromy::without));
-  static_cast<void>(mirror.from_start(-at.position, -at.velocity, Monodromy::without));
-  const ForcingPeriod one = map.next(Monodromy::without);
-  const ForcingPeriod other = mirror.next(Monodromy::without);
-  const double size = std::max(one.size, 1e-300);
-  return std::abs(one.end.x + other.end.x) + std::abs(one.end.v + other.end.v) / model.excitation.frequency <
-         1e-7 * size;
+std::optional<Orbit> orbit_near(double x, double v, int periods, OrbitSolver& solver) {
+  const State later = solver.map_over(1).from_start(x, v, Monodromy::without).end;
+  return periods == 1 ? solver.near_motion_from(later) : solver.near(later, periods);
 }
 
 }  // namespace dualdamp::sim

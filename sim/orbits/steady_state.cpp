@@ -53,6 +53,12 @@ State linear_response(const Model& model) {
   return state;
 }
 
+/// A steady state and its state at t = 0.
+struct KnownState {
+  OtherState state;
+  State start;
+};
+
 class OrbitFinder {
  public:
   OrbitFinder(const Model& model, const SteadyStateOptions& options)
@@ -75,13 +81,15 @@ class OrbitFinder {
   [[nodiscard]] std::optional<Orbit> the_only_orbit(SteadyState& result);
   [[nodiscard]] std::optional<Orbit> only_orbit_from(const State& start, SteadyState& result);
   [[nodiscard]] State after_transient(double x, double v, SteadyState& result);
-  void list_others(const std::vector<Orbit>& others, SteadyState& result);
+  [[nodiscard]] KnownState with_extremes(const Orbit& orbit);
+  [[nodiscard]] std::optional<KnownState> mirror_image(const KnownState& of);
   void add_mirror_images(SteadyState& result);
 
   const Model& model_;
   SteadyStateOptions options_;
   PeriodMap map_;
   Motions motions_;
+  std::vector<KnownState> others_;
   std::optional<OrbitAccount> account_;  ///< of the sliding orbit that Newton's method began on, if it stayed there
   core::SearchCount searched_;           ///< in addition to those of the engine
   double rounding_closure_ = 0.0;
@@ -158,16 +166,14 @@ void OrbitFinder::describe(SteadyState& result) {
         "not the only steady state: the one that the motion approaches; others attract other motions");
 }
 
-void OrbitFinder::list_others(const std::vector<Orbit>& others, SteadyState& result) {
-  for (const Orbit& other : others) {
-    SteadyState state{.period = 2.0 * std::numbers::pi / model_.excitation.frequency * other.period_ratio,
-                      .period_ratio = other.period_ratio,
-                      .start = other.period.begin};
-    PeriodMap map(model_, other.period_ratio);
-    account_for_orbit(model_, map, false, state);
-    searched_ += map.engine().count();
-    result.others.push_back({state.peak, state.trough, other.period_ratio});
-  }
+KnownState OrbitFinder::with_extremes(const Orbit& orbit) {
+  SteadyState state{.period = 2.0 * std::numbers::pi / model_.excitation.frequency * orbit.period_ratio,
+                    .period_ratio = orbit.period_ratio,
+                    .start = orbit.period.begin};
+  PeriodMap map(model_, orbit.period_ratio);
+  account_for_orbit(model_, map, false, state);
+  searched_ += map.engine().count();
+  return {{state.peak, state.trough, orbit.period_ratio}, state.start};
 }
 
 /// Whether both are the same motion, perhaps mirrored in x = 0 where `side` is -1.
@@ -178,21 +184,41 @@ bool are_same(const OtherState& a, const OtherState& b, int side) {
   return std::abs(a.peak - peak) + std::abs(a.trough - trough) <= rounding * 0.5 * (a.peak - a.trough);
 }
 
-/// In a symmetric model the mirror image of an orbit is an orbit.
+/// The mirror image in x = 0, half a forcing period later. Every symmetric model has it; whether this one does, the
+/// motion that begins there tells.
+std::optional<KnownState> OrbitFinder::mirror_image(const KnownState& of) {
+  const int ratio = of.state.period_ratio;
+  const SteadyState orbit{.peak = of.state.peak,
+                          .trough = of.state.trough,
+                          .period = 2.0 * std::numbers::pi / model_.excitation.frequency * ratio,
+                          .period_ratio = ratio,
+                          .start = of.start};
+  const Sample half = one_period(model_, orbit, 2 * ratio)[1];
+  OrbitSolver solver(model_, options_.tolerance, rounding_closure_);
+  const std::optional<Orbit> found = orbit_near(-half.x, -half.v, ratio, solver);
+  searched_ += solver.count();
+  if (!found) return std::nullopt;
+  KnownState image = with_extremes(*found);
+  if (!are_same(image.state, of.state, -1)) return std::nullopt;
+  return image;
+}
+
 void OrbitFinder::add_mirror_images(SteadyState& result) {
-  std::vector<OtherState> states = {{result.peak, result.trough, result.period_ratio}};
-  states.insert(states.end(), result.others.begin(), result.others.end());
-  const auto has_other_image = [](const OtherState& a) { return a.peak != a.trough && !are_same(a, a, -1); };
-  if (motions_ != Motions::may_part || std::ranges::none_of(states, has_other_image) || !is_symmetric(model_))
-    return;
-  if (has_other_image(states.front()))
-    result.warnings.emplace_back("asymmetric: the mirror image of this steady state is another one");
-  for (std::size_t i = 0; i < states.size(); ++i) {
-    const OtherState of = states[i];
-    const auto is_image = [&](const OtherState& a) { return are_same(a, of, -1); };
-    if (!has_other_image(of) || std::ranges::any_of(states, is_image)) continue;
-    states.push_back({-of.trough, -of.peak, of.period_ratio});
-    result.others.push_back(states.back());
+  if (motions_ != Motions::may_part || map_.engine().has_past()) return;
+  std::vector<KnownState> states = {{{result.peak, result.trough, result.period_ratio}, result.start}};
+  states.insert(states.end(), others_.begin(), others_.end());
+  const std::size_t count = states.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    const KnownState of = states[i];
+    if (of.state.peak == of.state.trough || are_same(of.state, of.state, -1)) continue;
+    const auto is_image = [&](const KnownState& a) { return are_same(a.state, of.state, -1); };
+    if (std::ranges::none_of(states, is_image)) {
+      std::optional<KnownState> image = mirror_image(of);
+      if (!image) continue;
+      result.others.push_back(image->state);
+      states.push_back(std::move(*image));
+    }
+    if (i == 0) result.warnings.emplace_back("asymmetric: the mirror image of this steady state is another one");
   }
 }
 
@@ -205,12 +231,15 @@ void OrbitFinder::find(SteadyState& result) {
     OrbitSolver solver(model_, options_.tolerance, rounding_closure_);
     Approach approach(model_, options_, map_, solver, motions_);
     orbit = approach.find(result);
-    if (orbit && motions_ == Motions::may_part && !has_past)
-      list_others(other_orbits(model_, *orbit, approach.others(), solver), result);
+    if (orbit && motions_ == Motions::may_part && !has_past) {
+      for (const Orbit& other : other_orbits(model_, *orbit, approach.others(), solver))
+        others_.push_back(with_extremes(other));
+    }
     result.newton_steps += solver.newton_steps();
     searched_ += solver.count();
   }
   if (!orbit) return;
+  for (const KnownState& other : others_) result.others.push_back(other.state);
   result.period_ratio = orbit->period_ratio;
   result.period *= orbit->period_ratio;
   result.start = orbit->period.begin;

@@ -9,11 +9,12 @@ import random
 import struct
 import zlib
 
-from laboratory_records import PERIOD, SLOW, decay, mat4, mat5, matrix5, pairs, struct5, table, uff58
+from laboratory_records import PERIOD, SLOW, decay, mat4, mat5, matrix5, pairs, phases, struct5, table, uff58
 
 PAIRS, DECAY = "pairs", "decay"
 
 MM = [(1e3 * y, 1e3 * x) for y, x in pairs()]
+WITH_PHASE = [(*row, phase) for row, phase in zip(MM, phases())]
 SI = table("Y [m],x [m]", pairs(), form="{:.9f}")
 PLAIN = table("Y [mm],x [mm]", MM)
 VOLTS = [(y / 2.5, x / 2.5) for y, x in MM]
@@ -135,7 +136,7 @@ ACCEPTED = [
     ("crlf.csv", PLAIN.replace("\n", "\r\n"), [], PAIRS),
     ("cr.csv", PLAIN.replace("\n", "\r"), [], PAIRS),
     ("latin1_micro.csv", table("Y [µm],x [µm]", [(1e3 * y, 1e3 * x) for y, x in MM]).encode("latin-1"), [], PAIRS),
-    ("latin1_degree.csv", table("Y [mm],x [mm],phase [°]", [(*row, 90.0) for row in MM]).encode("latin-1"), [], PAIRS),
+    ("latin1_degree.csv", table("Y [mm],x [mm],phase [°]", WITH_PHASE).encode("latin-1"), [], PAIRS),
     ("utf16_excel.txt", table("Y [mm]\tx [µm]", [(y, 1e3 * x) for y, x in MM], "\t").encode("utf-16"), [], PAIRS),
     ("utf16_big_endian.csv", ("\ufeff" + PLAIN).encode("utf-16-be"), [], PAIRS),
     ("utf16_without_mark.csv", PLAIN.encode("utf-16-le"), [], PAIRS),
@@ -207,7 +208,7 @@ ACCEPTED = [
     ("minus_of_typography.csv", table("t [s],x [mm]", [(t, f"{x:.6f}".replace("-", "\u2212")) for t, x in ROWS]), [], DECAY),
     ("aligned_columns.txt", "".join(f"{a:>16}{b:>16}\n" for a, b in [("Y_mm", "x_mm"), *[(f"{y:.6f}", f"{x:.6f}") for y, x in MM]]), [], PAIRS),
     ("labels_with_blanks.csv", table("sweep,Y [mm],x [mm]", [('"sweep up, 1"', *row) for row in MM]), [], PAIRS),
-    ("phase_in_degrees.csv", table("Y [mm],x [mm],phase (deg)", [(*row, 90.0) for row in MM]), [], PAIRS),
+    ("phase_in_degrees.csv", table("Y [mm],x [mm],phase (deg)", WITH_PHASE), [], PAIRS),
     ("minutes.csv", table("t [min],x [mm]", [(t / 60, x) for t, x in ROWS], form="{:.9f}"), [], DECAY),
     ("microseconds.csv", table("t [us],x [mm]", [(f"{round(1e6 * t)}", x) for t, x in ROWS]), [], DECAY),
     ("seconds_since_1970.csv", table("t [s],x [mm]", [(f"{1795350601 + t:.3f}", x) for t, x in ROWS]), [], DECAY),

@@ -1,5 +1,6 @@
 """Records of a rig with Coulomb and viscous friction, known in closed form, and the files that laboratories make of them."""
 
+import cmath
 import math
 import struct
 
@@ -17,6 +18,19 @@ def pairs():
     g = (math.sinh(a) - ZETA / s * math.sin(b)) / (math.cosh(a) + math.cos(b))
     h = math.sin(b) / s / (math.cosh(a) + math.cos(b))
     return [(y, math.sqrt((y / (2 * ZETA)) ** 2 - (h * X_F) ** 2) - g * X_F) for y in (0.0044, 0.0048, 0.0052, 0.0056, 0.006, 0.0064)]
+
+
+def phases():
+    """How far x lags behind y at each of the pairs, in degrees: harmonics of the motion that turns back at t = 0."""
+    drag = 2 * ZETA * STIFFNESS
+    square = 4 * FRICTION / math.pi
+    further = ((h, -1j * square / h / (STIFFNESS * (1 - h * h) + 1j * h * drag)) for h in range(3, 20001, 2))
+    turn = -sum(h * harmonic.imag for h, harmonic in further)
+    lags = []
+    for y, _ in pairs():
+        base = STIFFNESS * y * cmath.exp(1j * (math.pi / 2 + math.asin(drag * turn / (STIFFNESS * y))))
+        lags.append(math.degrees(cmath.phase(base / ((base / 1j - square) / drag))))
+    return lags
 
 
 # A slow pendulum-like rig for decays, so that coarse clocks resolve it.

@@ -95,6 +95,42 @@ TEST_CASE("beside a mass at rest both engines list both asymmetric motions that 
   }
 }
 
+TEST_CASE("a model that is not symmetric has no mirror images of its steady states") {
+  // Each was listed with a mirror image that no motion reaches.
+  sim::Model model;
+  model.oscillator = {.mass = 1.0, .stiffness = 100.0, .damping = 1.0};
+  model.excitation = {
+      .type = sim::ExcitationType::base_harmonic, .amplitude = 0.05, .frequency = 2.0 * std::numbers::pi};
+  const friction::ParameterValues load{{"ratio", 0.3}, {"order", 1.0}, {"phase", 0.0}};
+  model.friction = {
+      test::law("coulomb", {{"kinetic", 1.0}, {"load_modulation", std::vector<friction::ParameterValues>{load}}})};
+  const sim::SteadyState modulated = sim::steady_state(model);
+  CHECK(modulated.peak == Approx(0.076016533).epsilon(1e-8));
+  CHECK(modulated.trough == Approx(-0.0841291544).epsilon(1e-8));
+  CHECK(modulated.others.empty());
+
+  // A static friction of one direction that the motion meets late.
+  model.oscillator.damping = 0.2;
+  model.excitation = {
+      .type = sim::ExcitationType::force_harmonic, .amplitude = 3.0, .frequency = 0.8 * std::numbers::pi};
+  model.initial.position = 0.5;
+  model.friction = {test::law("asymmetric_coulomb",
+                              {{"kinetic_forward", 1.0}, {"kinetic_backward", 1.0}, {"static_forward", 2.5}})};
+  const sim::SteadyState one_sided = sim::steady_state(model);
+  CHECK(one_sided.trough == Approx(-0.025001312).epsilon(1e-6));
+  CHECK(one_sided.others.empty());
+
+  // A constant force, and a start at rest that does not show it.
+  model.oscillator = {.mass = 1.0, .stiffness = 1.0, .damping = 0.05, .cubic_stiffness = 0.3};
+  model.excitation = {
+      .type = sim::ExcitationType::force_harmonic, .amplitude = 1.0, .frequency = 1.8, .offset = 0.5};
+  model.initial.position = 0.0;
+  model.friction = {friction::Law(friction::Coulomb(0.05, 2.0))};
+  const sim::SteadyState offset = sim::steady_state(model);
+  REQUIRE(offset.others.size() == 1);
+  CHECK(offset.others[0].peak == Approx(3.5176652759).epsilon(1e-7));
+}
+
 TEST_CASE("24 starts of a bistable oscillator end where their motions do") {
   test::Random random(20261123);
   int large = 0;
