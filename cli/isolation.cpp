@@ -36,11 +36,27 @@ int say(ExitStatus status, const std::string& message, const Call& call) {
   return static_cast<int>(report.status);
 }
 
+std::string names(const std::vector<std::string>& plugins) {
+  return plugins.empty() ? "none" : core::joined(plugins);
+}
+
+/// The call that has not returned yet.
+const Call* unfinished = nullptr;
+
+/// A plugin that calls exit would leave its own status, and no result.
+void end_unfinished() {
+  if (unfinished == nullptr) return;
+  const int status =
+      say(ExitStatus::numerical_failure,
+          "a plugin ended the program (exit); there were the plugins: " + names(unfinished->plugins), *unfinished);
+  ::_exit(status);
+}
+
 [[noreturn]] void be_child(const Call& call, const sigset_t& before) {
   (void)::prctl(PR_SET_PDEATHSIG, SIGKILL);  // otherwise it would run on after its parent
   (void)::sigprocmask(SIG_SETMASK, &before, nullptr);
   watch_for_interrupt();
-  std::exit(execute(call));
+  std::exit(execute_to_its_end(call));
 }
 
 timespec until(Clock::time_point end) {
@@ -66,10 +82,6 @@ std::optional<int> wait_for(pid_t child, const sigset_t& signals, Clock::time_po
   return status;
 }
 
-std::string names(const std::vector<std::string>& plugins) {
-  return plugins.empty() ? "none" : core::joined(plugins);
-}
-
 std::string crash(int signal, const Call& call) {
   return std::string("the process of the command was ended by a signal (") + ::strsignal(signal) +
          "); it had the plugins: " + names(call.plugins);
@@ -82,6 +94,13 @@ std::string no_end(const Call& call) {
 }
 
 }  // namespace
+
+int execute_to_its_end(const Call& call) noexcept {
+  if (!call.plugins.empty() && std::atexit(end_unfinished) == 0) unfinished = &call;
+  const int status = execute(call);
+  unfinished = nullptr;
+  return status;
+}
 
 int execute_isolated(const Call& call) noexcept {
   sigset_t signals;

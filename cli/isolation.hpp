@@ -1,9 +1,14 @@
 #pragma once
-/// Executes a command in a child process. A plugin that crashes or does not return then ends only this process.
+/// Executes a command against plugins that end the program: by a call of exit, or, in a child process, by a crash
+/// or a call that does not return.
 
 #include "cli/arguments.hpp"
 
 namespace dualdamp::cli {
+
+/// Executes the command and returns its status. If a plugin calls exit, the process ends with the status of a
+/// numerical failure (4) and a message that names the plugins.
+[[nodiscard]] int execute_to_its_end(const Call& call) noexcept;
 
 /// Executes the command in a child process and returns its status. If a signal ends the child, or if the child
 /// takes longer than `call.isolation` seconds and is killed, the status is that of a numerical failure (4), with a

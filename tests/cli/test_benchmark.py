@@ -362,9 +362,11 @@ class Benchmark(unittest.TestCase):
             self.call("run", path, "--out", self.folder / str(place), "--quiet", status=status)
             estimate = next(e for e in json.loads((self.folder / str(place) / "result.json").read_text())["result"]["estimates"] if e["method"] == "any_law")
             for name, key in (("zeta", "zeta95"), ("F0", "F095")):
-                found = lines[place]["estimates"][0][key]
-                for value, expected in zip(found, estimate["interval95"][name]):
-                    self.assertAlmostEqual(value / expected, 1, delta=1e-6)
+                low, high = (end / expected for end, expected in zip(lines[place]["estimates"][0][key], estimate["interval95"][name]))
+                # An answer also holds the estimate with the departure set free: then its interval may be wider.
+                self.assertGreater(low, 1 - 1e-6)
+                self.assertLess(high, 1 + 1e-6)
+                self.assertLess(abs(low - 1) + abs(high - 1), 2e-6 if place < 2 else 0.05)
 
     def test_consequences(self):
         out, _ = self.score()

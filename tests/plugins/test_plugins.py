@@ -255,6 +255,12 @@ class Isolated(Case):
         document = self.document("slider.yaml", "--isolate-plugins=0.5", status=4, fault="does not return")
         self.assertIn("did not end within 0.5 s", document["errors"][0]["message"])
 
+    def test_a_law_that_calls_exit_is_no_success(self):
+        for options in ([], ["--isolate-plugins"]):
+            document = self.document("slider.yaml", *options, status=4, fault="calls exit")
+            self.assertIn("a plugin ended the program", document["errors"][0]["message"])
+            self.assertIn(TEST_LAW, document["errors"][0]["message"])
+
     def test_signals_reach_the_child(self):
         process = subprocess.Popen(
             [PROGRAM, "run", "slider.yaml", "--plugin", TEST_LAW, "--isolate-plugins"], cwd=self.folder,
