@@ -162,8 +162,9 @@ void judge(Prediction& found, const Fit& attainable) {
     found.text += ", " + core::format_number(found.noise_units, 3) + " times the noise";
   found.text += "; fitted to this record itself, the same laws miss by " + percent(found.attainable);
   if (cannot)
-    found.text += ": the law is wrong here, because even the fit to this record leaves " +
-                  core::format_number(attainable.noise_units, 3) + " times the noise";
+    found.text +=
+        ": the law is wrong here, or a stated constant, the drive or a sensor: even the fit to this record leaves " +
+        core::format_number(attainable.noise_units, 3) + " times the noise";
   else if (does_not_carry_over)
     found.text +=
         ": the law is wrong, or the rig has changed: no single set of parameters agrees with both records "

@@ -102,11 +102,11 @@ def mat5(*elements):
     return b"MATLAB 5.0 MAT-file".ljust(124) + b"\x00\x01IM" + b"".join(elements)
 
 
-def uff58(name, values, step, unit="m", quantity=8):
+def uff58(name, values, step, unit="m", quantity=8, time_unit="s"):
     lines = ["    -1", "    58", name, "NONE", "NONE", "NONE", "NONE"]
     lines.append(f"{1:5d}{1:10d}{0:5d}{0:10d} {name:10s}{1:10d}{3:4d} {'NONE':10s}{0:10d}{0:4d}")
     lines.append(f"{4:10d}{len(values):10d}{1:10d}{0:13.5E}{step:13.5E}{0:13.5E}")
-    lines.append(f"{17:10d}{0:5d}{0:5d}{0:5d} {'Time':20s} {'s':20s}")
+    lines.append(f"{17:10d}{0:5d}{0:5d}{0:5d} {'Time':20s} {time_unit:20s}")
     lines.append(f"{quantity:10d}{0:5d}{0:5d}{0:5d} {name:20s} {unit:20s}")
     lines += [f"{0:10d}{0:5d}{0:5d}{0:5d} {'NONE':20s} {'NONE':20s}"] * 2
     lines += ["".join(f"{value:20.12E}" for value in values[i:i + 4]) for i in range(0, len(values), 4)]

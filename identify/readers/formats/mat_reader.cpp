@@ -371,8 +371,12 @@ class Reader {
       return;
     }
     std::vector<double> times(test.columns.front().values.size());
-    for (std::size_t i = 0; i < times.size(); ++i) times[i] = static_cast<double>(i) * *step;
-    test.columns.push_back({known_column("t"), std::move(times)});
+    const KnownColumn& t = *known_column("t");
+    core::Diagnostic where;
+    where.place.file = file_;
+    const double unit = factors_.factor_of(t, "s", where);
+    for (std::size_t i = 0; i < times.size(); ++i) times[i] = static_cast<double>(i) * *step * unit;
+    test.columns.push_back({&t, std::move(times)});
   }
 
   std::string path_;

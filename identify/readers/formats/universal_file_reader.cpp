@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
+#include <string>
 #include <utility>
 
+#include "core/units.hpp"
 #include "identify/readers/column_factors.hpp"
 #include "identify/readers/formats/universal_file.hpp"
 #include "identify/readers/text.hpp"
@@ -108,9 +111,11 @@ class Mapping {
     const auto holds = [&known](const TestColumns& test) {
       return std::ranges::any_of(test.columns, [&](const DataColumn& column) { return column.known == &known; });
     };
-    std::vector<double> times = f.times;
+    const double unit = time_factor(f);
+    std::vector<double> times;
+    for (const double t : f.times) times.push_back(t * unit);
     for (std::size_t i = 0; f.is_even && i < f.count; ++i)
-      times.push_back(f.start + static_cast<double>(i) * f.step);
+      times.push_back((f.start + static_cast<double>(i) * f.step) * unit);
     if (tests.empty() || holds(tests.back())) {
       tests.emplace_back();
       tests.back().columns.push_back({known_column("t"), std::move(times)});
@@ -123,6 +128,22 @@ class Mapping {
     const double factor = factor_of(f, known);
     for (double& value : values) value *= factor;
     tests.back().columns.push_back({&known, std::move(values)});
+  }
+
+  /// From the times of a data set to seconds. An axis label that is no unit of time means seconds.
+  double time_factor(const Function& f) {
+    const KnownColumn& known = *known_column("t");
+    const bool is_time =
+        !f.abscissa.unit.empty() && core::unit_factor(f.abscissa.unit, known.unit).value.has_value();
+    const bool is_given = find_for(options_.units, known) != nullptr || find_for(options_.scales, known) != nullptr;
+    if (!is_time && !is_given) return 1.0;
+    const auto [place, is_new] = time_factors_.try_emplace(is_time ? f.abscissa.unit : "", 1.0);
+    if (is_new) {
+      core::Diagnostic where;
+      where.place = {file_, f.line, 0, {}};
+      place->second = factors_.factor_of(known, place->first, where);
+    }
+    return place->second;
   }
 
   double factor_of(const Function& f, const KnownColumn& known) {
@@ -140,6 +161,7 @@ class Mapping {
   Problems& problems_;
   std::vector<std::string>& warnings_;
   ColumnFactors factors_;
+  std::map<std::string, double> time_factors_;  ///< by the unit of the axis; each is asked once
 };
 
 }  // namespace
