@@ -18,6 +18,9 @@ using Eigen::VectorXd;
 
 namespace {
 
+/// Closure of a failed step over the rounding of an orbit, up to which the step failed by rounding.
+constexpr double lost_by_rounding = 100.0;
+
 /// Most changes of the sequence between two points of a branch that are located.
 constexpr int most_changes = 64;
 
@@ -216,6 +219,8 @@ Branch Continuation::run() {
     if (is_exhausted())
       return ended(BranchEnd::work,
                    "the branch is not complete: it stops where the search for its orbits takes too long");
+    if (!next && nearest_ < lost_by_rounding)
+      return ended(BranchEnd::step, "the branch is not complete: it stops where no step converges to an orbit");
     if (!next) {
       add_change(ChangeKind::end, branch_.points.back(), branch_.points.back());
       return ended(BranchEnd::orbit, "the branch ends inside the range: no orbit continues it");
@@ -283,6 +288,8 @@ std::string_view name(BranchEnd end) {
       return "points";
     case BranchEnd::edge:
       return "edge";
+    case BranchEnd::step:
+      return "step";
     case BranchEnd::work:
       return "work";
   }

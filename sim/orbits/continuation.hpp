@@ -55,13 +55,14 @@ struct BranchChange {
 /// Why a branch has no more points.
 enum class BranchEnd {
   range,   ///< it left the range of the parameter: complete
-  orbit,   ///< no orbit continues it
+  orbit,   ///< no orbit continues it: an interval of the orbit disappears, or it would go back over its own orbits
   points,  ///< it has max_points points
   edge,    ///< it left the range, but no orbit was found exactly at the end of the range
+  step,    ///< orbits nearly close beyond the last point, but no step along the branch converged
   work,    ///< the search for its orbits took too long
 };
 
-/// "range", "orbit", "points", "edge", "work".
+/// "range", "orbit", "points", "edge", "step", "work".
 [[nodiscard]] std::string_view name(BranchEnd end);
 
 struct Branch {
@@ -75,6 +76,7 @@ struct Branch {
 
 struct BranchOptions {
   double largest_step = 0.02;  ///< relative to the range of the parameter and the size of the motion
+  // The smooth engine raises the next three to what its accuracy allows.
   double smallest_step = 1e-6;
   double tolerance = 1e-13;  ///< closure of each orbit
   double location = 1e-9;    ///< of changes, relative to the larger end of the range

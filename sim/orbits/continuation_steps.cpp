@@ -3,7 +3,10 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
+
+#include "sim/engine/drive.hpp"
 
 namespace dualdamp::sim {
 
@@ -16,8 +19,8 @@ namespace {
 constexpr int max_corrections = 12;
 /// Periods of transient by which a predicted state may enter the mode of its orbit.
 constexpr int settling_periods = 4;
-/// Relative change of the parameter for the difference quotient by it.
-constexpr double nudge = 1e-7;
+/// Closure at which rounding leaves too little of an orbit.
+constexpr double lost_in_rounding = 1e-7;
 
 /// Derivative of (end - begin) by the coordinates and the parameter. A slider that never slips keeps its position.
 MatrixXd closing(const ForcingPeriod& period, const VectorXd& by_parameter) {
@@ -36,7 +39,39 @@ Eigen::Vector3d common_part(const VectorXd& tangent) {
   return {tangent[0], tangent[1], tangent[tangent.size() - 1]};
 }
 
+/// Rounding of the forces, as a closure. It matters where the motion is small beside the one that the forces would
+/// cause without friction.
+double rounding_of_forces(const Model& model, const ForcingPeriod& period) {
+  constexpr double roundings = 8.0;
+  const double w = model.excitation.frequency;
+  const double stiffness = std::max(model.oscillator.stiffness, model.oscillator.mass * w * w);
+  const double size = std::max(period.size, std::abs(period.begin.v) / w);
+  const double force = Drive(model.oscillator, model.excitation).force_scale();
+  return roundings * std::numeric_limits<double>::epsilon() * force / (stiffness * size);
+}
+
 }  // namespace
+
+/// No orbit, slope, step or place is finer than the error of the engine allows.
+void Continuation::limit_by_accuracy(double accuracy) {
+  closure_ = closure_within(options_.tolerance, accuracy);
+  constexpr double coarsest = 1e-5;
+  const double error = std::min(accuracy, coarsest);
+  nudge_ = std::max(nudge_, std::sqrt(error));
+  options_.smallest_step = std::max(options_.smallest_step, 10.0 * error);
+  options_.location = std::max(options_.location, 10.0 * error);
+}
+
+/// Whether the node is an orbit; `before`: the closure before the last correction. Where corrections no longer
+/// help, rounding is enough.
+bool Continuation::closes(const Node& node, double before) const {
+  const Model model = at(node.parameter);
+  const double closure = node.period.closure(model.excitation.frequency);
+  if (closure <= closure_.tolerance) return true;
+  const double rounding = std::max(closure_.rounding, rounding_of_forces(model, node.period));
+  nearest_ = std::min(nearest_, closure / rounding);
+  return closure > 0.5 * before && closure <= std::max(closure_.rounding, std::min(rounding, lost_in_rounding));
+}
 
 Model Continuation::at(double parameter) const {
   Model model = model_;
@@ -69,7 +104,7 @@ VectorXd Continuation::scale(const Node& node) const {
 
 /// d(end)/d(parameter), by a difference; none if the changed parameter leads to another mode.
 std::optional<VectorXd> Continuation::by_parameter(const Node& node) const {
-  for (const double step : {nudge * node.parameter, -nudge * node.parameter}) {
+  for (const double step : {nudge_ * node.parameter, -nudge_ * node.parameter}) {
     CountedMap map(at(node.parameter + step), ratio_, effort_);
     const ForcingPeriod moved = map.from(node.period.begin, Monodromy::without);
     if (map.outcome().ok() && same_mode(moved.end, node.period.end))
@@ -96,11 +131,13 @@ std::optional<VectorXd> Continuation::tangent(const Node& node, const VectorXd& 
 /// The orbit at a fixed parameter nearest to `guess`.
 std::optional<Node> Continuation::orbit(double parameter, const State& guess) const {
   CountedMap map(at(parameter), ratio_, effort_);
-  ForcingPeriod trial = map.from(guess, Monodromy::with);
+  Node node{parameter, map.from(guess, Monodromy::with), {}};
+  double before = std::numeric_limits<double>::infinity();
   for (int i = 0; i < max_corrections && map.outcome().ok(); ++i) {
-    if (trial.closure(omega(parameter)) <= options_.tolerance) return Node{parameter, std::move(trial), {}};
-    const VectorXd step = newton_step(trial);
-    trial = map.from(step.size() > 0 ? displaced(trial.begin, step) : trial.end, Monodromy::with);
+    if (closes(node, before)) return node;
+    before = node.period.closure(omega(parameter));
+    const VectorXd step = newton_step(node.period);
+    node.period = map.from(step.size() > 0 ? displaced(node.period.begin, step) : node.period.end, Monodromy::with);
   }
   return std::nullopt;
 }
@@ -112,13 +149,15 @@ std::optional<Node> Continuation::correct(const Node& from, double step) const {
   const VectorXd predicted = step * from.tangent.cwiseProduct(size);
   Node node{from.parameter + predicted[n], {}, {}};
   State start = displaced(from.period.begin, predicted.head(n));
+  double before = std::numeric_limits<double>::infinity();
   for (int i = 0; i < max_corrections; ++i) {
     if (!(node.parameter > 0.0)) return std::nullopt;
     std::optional<ForcingPeriod> trial = period(node.parameter, start);
     if (!trial || !trial->ends_in_its_mode()) return std::nullopt;
     node.period = std::move(*trial);
     const VectorXd gap = coordinates(node.period.end) - coordinates(node.period.begin);
-    if (node.period.closure(omega(node.parameter)) <= options_.tolerance) return node;
+    if (closes(node, before)) return node;
+    before = node.period.closure(omega(node.parameter));
     const std::optional<VectorXd> slope = by_parameter(node);
     if (!slope) return std::nullopt;
     VectorXd distance(n + 1);
@@ -184,11 +223,15 @@ bool Continuation::turns_too_far(const Node& from, const Node& node, const Vecto
   return tangent.dot(from.tangent) < least || tangent.dot(chord) < least || from.tangent.dot(chord) < least;
 }
 
-/// The next point with its tangent; halves `step` as often as needed. None: the branch ends.
+/// The next point with its tangent; halves `step` as often as needed. None: the branch ends, or no step converged
+/// although `nearest_` is small.
 std::optional<Node> Continuation::advance(const Node& from, double& step) const {
   for (; step >= options_.smallest_step && !is_exhausted(); step *= 0.5) {
+    nearest_ = std::numeric_limits<double>::infinity();
     std::optional<Node> node = correct(from, step);
+    const double nearest = nearest_;
     if (!node) node = cross_modes(from, step);
+    nearest_ = nearest;
     if (!node) continue;
     const Index n = node->period.monodromy.cols();
     // Between modes with different states the old tangent only gives the direction of the parameter.
@@ -196,7 +239,10 @@ std::optional<Node> Continuation::advance(const Node& from, double& step) const 
     const bool alike = same_mode(from.period.begin, node->period.begin);
     const VectorXd along = alike ? from.tangent : VectorXd(sense * VectorXd::Unit(n + 1, n));
     const std::optional<VectorXd> next = tangent(*node, along);
-    if (!next) continue;
+    if (!next) {
+      nearest_ = 0.0;
+      continue;
+    }
     if (alike && step > 16.0 * options_.smallest_step && turns_too_far(from, *node, *next)) continue;
     node->tangent = *next;
     return node;

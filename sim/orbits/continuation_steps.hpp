@@ -8,6 +8,7 @@
 #include <string>
 
 #include "sim/orbits/continuation.hpp"
+#include "sim/orbits/newton.hpp"
 #include "sim/orbits/period_map.hpp"
 
 namespace dualdamp::sim {
@@ -63,12 +64,16 @@ class Continuation {
         options_(options),
         from_(from),
         to_(to),
-        range_(std::max(std::abs(to - from), 1e-12 * std::abs(from))) {}
+        range_(std::max(std::abs(to - from), 1e-12 * std::abs(from))) {
+    limit_by_accuracy(make_engine(model)->accuracy());
+  }
 
   Branch run();
   [[nodiscard]] const core::SearchCount& count() const { return effort_.count; }
 
  private:
+  void limit_by_accuracy(double accuracy);
+  [[nodiscard]] bool closes(const Node& node, double before) const;
   [[nodiscard]] Model at(double parameter) const;
   [[nodiscard]] std::optional<ForcingPeriod> period(double parameter, const State& start) const;
   [[nodiscard]] double omega(double parameter) const;
@@ -103,6 +108,9 @@ class Continuation {
   double range_;
   int ratio_ = 1;  ///< forcing periods in a period of the motion
   Branch branch_;
+  Closure closure_;
+  double nudge_ = 1e-7;           ///< relative change of the parameter for the difference quotient by it
+  mutable double nearest_ = 0.0;  ///< smallest closure of the corrections of the last step over its rounding
   mutable Effort effort_;
 };
 

@@ -1,9 +1,15 @@
 #include "sim/orbits/newton.hpp"
 
+#include <algorithm>
 #include <limits>
 #include <utility>
 
 namespace dualdamp::sim {
+
+Closure closure_within(double tolerance, double accuracy) {
+  constexpr double rounding = 1e-12;
+  return {std::max(tolerance, accuracy), std::max(rounding, 10.0 * accuracy)};
+}
 
 double correction_left(const ForcingPeriod& period, double omega) {
   const Eigen::VectorXd step = newton_step(period);

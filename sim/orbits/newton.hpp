@@ -19,6 +19,15 @@ struct NewtonResult {
   int transient_periods = 0;  ///< counted in periods of the map
 };
 
+/// Closure that an orbit must have. Corrections cannot bring it below the error of the engine over a period.
+struct Closure {
+  double tolerance = 0.0;  ///< to reach
+  double rounding = 0.0;   ///< that is enough once rounding limits the corrections
+};
+
+/// The closure that an engine of this accuracy (`Engine::accuracy`) can reach if `tolerance` is wished.
+[[nodiscard]] Closure closure_within(double tolerance, double accuracy);
+
 /// Size of the next correction of Newton's method, relative to the motion: the error of the orbit. Infinite if the
 /// monodromy matrix gives no correction, as in a continuum.
 [[nodiscard]] double correction_left(const ForcingPeriod& period, double omega);

@@ -31,9 +31,6 @@ namespace {
 /// Rounding of a Floquet multiplier on the unit circle.
 constexpr double on_circle = 1e-9;
 
-/// Closure that is enough once rounding limits Newton's corrections.
-constexpr double rounding_closure = 1e-12;
-
 /// Largest relative error of the only orbit with which it is accepted.
 constexpr double known = 1e-6;
 
@@ -64,8 +61,9 @@ class OrbitFinder {
   OrbitFinder(const Model& model, const SteadyStateOptions& options)
       : model_(model), options_(options), map_(model), motions_(motions_of(model)) {
     const double accuracy = map_.engine().accuracy();
-    options_.tolerance = std::max(options_.tolerance, accuracy);
-    rounding_closure_ = std::max(rounding_closure, 10.0 * accuracy);
+    const Closure closure = closure_within(options_.tolerance, accuracy);
+    options_.tolerance = closure.tolerance;
+    rounding_closure_ = closure.rounding;
     map_.limit(patience_with(accuracy).work);
   }
 

@@ -1,0 +1,111 @@
+// Branches whose orbits close to the error of the engine or to rounding only.
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "friction_models/laws/bouc_wen.hpp"
+#include "friction_models/laws/coulomb.hpp"
+#include "friction_models/laws/dahl.hpp"
+#include "friction_models/laws/lugre.hpp"
+#include "sim/orbits/continuation.hpp"
+
+using namespace dualdamp;
+using sim::BranchParameter;
+
+namespace {
+
+sim::Model smooth(friction::Law law, double tolerance) {
+  sim::Model model;
+  model.oscillator = {.mass = 1.0, .stiffness = 1.0, .damping = 0.1};
+  model.excitation = {.type = sim::ExcitationType::force_harmonic, .amplitude = 0.5, .frequency = 0.8};
+  model.friction.push_back(std::move(law));
+  model.solver.tolerance = tolerance;
+  return model;
+}
+
+sim::Model stiff_coulomb() {
+  sim::Model model;
+  model.oscillator = {.mass = 1.0, .stiffness = 100.0, .damping = 1.0};
+  model.excitation = {
+      .type = sim::ExcitationType::base_harmonic, .amplitude = 0.011, .frequency = 6.283185307179586};
+  model.friction.emplace_back(friction::Coulomb(1.0, 1.0));
+  return model;
+}
+
+/// Largest relative difference between the amplitudes of the branch and steady states found one by one.
+double largest_error(const sim::Branch& branch, sim::Model model, double sim::Excitation::* parameter,
+                     std::size_t every) {
+  model.solver.tolerance = sim::Solver{}.tolerance;
+  double worst = 0.0;
+  for (std::size_t i = 0; i < branch.points.size(); i += every) {
+    model.excitation.*parameter = branch.points[i].parameter;
+    const sim::SteadyState state = sim::steady_state(model, {.full_account = false});
+    worst = std::max(worst, std::abs(branch.points[i].state.amplitude / state.amplitude - 1.0));
+  }
+  return worst;
+}
+
+void check_smooth(const friction::Law& law, double tolerance) {
+  const sim::Model model = smooth(law, tolerance);
+  const sim::BranchOptions few{.largest_step = 0.2};
+  for (const bool over_frequency : {true, false}) {
+    const sim::Branch branch = over_frequency ? continue_branch(model, BranchParameter::frequency, 0.8, 1.2, few)
+                                              : continue_branch(model, BranchParameter::amplitude, 0.3, 1.0, few);
+    CAPTURE(tolerance, over_frequency);
+    REQUIRE(branch.outcome.ok());
+    CHECK(branch.end == sim::BranchEnd::range);
+    CHECK(branch.changes.empty());
+    CHECK(branch.points.back().parameter == (over_frequency ? 1.2 : 1.0));
+    const auto parameter = over_frequency ? &sim::Excitation::frequency : &sim::Excitation::amplitude;
+    CHECK(largest_error(branch, model, parameter, 5) < std::max(1e-8, 1000.0 * tolerance));
+  }
+}
+
+}  // namespace
+
+TEST_CASE("a branch of a smooth law closes its orbits to the error of the engine and passes through the response") {
+  const auto [law, tolerance] = GENERATE(table<friction::Law, double>({
+      {friction::Law(friction::Dahl(0.2, 10.0, 1.0)), 1e-11},
+      {friction::Law(friction::Dahl(0.2, 10.0, 1.0)), 1e-9},
+      {friction::Law(friction::Dahl(0.2, 10.0, 1.0)), 1e-6},
+      {friction::Law(friction::Lugre(friction::StribeckCurve(0.2, 0.25, 0.05), {10.0, 0.1, 0.0})), 1e-11},
+      {friction::Law(friction::BoucWen(0.2, 10.0, 2.0, 0.0, 0.5)), 1e-11},
+  }));
+  check_smooth(law, tolerance);
+}
+
+TEST_CASE("the smooth engine finds the changes of a branch where the exact engine does") {
+  sim::Model model = stiff_coulomb();
+  const sim::BranchOptions few{.largest_step = 0.1};
+  const sim::Branch exact = continue_branch(model, BranchParameter::amplitude, 0.021, 0.018, few);
+  REQUIRE(exact.changes.size() == 1);
+  for (const double tolerance : {1e-11, 1e-7}) {
+    CAPTURE(tolerance);
+    model.solver = {sim::SolverKind::explicit_steps, tolerance};
+    const sim::Branch branch = continue_branch(model, BranchParameter::amplitude, 0.021, 0.018, few);
+    CHECK(branch.end == sim::BranchEnd::range);
+    REQUIRE(branch.changes.size() == 1);
+    CHECK(branch.changes[0].kind == sim::ChangeKind::sticking);
+    CHECK(branch.changes[0].parameter ==
+          Approx(exact.changes[0].parameter).epsilon(std::max(1e-8, 100 * tolerance)));
+  }
+}
+
+TEST_CASE("a branch begins just above the onset of motion, where rounding of the forces limits the closure") {
+  const sim::Branch branch = continue_branch(stiff_coulomb(), BranchParameter::amplitude, 0.01001, 0.011);
+  REQUIRE(branch.outcome.ok());
+  CHECK(branch.end == sim::BranchEnd::range);
+  CHECK(branch.points.front().state.amplitude < 1e-7);
+  CHECK(largest_error(branch, stiff_coulomb(), &sim::Excitation::amplitude, 50) < 1e-8);
+}
+
+TEST_CASE("a branch that rounding stops does not say that no orbit continues it") {
+  const sim::Branch branch = continue_branch(stiff_coulomb(), BranchParameter::amplitude, 0.0101, 0.009);
+  REQUIRE(branch.outcome.ok());
+  CHECK(branch.points.back().parameter == Approx(0.01).epsilon(1e-3));
+  CHECK(branch.end == sim::BranchEnd::step);
+  CHECK(branch.changes.empty());
+  REQUIRE(branch.warnings.size() == 1);
+  CHECK(branch.warnings[0].find("no step converges") != std::string::npos);
+}
