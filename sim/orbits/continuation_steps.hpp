@@ -65,7 +65,7 @@ class Continuation {
         from_(from),
         to_(to),
         range_(std::max(std::abs(to - from), 1e-12 * std::abs(from))) {
-    limit_by_accuracy(make_engine(model)->accuracy());
+    limit_by_accuracy(make_engine(at(from))->accuracy());
   }
 
   Branch run();
