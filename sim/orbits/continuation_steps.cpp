@@ -55,6 +55,7 @@ double rounding_of_forces(const Model& model, const ForcingPeriod& period) {
 /// No orbit, slope, step or place is finer than the error of the engine allows.
 void Continuation::limit_by_accuracy(double accuracy) {
   closure_ = closure_within(options_.tolerance, accuracy);
+  if (accuracy == 0.0) closure_.rounding = closure_.tolerance;
   constexpr double coarsest = 1e-5;
   const double error = std::min(accuracy, coarsest);
   nudge_ = std::max(nudge_, std::sqrt(error));
