@@ -42,7 +42,9 @@ void BoucWen::rates(const Memory& memory, const Instant& now, Direction directio
   rates[0] = now.v * (1.0 - power * (beta_share_ * sign(direction) * memory.mode + 1.0 - beta_share_));
 }
 
-void BoucWen::jump(Memory& memory, Trigger trigger, const Instant&, Direction direction) const {
+void BoucWen::jump(Memory& memory, Trigger trigger, const Instant& now, Direction direction) const {
+  // Where there was no force limit the spring starts unstretched.
+  if (trigger.cause == Trigger::limit_change && now.force_limit_now(limit_) == 0.0) memory = start(now);
   if (trigger.cause >= 0) {
     memory.mode = -memory.mode;
   } else if (memory.mode == unmoved) {

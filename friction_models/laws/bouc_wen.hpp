@@ -43,7 +43,7 @@ class BoucWen {
   void guards(const Memory& memory, const Instant&, Direction, std::vector<double>& values) const {
     if (memory.mode != unmoved) values.push_back(memory.mode * memory.state[0]);
   }
-  void jump(Memory& memory, Trigger trigger, const Instant&, Direction direction) const;
+  void jump(Memory& memory, Trigger trigger, const Instant& now, Direction direction) const;
   void scales(const Memory&, std::span<double> scales) const { scales[0] = limit_ / stiffness_; }
   /// F v minus the power stored in both springs.
   [[nodiscard]] double dissipation(const Memory& memory, const Instant& now, Direction direction) const;

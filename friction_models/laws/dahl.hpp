@@ -34,6 +34,10 @@ class Dahl {
     return sigma0_ * memory.state[0];
   }
   void rates(const Memory& memory, const Instant& now, Direction direction, std::span<double> rates) const;
+  /// Where there was no force limit the bristles start unstretched.
+  void jump(Memory& memory, Trigger trigger, const Instant& now, Direction) const {
+    if (trigger.cause == Trigger::limit_change && now.force_limit_now(kinetic_) == 0.0) memory = start(now);
+  }
   void scales(const Memory&, std::span<double> scales) const { scales[0] = kinetic_ / sigma0_; }
   /// F v minus the power that the bristles store, sigma0 z z'.
   [[nodiscard]] double dissipation(const Memory& memory, const Instant& now, Direction direction) const;

@@ -43,7 +43,9 @@ class ElastoPlastic {
   [[nodiscard]] double respond(const Memory& memory, const Instant& now, Direction direction,
                                std::span<double> rates) const;
   void guards(const Memory& memory, const Instant& now, Direction direction, std::vector<double>& values) const;
-  void jump(Memory& memory, Trigger trigger, const Instant&, Direction) const {
+  void jump(Memory& memory, Trigger trigger, const Instant& now, Direction) const {
+    // Where there was no force limit the bristles start unstretched.
+    if (trigger.cause == Trigger::limit_change && curve_.static_level(now) == 0.0) memory = start(now);
     memory.mode = trigger.cause >= 0 && memory.mode == elastic ? yielding : elastic;
   }
   void scales(const Memory&, std::span<double> scales) const { scales[0] = curve_.kinetic() / bristles_.sigma0; }

@@ -57,6 +57,10 @@ class Lugre {
   [[nodiscard]] Memory start(const Instant&) const { return {.state = {0.0}}; }
   [[nodiscard]] double respond(const Memory& memory, const Instant& now, Direction direction,
                                std::span<double> rates) const;
+  /// Where there was no force limit the bristles start unstretched.
+  void jump(Memory& memory, Trigger trigger, const Instant& now, Direction) const {
+    if (trigger.cause == Trigger::limit_change && curve_.static_level(now) == 0.0) memory = start(now);
+  }
   void scales(const Memory&, std::span<double> scales) const { scales[0] = curve_.kinetic() / bristles_.sigma0; }
   [[nodiscard]] double dissipation(const Memory& memory, const Instant& now, Direction direction) const;
 

@@ -14,6 +14,12 @@ inline friction::Law coulomb_with(double kinetic, double static_level, const fri
                             {kinetic, static_level});
 }
 
+/// All of these values; where both have one, that of `more`.
+inline friction::ParameterValues plus(friction::ParameterValues values, const friction::ParameterValues& more) {
+  for (const auto& [name, value] : more.values()) values.set(name, value);
+  return values;
+}
+
 /// Work of the loop between two positions, after one round.
 inline double loop_work(const friction::Law& law, double low, double high) {
   sim::LawHost host(law, {});

@@ -28,6 +28,7 @@ using friction::Memory;
 using friction::ParameterValues;
 using test::coulomb_with;
 using test::loop_work;
+using test::plus;
 
 namespace {
 
@@ -36,11 +37,6 @@ const std::vector<std::string> none;
 ParameterValues fluctuation(double ratio, double correlation_time, double seed) {
   const ParameterValues record{{"ratio", ratio}, {"correlation_time", correlation_time}, {"seed", seed}};
   return {{"fluctuation", std::vector<ParameterValues>{record}}};
-}
-
-ParameterValues plus(ParameterValues values, const ParameterValues& more) {
-  for (const auto& [name, value] : more.values()) values.set(name, value);
-  return values;
 }
 
 Law contact(double kinetic, double stiffness, const ParameterValues& modifiers) {
@@ -351,43 +347,4 @@ TEST_CASE("position_slope is refused beside a damped contact", "[friction][modif
   CHECK(faults[0].message == "'position_slope' is not possible beside 'contact_damping'");
   values.set("contact_damping", 0.0);
   CHECK(friction::complete(entry.parameters, values).empty());
-}
-
-TEST_CASE("The force that no limit bounds stays while modifiers take all friction away", "[friction][modified]") {
-  struct {
-    std::string name;
-    ParameterValues values;
-    double stiffness;
-    double damping;
-  } const cases[] = {
-      {"bouc_wen", {{"limit", 1.0}, {"stiffness", 200.0}, {"exponent", 2.0}, {"ratio", 0.25}}, 50.0, 0.0},
-      {"lugre",
-       {{"kinetic", 1.0}, {"stribeck_velocity", 0.01}, {"sigma0", 1e4}, {"sigma1", 20.0}, {"sigma2", 3.0}},
-       0.0,
-       3.0},
-      {"elasto_plastic",
-       {{"kinetic", 1.0},
-        {"stribeck_velocity", 0.01},
-        {"sigma0", 1e4},
-        {"sigma1", 20.0},
-        {"sigma2", 3.0},
-        {"elastic_limit", 5e-5}},
-       0.0,
-       3.0},
-  };
-  for (const auto& [name, values, stiffness, damping] : cases) {
-    CAPTURE(name);
-    ParameterValues gone = plus(values, {{"drift", -1.0}});
-    const friction::LawEntry& entry = *friction::find_law(name);
-    REQUIRE(friction::complete(entry, gone).empty());
-    const std::vector<Law> laws = entry.make(gone);
-    REQUIRE(laws.size() == 1);
-    const Law& law = laws.front();
-    Memory memory = law.start({});
-    law.jump(memory, {friction::Trigger::scheduled}, {.t = law.next_change(memory)}, Direction::forward);
-    const Instant now{.t = 2.0, .x = 0.1, .v = 0.3};
-    std::vector<double> rates(memory.state.size(), 1.0);
-    CHECK(law.respond(memory, now, Direction::forward, rates) == stiffness * now.x + damping * now.v);
-    CHECK(law.dissipation(memory, now, Direction::forward) == damping * now.v * now.v);
-  }
 }
