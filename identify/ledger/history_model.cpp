@@ -116,6 +116,8 @@ class Histories {
       model.shaken = std::move(found->shaken);
     }
     const ForceParameters force = force_at(at);
+    model.value = parameters(force);
+    if (model.residuals.size() == 0) return model;
     const std::vector<ForwardLayout::Entry>& shared = fit_.layout().shared();
     // From the scales of the fit to zeta and F0.
     const Eigen::Vector2d units(2.0 * std::sqrt(force.m * force.k) / shared[0].scale, 1.0 / shared[1].scale);
@@ -123,7 +125,6 @@ class Histories {
       model.base.col(j) *= units[j];
       if (model.shaken.size() > 0) model.shaken.col(1 + j) *= units[j];
     }
-    model.value = parameters(force);
     model.constants = {force.m, force.k, constants_.frequency};
     model.scale_freedom = static_cast<double>(model.residuals.size());
     model.F0_parts = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(list_.ways.size()));
@@ -406,6 +407,8 @@ std::variant<JointModel, std::string> history_model(const Record& record, const 
   if (!fit.problem().empty()) return fit.problem();
   if (std::string fault = histories->fault_of_fit(); !fault.empty()) return fault;
   JointModel model = histories->fitted({});
+  if (model.residuals.size() == 0 || !model.residuals.allFinite() || !model.base.allFinite())
+    return "the simulated motion, fitted with the mass and the stiffness as stated, grows beyond all numbers";
   model.refit = [histories](const Numbers& numbers) { return histories->fitted(numbers); };
   model.of_histories = true;
   model.data = std::to_string(fit.residuals().count()) + " samples of " + std::to_string(fit.tests().size()) +

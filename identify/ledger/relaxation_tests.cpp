@@ -38,13 +38,24 @@ struct Projection {
   Eigen::VectorXd shared;
 };
 
+/// Is it the square of a column that tells something?
+bool is_told(double square) { return square > 0.0 && std::isfinite(square); }
+
+/// A column that is not finite, or so long that its square is not, tells nothing: it is taken as zero.
+Eigen::MatrixXd finite_columns(Eigen::MatrixXd columns) {
+  for (Eigen::Index j = 0; j < columns.cols(); ++j)
+    if (!is_told(columns.col(j).squaredNorm())) columns.col(j).setZero();
+  return columns;
+}
+
 Projection project(const JointModel& model, const std::vector<std::size_t>& taken) {
   const Eigen::Index own = model.base.cols();
   const Eigen::MatrixXd base = free_columns(model.base, model.relaxed, taken);
   const Eigen::VectorXd scale = base.colwise().norm().cwiseMax(1e-300);
   const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(base * scale.cwiseInverse().asDiagonal());
-  const Eigen::MatrixXd solved = scale.cwiseInverse().asDiagonal() * qr.solve(model.relaxed);
-  const Eigen::MatrixXd beside = model.relaxed - base * solved;
+  const Eigen::MatrixXd columns = finite_columns(model.relaxed);
+  const Eigen::MatrixXd solved = scale.cwiseInverse().asDiagonal() * qr.solve(columns);
+  const Eigen::MatrixXd beside = columns - base * solved;
 
   Projection result;
   result.residuals = model.residuals - base * (scale.cwiseInverse().asDiagonal() * qr.solve(model.residuals));
@@ -52,7 +63,7 @@ Projection project(const JointModel& model, const std::vector<std::size_t>& take
   // A statistic may depend on one channel, or on all: the mean of both degrees of freedom.
   result.scale_freedom = 0.5 * (result.freedom + std::min(result.freedom, std::max(2.0, model.scale_freedom)));
   for (Eigen::Index j = 0; j < beside.cols(); ++j)
-    if (beside.col(j).norm() > told_apart * model.relaxed.col(j).norm())
+    if (beside.col(j).norm() > told_apart * columns.col(j).norm())
       result.indices.push_back(static_cast<std::size_t>(j));
   const auto count = static_cast<Eigen::Index>(result.indices.size());
   result.unit.resize(base.rows(), count);
@@ -67,7 +78,7 @@ Projection project(const JointModel& model, const std::vector<std::size_t>& take
   result.shared = Eigen::VectorXd::Zero(count);
   if (model.shaken.size() == 0) return result;
   const Eigen::Index all = model.relaxed.cols();
-  const Eigen::MatrixXd relaxed = model.shaken.rightCols(all) - model.relaxed;
+  const Eigen::MatrixXd relaxed = model.shaken.rightCols(all) - columns;
   const Eigen::MatrixXd moved =
       relaxed - free_columns(model.shaken.middleCols(1, own) - model.base, relaxed, taken) * solved;
   const Eigen::VectorXd pushed = model.shaken.col(0) - model.residuals;
@@ -189,6 +200,7 @@ std::vector<RelaxationTest> tests_beside(const JointModel& model, const Projecti
   std::vector<RelaxationTest> tests;
   if (projection.indices.empty() || projection.freedom < 2.0) return tests;
   const double squares = projection.residuals.squaredNorm();
+  if (!std::isfinite(squares)) return tests;
   const Eigen::VectorXd along =
       beyond_shared(projection.unit.transpose() * projection.residuals, projection.shared);
   const Eigen::VectorXd t = statistics(along, squares, projection.freedom);
@@ -197,6 +209,7 @@ std::vector<RelaxationTest> tests_beside(const JointModel& model, const Projecti
   const std::vector<double> largest = largest_scores(model, projection, scores);
   const double share = model.noise_freedom >= 1.0 ? 1.0 - misfit_share : 1.0;
   for (Eigen::Index j = 0; j < t.size(); ++j) {
+    if (!std::isfinite(t[j])) continue;  // noise in the drive shakes its column beyond all numbers
     RelaxationTest test;
     test.index = projection.indices[static_cast<std::size_t>(j)];
     test.t = t[j];
@@ -265,7 +278,12 @@ Rest rest_of(const JointModel& model, std::vector<std::size_t> taken, std::size_
   Rest rest;
   rest.value = fitted.value;
   rest.constants = fitted.constants;
-  for (const RelaxationTest& test : tests_beside(fitted, project(fitted, taken), least_change)) {
+  const Projection projection = project(fitted, taken);
+  if (!std::isfinite(projection.residuals.squaredNorm())) {
+    rest.misfit = std::numeric_limits<double>::infinity();
+    return rest;
+  }
+  for (const RelaxationTest& test : tests_beside(fitted, projection, least_change)) {
     rest.p_value = std::min(rest.p_value, test.p_value);
     rest.misfit = std::max(rest.misfit, test.explained);
   }
@@ -323,7 +341,7 @@ RelaxationTests test_relaxations(const JointModel& model, double least_change) {
   Projection projection = project(model, taken);
   for (std::size_t j = 0; j < model.relaxations.size(); ++j)
     if (std::ranges::find(projection.indices, j) == projection.indices.end() &&
-        model.relaxed.col(static_cast<Eigen::Index>(j)).squaredNorm() > 0.0)
+        is_told(model.relaxed.col(static_cast<Eigen::Index>(j)).squaredNorm()))
       result.alone.push_back(j);
   while (true) {
     const JointModel& here = result.relaxed ? *result.relaxed : model;

@@ -22,11 +22,19 @@ double normal_score(double p_value) {
 }
 
 double chi_square_p_value(double statistic, double freedom) {
-  return boost::math::cdf(boost::math::complement(boost::math::chi_squared(freedom), statistic));
+  if (!(freedom > 0.0) || std::isinf(freedom) || std::isnan(statistic))
+    return std::numeric_limits<double>::quiet_NaN();
+  if (std::isinf(statistic)) return statistic > 0.0 ? 0.0 : 1.0;
+  return boost::math::cdf(boost::math::complement(boost::math::chi_squared(freedom), std::max(statistic, 0.0)));
 }
 
 double f_test_p_value(double statistic, double numerator, double denominator) {
-  return boost::math::cdf(boost::math::complement(boost::math::fisher_f(numerator, denominator), statistic));
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  const bool free = numerator > 0.0 && denominator > 0.0 && std::isfinite(numerator) && std::isfinite(denominator);
+  if (!free || std::isnan(statistic)) return none;
+  if (std::isinf(statistic)) return statistic > 0.0 ? 0.0 : 1.0;
+  const boost::math::fisher_f law(numerator, denominator);
+  return boost::math::cdf(boost::math::complement(law, std::max(statistic, 0.0)));
 }
 
 }  // namespace dualdamp::identify

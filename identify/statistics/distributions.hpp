@@ -12,10 +12,11 @@ namespace dualdamp::identify {
 [[nodiscard]] double normal_score(double p_value);
 
 /// The p-value of a chi-square test: the probability of at least `statistic` with `freedom` > 0 degrees of freedom.
+/// NaN, no p-value, if the statistic is no number or there is no freedom; 0 for an infinite statistic.
 [[nodiscard]] double chi_square_p_value(double statistic, double freedom);
 
 /// The p-value of an F test: the probability of at least `statistic` with `numerator` and `denominator` > 0 degrees
-/// of freedom.
+/// of freedom. No number, no freedom, infinite: as above.
 [[nodiscard]] double f_test_p_value(double statistic, double numerator, double denominator);
 
 }  // namespace dualdamp::identify

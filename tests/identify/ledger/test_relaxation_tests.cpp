@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <limits>
 
 #include "core/random.hpp"
 
@@ -110,4 +111,18 @@ TEST_CASE("A test that sees all that matters at a strict level leaves its level 
     return test_relaxations(model).departures.at(0).explanations.at(0).p_value;
   };
   CHECK(smallest_p(1e-4) < 0.5 * smallest_p(1.0));
+}
+
+TEST_CASE("A relaxation whose column is not finite is not tested, and the others are") {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  for (const double beyond : {std::numeric_limits<double>::quiet_NaN(), infinity, 1e200}) {
+    CAPTURE(beyond);
+    JointModel model = line_with(5.0, 0);
+    model.relaxed(7, 1) = beyond;
+    const RelaxationTests found = test_relaxations(model);
+    REQUIRE(found.departures.size() == 1);
+    CHECK(found.departures[0].explanations[0].index == 0);
+    for (const RelaxationTest& test : found.tests) CHECK(test.index != 1);
+    CHECK(std::ranges::find(found.alone, std::size_t{1}) == found.alone.end());
+  }
 }

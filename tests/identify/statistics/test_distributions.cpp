@@ -1,6 +1,7 @@
 #include "identify/statistics/distributions.hpp"
 
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <limits>
 
 using namespace dualdamp::identify;
@@ -27,4 +28,15 @@ TEST_CASE("The scores of normal tests are those of the tables") {
 TEST_CASE("The p-values of chi-square tests are those of the tables") {
   CHECK(chi_square_p_value(18.307, 10.0) == Approx(0.05).epsilon(1e-4));
   CHECK(chi_square_p_value(6.6349, 1.0) == Approx(0.01).epsilon(1e-4));
+}
+
+TEST_CASE("A statistic that is no number has no p-value, and an infinite one has zero") {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  CHECK(std::isnan(f_test_p_value(none, 1.0, 10.0)));
+  CHECK(std::isnan(f_test_p_value(1.0, 1.0, 0.0)));
+  CHECK(std::isnan(f_test_p_value(1.0, none, 10.0)));
+  CHECK(f_test_p_value(infinity, 1.0, 10.0) == 0.0);
+  CHECK(std::isnan(chi_square_p_value(none, 10.0)));
+  CHECK(chi_square_p_value(infinity, 10.0) == 0.0);
 }
