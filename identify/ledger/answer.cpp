@@ -9,6 +9,7 @@
 #include "core/diagnostics.hpp"
 #include "core/numbers.hpp"
 #include "identify/ledger/advice.hpp"
+#include "identify/ledger/misfit.hpp"
 #include "identify/methods.hpp"
 #include "identify/methods/any_law/law_intervals.hpp"
 #include "identify/statistics/distributions.hpp"
@@ -41,12 +42,6 @@ bool keeps_its_findings(const Estimate& estimate, const Ledger& ledger) {
          !ledger.tests_histories;
 }
 
-/// "the joint model misses these data by 12 times their noise (p = 1e-9)"
-std::string misfit_size(const Misfit& misfit) {
-  return "the joint model misses these data by " + core::format_number(misfit.times, 2) +
-         " times their noise (p = " + core::format_number(misfit.p_value, 2) + ")";
-}
-
 std::string misfit_text(const Misfit& misfit) {
   return misfit_size(misfit) +
          ", and no single assumption that is given up explains them: friction, the spring and a further mode may "
@@ -65,6 +60,10 @@ bool misses(Estimate& estimate, const Ledger& ledger) {
                       core::format_number(estimate.laws->inflation, 2) + " times their noise";
   else if (ledger.misfit && !estimate.laws)
     estimate.reason = misfit_size(*ledger.misfit);
+  else if (gives_out_work(ledger) && !estimate.laws)
+    estimate.reason =
+        "the joint model fits these histories only with friction that is clearly negative, so a constant, a unit or "
+        "the drive is wrong, or friction is not Coulomb + viscous";
   else
     return false;
   estimate.usable = false;

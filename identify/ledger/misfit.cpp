@@ -1,9 +1,11 @@
 #include "identify/ledger/misfit.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
+#include "core/numbers.hpp"
 #include "identify/assumption.hpp"
 #include "identify/statistics/decompositions.hpp"
 #include "identify/statistics/distributions.hpp"
@@ -39,6 +41,20 @@ std::optional<Misfit> misfit_of(const JointModel& model, const std::vector<std::
   if (!(misfit.p_value < family_level)) return std::nullopt;
   const bool matters = largest_change(model, columns, std::sqrt(std::max(0.0, squares - freedom))) >= least_change;
   return matters ? std::optional(misfit) : std::nullopt;
+}
+
+std::string misfit_size(const Misfit& misfit) {
+  return "the joint model misses these data by " + core::format_number(misfit.times, 2) +
+         " times their noise (p = " + core::format_number(misfit.p_value, 2) + ")";
+}
+
+bool gives_out_work(const Ledger& ledger) {
+  if (!ledger.tests_histories || !ledger.joint || !ledger.joint->interval95) return false;
+  const auto clearly_negative = [](double value, const std::array<double, 2>& interval) {
+    return value + (interval[1] - interval[0]) < 0.0;
+  };
+  return clearly_negative(ledger.joint->value.c, ledger.joint->interval95->c) ||
+         clearly_negative(ledger.joint->value.F0, ledger.joint->interval95->F0);
 }
 
 }  // namespace dualdamp::identify

@@ -10,6 +10,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "identify/ledger/joint_model.hpp"
@@ -23,5 +24,12 @@ inline constexpr double misfit_share = 0.1;
 /// The misfit of a model with these relaxations taken; nothing if it is not significant or does not matter.
 [[nodiscard]] std::optional<Misfit> misfit_of(const JointModel& model, const std::vector<std::size_t>& taken,
                                               double least_change);
+
+/// "the joint model misses these data by 12 times their noise (p = 1e-9)"
+[[nodiscard]] std::string misfit_size(const Misfit& misfit);
+
+/// Do histories, with all that is relaxed, need friction that is negative by twice its interval? What one method
+/// makes of them by energy or forces is then no better.
+[[nodiscard]] bool gives_out_work(const Ledger& ledger);
 
 }  // namespace dualdamp::identify

@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <string>
 #include <variant>
 
+#include "core/random.hpp"
 #include "identify/ledger/answer.hpp"
 #include "identify/ledger/ledger.hpp"
+#include "identify/methods/histories/friction_force.hpp"
 #include "identify/methods/histories/output_error.hpp"
 #include "tests/identify/ledger/laboratory.hpp"
 
@@ -72,4 +75,38 @@ TEST_CASE("A test that would see only a huge departure leaves its assumption unt
     }
   }
   CHECK(blind > 0);
+}
+
+namespace {
+
+/// 30 periods at one level of a moving base, from rest.
+Measured on_moving_base(std::uint32_t seed) {
+  Measured m;
+  m.rig = {.m = 0.33244, .k = 188.94, .zeta = 0.07455, .F0 = 0.2618, .on_base = true};
+  constexpr double rate = 284.57;
+  constexpr double Y = 0.00417;
+  const double omega = 0.9375 * m.rig.omega();
+  const auto y = [=](double t) { return Y * std::cos(omega * t + 0.3); };
+  const auto motion = motion_of(m.rig, [&](double t) { return m.rig.k * y(t); }, 7.03, rate);
+  const dualdamp::core::RandomStream noise{7, seed};
+  History history{.sample_rate = rate};
+  for (std::size_t i = 0; i < motion.x.size(); ++i) {
+    history.x.push_back(motion.x[i] + 4e-5 * noise.normal(2 * i));
+    history.y.push_back(y(static_cast<double>(i) / rate) + 1e-5 * noise.normal(2 * i + 1));
+  }
+  m.record.histories.push_back(history);
+  m.constants = {m.rig.m, m.rig.k, unknown};
+  return m;
+}
+
+}  // namespace
+
+TEST_CASE("With a stiffness 10 % too high beside one steady level no method answers") {
+  Measured m = on_moving_base(1);
+  const Identification right = concluded({friction_force(m.record, m.constants)}, ledger_of(m.record, m.constants));
+  CHECK(right.estimates[0].usable);
+  m.constants.stiffness *= 1.1;
+  const Identification found = concluded({friction_force(m.record, m.constants)}, ledger_of(m.record, m.constants));
+  CHECK_FALSE(found.estimates[0].usable);
+  CHECK(found.estimates[0].reason.find("clearly negative") != std::string::npos);
 }
