@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/numbers.hpp"
+#include "identify/records/sensor_agreement.hpp"
 #include "identify/records/sine_fit.hpp"
 #include "identify/statistics/median.hpp"
 
@@ -184,7 +185,7 @@ class Check {
 
   void check_signals(const History& history) {
     const double omega = guess_frequency(leading(history), history.sample_rate);
-    if (!(omega > 0.0)) return;
+    if (!(omega > 0.0)) return check_agreement(history);
     const double x = amplitude(history.x, history, omega);
     check_size("x", x, omega);
     check_size("y", amplitude(history.y, history, omega), omega);
@@ -205,7 +206,37 @@ class Check {
         return;
       }
     check_force(amplitude(history.force, history, omega), x, omega);
+    if (faults_.empty()) check_agreement(history);
     if (faults_.empty()) check_work(history, omega);
+  }
+
+  /// Checks that x, v and a are of one motion, by their sizes and signs. A single swing tells.
+  void check_agreement(const History& history) {
+    struct Both {
+      const char* name;
+      const std::vector<double>& signal;
+      const char* of_derivative;
+      const std::vector<double>& derivative;
+      int order;
+    };
+    const std::array<Both, 3> list = {{{"x", history.x, "v", history.v, 1},
+                                       {"x", history.x, "a", history.a, 2},
+                                       {"v", history.v, "a", history.a, 1}}};
+    constexpr double alike = 0.9;  // less: noise, or sensors of different motions
+    for (const auto& [name, signal, of_derivative, derivative, order] : list) {
+      const SensorAgreement found = sensor_agreement(signal, derivative, order, history.sample_rate);
+      if (!(std::abs(found.correlation) > alike)) continue;
+      const std::string columns = std::string("column ") + of_derivative + " is ";
+      if (is_gross(found.ratio))
+        return refuse(columns + times_off(found.ratio) + " for the changes of column " + name,
+                      std::string("both in their units, and the times too: --unit ") + of_derivative +
+                          "=UNIT, --unit " + name + "=UNIT");
+      if (found.correlation < 0.0)
+        return refuse(columns + "the " + (order == 1 ? "first" : "second") + " derivative of column " + name +
+                          " with the wrong sign",
+                      std::string("x, v and a positive in one direction: --scale ") + of_derivative + "=-1, or " +
+                          name + "=-1");
+    }
   }
 
   /// Checks that the work of the force is at least the growth of the energy of the motion: friction returns no

@@ -187,3 +187,40 @@ TEST_CASE("A force of the wrong sign takes work out of the motion, and is refuse
   for (const double ratio : {0.95, 1.0, 1.05})
     CHECK(faults_with(-1.0, ratio, 0.0).find("one of them has the wrong sign") != std::string::npos);
 }
+
+namespace {
+
+/// Faults of a free vibration of 1.5 swings, then rest, with v and a times these factors.
+std::string faults_of_decay(double of_v, double of_a) {
+  const double w = 2.0 * pi * 3.7;
+  std::mt19937_64 random(3);
+  const auto noise = [&random] { return 2.0 * (static_cast<double>(random() >> 11) * 0x1p-53) - 1.0; };
+  History history{.sample_rate = 370.0};
+  for (int i = 0; i < 400; ++i) {
+    const double t = i / history.sample_rate;
+    const bool moves = t < 1.5 * 2.0 * pi / w;
+    const double size = moves ? 0.02 * (1.0 - w * t / (3.2 * pi)) : 0.0;
+    const double rest = moves ? 0.0 : -0.00125;
+    history.x.push_back(size * std::cos(w * t) + rest + 1e-4 * noise());
+    history.v.push_back(of_v * (-w * size * std::sin(w * t) + 0.01 * noise()));
+    history.a.push_back(of_a * (-w * w * size * std::cos(w * t) + 0.3 * noise()));
+  }
+  Record record;
+  record.histories.push_back(history);
+  std::string text;
+  for (const core::Diagnostic& fault : gross_faults(record, {1.0, w * w, unknown}, {}, "data.csv"))
+    text += core::format(fault) + "\n";
+  return text;
+}
+
+}  // namespace
+
+TEST_CASE("Wrong units and signs of v and a are refused in a free vibration of a few swings") {
+  CHECK(faults_of_decay(1.0, 1.0).empty());
+  CHECK(faults_of_decay(3.0, 0.9).empty());
+  CHECK(mentions(faults_of_decay(1.0 / 25.4, 1.0), "column v is about 25.4 times too small"));
+  CHECK(mentions(faults_of_decay(1000.0, 1.0), "column v is about 1000 times too large"));
+  CHECK(mentions(faults_of_decay(1.0, 1.0 / 9.80665), "column a is about 9.807 times too small"));
+  CHECK(mentions(faults_of_decay(-1.0, 1.0), "column v is the first derivative of column x with the wrong sign"));
+  CHECK(mentions(faults_of_decay(1.0, -1.0), "column a is the second derivative of column x with the wrong sign"));
+}
