@@ -44,6 +44,12 @@ struct Signal {
   std::vector<std::size_t> unsure;
 };
 
+/// Sizes of a measured motion: largest displacement from the mean, and largest speed [m, m/s].
+struct MotionSize {
+  double length = 0.0;
+  double speed = 0.0;
+};
+
 enum class ExperimentKind { steady_states, decay, history, loop };
 
 /// Predicts models that differ little from a given one, for derivatives.
@@ -66,10 +72,11 @@ class Experiment {
   ExperimentKind kind = ExperimentKind::history;
   std::string label;  ///< name of its file, and its label in it
   std::vector<Signal> signals;
-  OwnValues own_start{};          ///< start values, from the record or known
-  std::vector<Own> own_free;      ///< parameters that are sought unless they are known
-  std::vector<Own> own_of_place;  ///< also sought unless they are known, if a force depends on the position
-  std::vector<Own> own_others;    ///< parameters that may be sought as well
+  std::optional<MotionSize> motion;  ///< of a loop: the force alone is compared, and does not show it
+  OwnValues own_start{};             ///< start values, from the record or known
+  std::vector<Own> own_free;         ///< parameters that are sought unless they are known
+  std::vector<Own> own_of_place;     ///< also sought unless they are known, if a force depends on the position
+  std::vector<Own> own_others;       ///< parameters that may be sought as well
 
   /// Input amplitude [m or N] and frequency [rad/s] of each steady state; empty for other kinds.
   [[nodiscard]] virtual std::vector<std::pair<double, double>> levels() const { return {}; }

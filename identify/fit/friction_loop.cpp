@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "identify/fit/experiments.hpp"
+#include "identify/fit/starts.hpp"
 #include "identify/records/signals.hpp"
 #include "identify/statistics/noise_level.hpp"
 #include "sim/conformance/law_host.hpp"
@@ -26,6 +27,10 @@ class FrictionLoop final : public Experiment {
     RobustNoiseLevel level;
     level.add(history.force);
     complete(history, options.has_mass);
+    const double speed = largest_swing(law_v_);
+    // The zero of the sensor of a velocity drives its integral away.
+    const auto duration = static_cast<double>(law_v_.size() - 1) / rate_;
+    motion = {history.x.empty() ? speed / crossing_frequency(law_v_, duration) : largest_swing(law_x_), speed};
     std::vector<double> force = history.force;
     bridge(force);
     if (filter_) force = (*filter_)(force);

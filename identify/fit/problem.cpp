@@ -20,13 +20,14 @@ constexpr double reach = 1e4;
 /// Largest value of a parameter in units of its size; plausible values are far below.
 constexpr double far = 1e6;
 
+/// A bound, of the law or of the caller, takes the place of these two.
 Coordinate coordinate_of(const FitParameter& parameter, double size) {
   const auto& [low, high, low_open, high_open] = parameter.range;
   if (!parameter.above && low >= 0.0 && (low_open || low > 0.0))
-    return {true, size, std::log(std::max(low, size / reach) / size),
-            std::log(std::min(high, size * reach) / size)};
+    return {true, size, std::log(low > 0.0 ? low / size : 1.0 / reach),
+            std::log(std::isfinite(high) ? high / size : reach)};
   if (parameter.above) return {false, size, 0.0, far};
-  return {false, size, std::max(low / size, -far), std::min(high / size, far)};
+  return {false, size, std::isfinite(low) ? low / size : -far, std::isfinite(high) ? high / size : far};
 }
 
 /// Calls `work`. False if a law or an engine refuses the values.

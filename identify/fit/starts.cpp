@@ -9,15 +9,8 @@ namespace dualdamp::identify {
 
 namespace {
 
-double largest(const std::vector<double>& values) {
-  double mean = 0.0;
-  for (const double value : values) mean += value / static_cast<double>(values.size());
-  double result = 0.0;
-  for (const double value : values) result = std::max(result, std::abs(value - mean));
-  return result;
-}
-
 double frequency_of(const Experiment& experiment) {
+  if (experiment.motion) return experiment.motion->speed / experiment.motion->length;
   for (const Signal& signal : experiment.signals) {
     if (signal.at_name == "omega") return signal.at[signal.at.size() / 2];
     if (signal.name == "t")
@@ -25,7 +18,7 @@ double frequency_of(const Experiment& experiment) {
              (signal.measured.back() - signal.measured.front());
   }
   const Signal& signal = experiment.signals.front();
-  return signal.is_sampled && signal.name != "force" ? crossing_frequency(signal) : unknown;
+  return signal.is_sampled ? crossing_frequency(signal) : unknown;
 }
 
 bool is_known(double value) { return value > 0.0 && std::isfinite(value); }
@@ -88,53 +81,74 @@ double of_either_sign(double way, double spread) {
 
 }  // namespace
 
-double crossing_frequency(const Signal& signal) {
+double largest_swing(const std::vector<double>& values) {
   double mean = 0.0;
-  for (const double value : signal.measured) mean += value / static_cast<double>(signal.measured.size());
-  const double margin = 0.1 * largest(signal.measured);
+  for (const double value : values) mean += value / static_cast<double>(values.size());
+  double result = 0.0;
+  for (const double value : values) result = std::max(result, std::abs(value - mean));
+  return result;
+}
+
+double crossing_frequency(const std::vector<double>& samples, double duration) {
+  double mean = 0.0;
+  for (const double value : samples) mean += value / static_cast<double>(samples.size());
+  const double margin = 0.1 * largest_swing(samples);
   int crossings = 0;
   int side = 0;
-  for (const double value : signal.measured) {
+  for (const double value : samples) {
     const int now = value > mean + margin ? 1 : value < mean - margin ? -1 : side;
     if (side != 0 && now != side) ++crossings;
     side = now;
   }
-  const double duration = signal.at.back() - signal.at.front();
   return std::numbers::pi * std::max(crossings, 1) / duration;
 }
 
+double crossing_frequency(const Signal& signal) {
+  return crossing_frequency(signal.measured, signal.at.back() - signal.at.front());
+}
+
 DataScale scale_of(const Rig& rig, const std::vector<std::unique_ptr<Experiment>>& experiments) {
-  DataScale scale;
   double length = 0.0;
   double speed = 0.0;
   double force = 0.0;
   double omega = rig.known.excitation.frequency;
   for (const auto& experiment : experiments) {
     if (!is_known(omega)) omega = frequency_of(*experiment);
+    if (experiment->motion) {
+      length = std::max(length, experiment->motion->length);
+      speed = std::max(speed, experiment->motion->speed);
+    }
     for (const Signal& signal : experiment->signals) {
       if (signal.unit == "m")
         length = std::max(length, experiment->kind == ExperimentKind::steady_states
                                       ? *std::ranges::max_element(signal.measured)
-                                      : largest(signal.measured));
-      if (signal.unit == "m/s") speed = std::max(speed, largest(signal.measured));
-      if (signal.unit == "N") force = std::max(force, largest(signal.measured));
+                                      : largest_swing(signal.measured));
+      if (signal.unit == "m/s") speed = std::max(speed, largest_swing(signal.measured));
+      if (signal.unit == "N") force = std::max(force, largest_swing(signal.measured));
     }
   }
   const sim::Oscillator& o = rig.known.oscillator;
   if (!is_known(omega)) omega = is_known(o.mass) && is_known(o.stiffness) ? std::sqrt(o.stiffness / o.mass) : 1.0;
-  scale.mass = is_known(o.mass) ? o.mass : is_known(o.stiffness) ? o.stiffness / (omega * omega) : 1.0;
+  if (length == 0.0) length = speed > 0.0 ? speed / omega : 1.0;
+  if (speed == 0.0) speed = length * omega;
+  // The force of a loop: neither the spring nor the mass takes much more, unless they cancel each other.
+  const double slope = force / length;
+  const double restoring = slope + (is_known(o.stiffness) ? o.stiffness : 0.0);
+  DataScale scale{.force = force, .length = length, .speed = speed};
+  scale.mass = is_known(o.mass) ? o.mass : restoring > 0.0 ? restoring / (omega * omega) : 1.0;
   scale.stiffness = is_known(o.stiffness) ? o.stiffness : scale.mass * omega * omega;
-  const double natural = std::sqrt(scale.stiffness / scale.mass);
-  if (length == 0.0) length = speed > 0.0 ? speed / natural : 1.0;
-  scale.length = length;
-  scale.speed = speed > 0.0 ? speed : length * (is_known(omega) ? omega : natural);
-  scale.force = force > 0.0 ? force : scale.stiffness * length;
+  if (is_known(o.mass) && !is_known(o.stiffness)) scale.stiffness += slope;
+  if (force == 0.0) scale.force = scale.stiffness * length;
   return scale;
 }
 
 double size_of(const FitParameter& parameter, const DataScale& scale) {
   const double stated = std::abs(parameter.stated);
-  return is_known(stated) && parameter.owner != Owner::record ? stated : guess_of(parameter, scale).size;
+  double size = is_known(stated) && parameter.owner != Owner::record ? stated : guess_of(parameter, scale).size;
+  // The search is around the size: it is moved between the bounds.
+  const auto& [low, high, low_open, high_open] = parameter.range;
+  if (is_known(high)) size = std::min(size, high);
+  return std::max({size, low, -high});
 }
 
 Eigen::VectorXd start_of(const std::vector<FitParameter>& parameters, const std::vector<double>& sizes,

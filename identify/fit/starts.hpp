@@ -1,9 +1,9 @@
 #pragma once
 /// Starts of a fit: sizes of parameters without a stated value, from the data and the unit of the parameter.
 ///
-/// The data give a force, a length, a speed and a time. The size of a parameter in N/m is then force over length,
-/// times a typical ratio of friction to spring. The size may be wrong by a factor, because the starts spread over
-/// two decades around it.
+/// The data give a force, a length, a speed and a time. A loop gives length and speed of its motion, and its force
+/// bounds mass and stiffness. The size of a parameter in N/m is then force over length, times a typical ratio of
+/// friction to spring. The size may be wrong by a factor, because the starts spread over two decades around it.
 
 #include <Eigen/Core>
 #include <vector>
@@ -21,7 +21,11 @@ struct DataScale {
   double speed = 1.0;
 };
 
-/// Angular frequency of a sampled signal, from the crossings of its mean [rad/s].
+/// Largest distance of a value from the mean.
+[[nodiscard]] double largest_swing(const std::vector<double>& values);
+
+/// Angular frequency of samples over a duration [s], from the crossings of their mean [rad/s].
+[[nodiscard]] double crossing_frequency(const std::vector<double>& samples, double duration);
 [[nodiscard]] double crossing_frequency(const Signal& signal);
 
 [[nodiscard]] DataScale scale_of(const Rig& rig, const std::vector<std::unique_ptr<Experiment>>& experiments);

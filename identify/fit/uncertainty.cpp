@@ -23,17 +23,19 @@ using core::infinity;
 class Uncertainty {
  public:
   Uncertainty(const FitEnd& end, Fit& fit) : end_(end), fit_(fit), size_(end.q.size()) {
+    rows_ = end.weights.asDiagonal() * end.jacobian;
     for (Eigen::Index i = 0; i < size_; ++i) {
       const Coordinate& c = end.problem.coordinates()[static_cast<std::size_t>(i)];
       constexpr double near = 1e-6;
       const bool low = end.q[i] <= c.low + near * std::max(1.0, std::abs(c.low));
       const bool high = end.q[i] >= c.high - near * std::max(1.0, std::abs(c.high));
       fit.parameters[static_cast<std::size_t>(i)].at_bound = low || high;
-      // At the end of a logarithmic range, a parameter has no effect any more. A parameter at zero still has one,
-      // so its uncertainty widens the intervals of the others.
-      if (!(c.logarithmic && (low || high))) free_.push_back(i);
+      // At the end of a logarithmic range, most parameters have no effect any more: a factor e changes the readings
+      // by less than their noise. One with an effect widens the intervals of the others.
+      const bool acts = !(c.logarithmic && (low || high)) || rows_.col(i).norm() >= 1.0;
+      if (acts) free_.push_back(i);
+      if (acts && c.logarithmic) warn_of_end(i, low, high);
     }
-    rows_ = end.weights.asDiagonal() * end.jacobian;
     residuals_ = end.weights.cwiseProduct(end.misses);
     measure_variance();
     decompose();
@@ -61,6 +63,16 @@ class Uncertainty {
   }
 
  private:
+  /// The search goes no further than a number of decades from the size that the data suggest.
+  void warn_of_end(Eigen::Index i, bool low, bool high) {
+    const FittedParameter& fitted = fit_.parameters[static_cast<std::size_t>(i)];
+    const friction::Range& range = fitted.parameter.range;
+    if (!(low && !(range.low > 0.0)) && !(high && std::isinf(range.high))) return;
+    fit_.warnings.push_back(fitted.parameter.name +
+                            " ends where the search ends, and the readings feel it there: bounds or a stated value "
+                            "move the search");
+  }
+
   /// A change of 100 % of a parameter, in coordinates.
   [[nodiscard]] double whole(Eigen::Index i) const {
     const Coordinate& c = end_.problem.coordinates()[static_cast<std::size_t>(i)];

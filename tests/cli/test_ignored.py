@@ -80,6 +80,27 @@ class Ignored(case.Case):
             with self.subTest(arguments):
                 self.assertIn(message, self.run_program(*fit, *arguments, status=3).stderr)
 
+    def test_a_drive_and_a_first_state_that_a_loop_ignores(self):
+        """Another record of the fit may need them."""
+        rows = [(i / 200, math.sin(0.1 * i), 20 * math.cos(0.1 * i)) for i in range(300)]
+        loop = self.write("loop.csv", "t [s],x [mm],v [mm/s],force [N]\n" + "".join(f"{t},{x},{v},{math.copysign(2, v)}\n" for t, x, v in rows))
+        self.write("run.csv", "t [s],x [mm]\n" + "".join(f"{t},{x}\n" for t, x, _ in rows))
+        fit = ["fit", "coulomb", loop, "--loop", "--no-profile"]
+        for arguments in (["--frequency", "4 Hz", "--amplitude", "5 mm"], ["--frequency", "4 Hz"],
+                          ["--set", "excitation={type: measured_force, file: loop.csv, column: force}"]):
+            with self.subTest(arguments):
+                self.assertIn("'excitation' is the drive of histories: the data hold no history, and a loop compares", self.run_program(*fit, *arguments, status=3).stderr)
+        initial = ["--set", "initial={position: 1 mm, velocity: 0 m/s}"]
+        self.assertIn("'initial' is the state at the first sample of a history: the data hold none", self.run_program(*fit, *initial, status=3).stderr)
+        self.run_program(*fit)
+        self.run_program("check", self.write("both.yaml", f"""schema: dualdamp/1
+title: both
+system: {{mass: 1 kg, stiffness: 400 N/m, friction: {{law: coulomb}}}}
+excitation: {{type: base_harmonic, amplitude: 5 mm, frequency: 4 Hz}}
+initial: {{position: 1 mm, velocity: 0 m/s}}
+analysis: {{type: fit, data: [{{file: loop.csv, loop: true}}, {{file: run.csv}}]}}
+"""))
+
     def test_the_frequency_of_other_records(self):
         """Of a fit to readings with frequencies of their own: that of its first reading is not that of further pairs."""
         shipped = ROOT / "scenarios/examples"

@@ -167,9 +167,11 @@ std::string laws_text(const identify::Rig& rig) {
 
 namespace {
 
+bool is_loop(const DataItem& item) { return item.keys.is_object() && item.keys.value("loop", false); }
+
 /// A drive that the file holds and the model lacks; empty if there is none.
 std::string idle_drive(const DataItem& item, const sim::Model& model) {
-  if (item.keys.value("loop", false) || model.excitation.type != sim::ExcitationType::none) return {};
+  if (is_loop(item) || model.excitation.type != sim::ExcitationType::none) return {};
   const auto moves = [](const std::vector<double>& signal) {
     return !signal.empty() && std::ranges::min(signal) < std::ranges::max(signal);
   };
@@ -219,12 +221,12 @@ void refuse_idle_noise(const std::vector<DataItem>& items, const std::string& ke
 void refuse_idle_drive(const std::vector<DataItem>& items, const sim::Model& model,
                        std::vector<SetupFault>& faults) {
   const sim::Excitation& drive = model.excitation;
-  if (!drive.is_harmonic()) return;
+  if (drive.type == sim::ExcitationType::none) return;
   bool drives = false;  // some history
   bool needs = false;   // some reading does not state its frequency
   bool differs = false;
   for (const DataItem& item : items) {
-    drives = drives || !item.data.record.histories.empty();
+    drives = drives || (!is_loop(item) && !item.data.record.histories.empty());
     if (!item.data.record.pairs) continue;
     for (const identify::Pair& pair : item.data.record.pairs->pairs) {
       constexpr double far = 0.01;
@@ -233,6 +235,12 @@ void refuse_idle_drive(const std::vector<DataItem>& items, const sim::Model& mod
     }
   }
   const std::string wanted = ": the data hold no history";
+  const bool loops = std::ranges::all_of(items, is_loop);
+  if (!drives && (loops || !drive.is_harmonic())) {
+    faults.push_back({"data", "'excitation' is the drive of histories" + wanted +
+                                  (loops ? ", and a loop compares the force along its measured motion" : "")});
+    return;
+  }
   if (drive.amplitude > 0.0 && !drives)
     faults.push_back({"data", "'excitation.amplitude' is the drive of histories" + wanted});
   if (drive.frequency > 0.0 && !drives && !needs && differs)
@@ -346,7 +354,6 @@ namespace {
 /// Whether the mass is part of the equation of motion. A fit of loops alone goes without one that is neither stated
 /// nor sought.
 bool has_mass(const sim::Model& model, const std::vector<DataItem>& items, const Sought& sought) {
-  const auto is_loop = [](const DataItem& item) { return item.keys.value("loop", false); };
   const auto is_mass = [](const std::string& name) { return name == "mass" || name == "system.mass"; };
   if (!std::ranges::all_of(items, is_loop)) return true;
   return model.oscillator.mass > 0.0 || std::ranges::any_of(sought.free, is_mass);
@@ -364,7 +371,7 @@ identify::Experiments experiments_from(const std::vector<DataItem>& items, const
     const Json& keys = items[i].keys;
     identify::ExperimentOptions options{
         .name = items[i].file,
-        .loop = keys.value("loop", false),
+        .loop = is_loop(items[i]),
         .has_mass = has_mass(model, items, sought),
         .frequency = drive.is_harmonic() && drive.frequency > 0.0 ? drive.frequency : identify::unknown,
         .force_driven = drive.type == sim::ExcitationType::force_harmonic};

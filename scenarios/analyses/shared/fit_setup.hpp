@@ -66,7 +66,8 @@ void refuse(const std::vector<SetupFault>& faults);
 [[nodiscard]] std::vector<std::string> remove_zeros(std::vector<DataItem>& items, const sim::Model& model,
                                                     const Sought& sought);
 
-/// Complains about a stated frequency or amplitude that no item needs, because the fit would ignore it.
+/// Complains about a stated drive, or its frequency or amplitude, that no item needs, because the fit would ignore
+/// it.
 void refuse_idle_drive(const std::vector<DataItem>& items, const sim::Model& model,
                        std::vector<SetupFault>& faults);
 

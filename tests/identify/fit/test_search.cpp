@@ -4,6 +4,9 @@
 #include <utility>
 #include <vector>
 
+#include "core/constants.hpp"
+#include "core/random.hpp"
+#include "identify/fit/fit.hpp"
 #include "identify/fit/tie.hpp"
 #include "sim/motion/simulate.hpp"
 #include "tests/identify/fit/random_rigs.hpp"
@@ -48,6 +51,110 @@ TEST_CASE("tie: springs that are not linear are not tied", "[identify][fit]") {
   const std::vector<double> none;
   const std::vector<double> x(100, 1.0);
   CHECK(!identify::Tie({100.0, x, none, none}, 10.0, 1.0).tied(model, {}));
+}
+
+namespace {
+
+identify::Fit fit_of_record(const identify::Rig& rig, const identify::Record& record,
+                            std::vector<identify::FitParameter> parameters, bool is_loop, bool has_mass = true) {
+  std::string fault;
+  const identify::Experiments experiments =
+      identify::experiments_of(record, {.name = "record", .loop = is_loop, .has_mass = has_mass}, fault);
+  REQUIRE(fault.empty());
+  for (const identify::Own own : experiments.at(0)->own_free)
+    parameters.push_back(identify::own_parameter(*experiments[0], 0, own, true));
+  identify::Fit fit = identify::fit_rig(rig, std::move(parameters), experiments, {.profile = false});
+  REQUIRE(fit.outcome.ok());
+  return fit;
+}
+
+/// Coulomb friction of 5 N, without constants of the oscillator.
+identify::Rig rig_of_loop() {
+  identify::Rig rig = test::loop_alone(test::rig_with({"coulomb", {{"kinetic", 5.0}}, {"kinetic"}}));
+  rig.laws[0].values = {};
+  return rig;
+}
+
+/// 20 mm of two sines that move 2 kg on a spring of 5e4 N/m against 5 N, with noise of 0.05 N.
+identify::Record stiff_loop() {
+  identify::History loop{.sample_rate = 500.0};
+  const core::RandomStream draws{3, 931};
+  for (std::uint64_t i = 0; i < 1000; ++i) {
+    constexpr double slow = 12.0;
+    constexpr double fast = 33.0;
+    const double t = static_cast<double>(i) / loop.sample_rate;
+    loop.x.push_back(0.02 * std::sin(slow * t) + 0.008 * std::sin(fast * t + 0.3));
+    loop.v.push_back(0.02 * slow * std::cos(slow * t) + 0.008 * fast * std::cos(fast * t + 0.3));
+    loop.a.push_back(-0.02 * slow * slow * std::sin(slow * t) - 0.008 * fast * fast * std::sin(fast * t + 0.3));
+    loop.force.push_back(2.0 * loop.a.back() + 3.0 * loop.v.back() + 5e4 * loop.x.back() +
+                         std::copysign(5.0, loop.v.back()) + 0.05 * draws.normal(i));
+  }
+  identify::Record record;
+  record.histories.push_back(std::move(loop));
+  return record;
+}
+
+double value_of(const identify::Fit& fit, const std::string& name) {
+  return std::ranges::find(fit.parameters, name, [](const auto& fitted) { return fitted.parameter.name; })->value;
+}
+
+}  // namespace
+
+TEST_CASE("search: sizes of a loop come from its motion", "[identify][fit]") {
+  // With a length of 1 m, the contact ended at 1e7 N/m, the spring at 1e4 N/m.
+  identify::Rig fretting =
+      test::rig_with({"contact_compliance", {{"kinetic", 100.0}, {"contact_stiffness", 5e7}}, {}, 2e-5});
+  const identify::Record record = test::loop_of(fretting, 2e-5, 0.05, 4);
+  fretting = test::loop_alone(std::move(fretting));
+  fretting.laws[0].values = {};
+  std::vector<std::string> faults;
+  std::vector<identify::FitParameter> parameters = identify::unstated_parameters(fretting, faults);
+  std::erase_if(parameters, [](const auto& parameter) { return parameter.owner != identify::Owner::law; });
+  const identify::Fit contact = fit_of_record(fretting, record, parameters, true, false);
+  CHECK(value_of(contact, "kinetic") == Approx(100.0).epsilon(1e-3));
+  CHECK(value_of(contact, "contact_stiffness") == Approx(5e7).epsilon(1e-3));
+
+  const identify::Rig rig = rig_of_loop();
+  const identify::Fit spring = fit_of_record(rig, stiff_loop(), identify::unstated_parameters(rig, faults), true);
+  CHECK(value_of(spring, "mass") == Approx(2.0).epsilon(0.01));
+  CHECK(value_of(spring, "stiffness") == Approx(5e4).epsilon(1e-3));
+  CHECK(value_of(spring, "kinetic") == Approx(5.0).epsilon(0.01));
+}
+
+TEST_CASE("search: bounds take the place of the range that the search has without them", "[identify][fit]") {
+  // Four decades from the stated value of 1 N/m, the search ends at 1e4 N/m.
+  identify::Rig rig = rig_of_loop();
+  rig.known.oscillator = {.mass = 2.0, .stiffness = 1.0, .damping = 3.0};
+  std::string fault;
+  std::vector<std::string> faults;
+  std::vector<identify::FitParameter> parameters = identify::unstated_parameters(rig, faults);
+  parameters.push_back(identify::named(identify::parameters_of(rig), "stiffness", fault).at(0));
+  const identify::Fit without = fit_of_record(rig, stiff_loop(), parameters, true);
+  CHECK(value_of(without, "stiffness") == Approx(1e4));
+  CHECK(std::ranges::any_of(without.warnings, [](const std::string& warning) {
+    return warning.starts_with("stiffness ends where the search ends");
+  }));
+  parameters.back().range = {.low = 0.1, .high = 1e8};
+  CHECK(value_of(fit_of_record(rig, stiff_loop(), parameters, true), "stiffness") == Approx(5e4).epsilon(1e-3));
+  // Bounds that the size lies far out of.
+  parameters.back().range = {.low = 2e4, .high = core::infinity};
+  CHECK(value_of(fit_of_record(rig, stiff_loop(), parameters, true), "stiffness") == Approx(5e4).epsilon(1e-3));
+}
+
+TEST_CASE("fit: a parameter at a bound that the readings feel widens the intervals of the others",
+          "[identify][fit]") {
+  // As if its value were known, the mass had three quarters of this standard error.
+  const identify::Rig rig = rig_of_loop();
+  std::vector<std::string> faults;
+  std::vector<identify::FitParameter> parameters = identify::unstated_parameters(rig, faults);
+  const auto mass_of = [](const identify::Fit& fit) {
+    return *std::ranges::find(fit.parameters, "mass", [](const auto& fitted) { return fitted.parameter.name; });
+  };
+  const double free = mass_of(fit_of_record(rig, stiff_loop(), parameters, true)).std;
+  std::ranges::find(parameters, "stiffness", &identify::FitParameter::name)->range.high = 5e4 - 1.0;
+  const identify::Fit bound = fit_of_record(rig, stiff_loop(), parameters, true);
+  CHECK(value_of(bound, "stiffness") == Approx(5e4 - 1.0));
+  CHECK(mass_of(bound).std > 0.9 * free);
 }
 
 TEST_CASE("search: fits of random rigs that stick end at the noise", "[identify][fit]") {
