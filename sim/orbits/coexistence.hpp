@@ -21,8 +21,8 @@ namespace dualdamp::sim {
 [[nodiscard]] std::vector<Orbit> other_orbits(const Model& model, const Orbit& orbit, std::vector<Orbit> met,
                                               OrbitSolver& solver);
 
-/// An orbit that attracts, near the motion from x [m], v [m/s] at t = 0 with all laws at their start. Over one forcing
-/// period it is one on which the mass moves.
+/// An orbit that attracts, near the motion from x [m], v [m/s] at t = 0 with all laws at their start. Over one
+/// forcing period it is one on which the mass moves.
 [[nodiscard]] std::optional<Orbit> orbit_near(double x, double v, int periods, OrbitSolver& solver);
 
 }  // namespace dualdamp::sim
