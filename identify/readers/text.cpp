@@ -71,29 +71,6 @@ const char* utf16_order(std::string_view bytes) {
   return nullptr;
 }
 
-/// The bytes as UTF-8. Nothing if the bytes are not valid in this encoding.
-std::optional<std::string> converted(std::string_view bytes, const char* encoding) {
-  struct Close {
-    void operator()(void* descriptor) const { iconv_close(descriptor); }
-  };
-  const iconv_t raw = iconv_open("UTF-8", encoding);
-  if (raw == reinterpret_cast<iconv_t>(-1)) return std::nullopt;  // NOLINT: iconv's value for a failure
-  const std::unique_ptr<void, Close> descriptor(raw);
-  std::string text;
-  std::array<char, 1U << 16U> buffer{};
-  char* from = const_cast<char*>(bytes.data());  // NOLINT(*-const-cast): iconv does not write there
-  std::size_t left = bytes.size();
-  while (left > 0) {
-    char* to = buffer.data();
-    std::size_t room = buffer.size();
-    const bool done = iconv(descriptor.get(), &from, &left, &to, &room) != static_cast<std::size_t>(-1);
-    const int fault = errno;
-    text.append(buffer.data(), buffer.size() - room);
-    if (!done && fault != E2BIG) return std::nullopt;
-  }
-  return text;
-}
-
 /// Removes the byte 1A, with which DOS ended a text.
 std::string without_end_mark(std::string text) {
   if (text.ends_with('\x1A')) text.pop_back();
@@ -133,6 +110,28 @@ std::string without_mark(std::string text) {
 }  // namespace
 
 bool is_utf16(std::string_view bytes) { return utf16_order(bytes) != nullptr; }
+
+std::optional<std::string> converted(std::string_view bytes, const char* from, const char* to) {
+  struct Close {
+    void operator()(void* descriptor) const { iconv_close(descriptor); }
+  };
+  const iconv_t raw = iconv_open(to, from);
+  if (raw == reinterpret_cast<iconv_t>(-1)) return std::nullopt;  // NOLINT: iconv's value for a failure
+  const std::unique_ptr<void, Close> descriptor(raw);
+  std::string text;
+  std::array<char, 1U << 16U> buffer{};
+  char* next = const_cast<char*>(bytes.data());  // NOLINT(*-const-cast): iconv does not write there
+  std::size_t left = bytes.size();
+  while (left > 0) {
+    char* end = buffer.data();
+    std::size_t room = buffer.size();
+    const bool done = iconv(descriptor.get(), &next, &left, &end, &room) != static_cast<std::size_t>(-1);
+    const int fault = errno;
+    text.append(buffer.data(), buffer.size() - room);
+    if (!done && fault != E2BIG) return std::nullopt;
+  }
+  return text;
+}
 
 std::string decoded(std::string_view bytes, const std::string& file, std::vector<std::string>& warnings) {
   std::string text;

@@ -2,6 +2,7 @@
 /// The text of a data file in its possible encodings, and its conversion to UTF-8 without control characters, which
 /// messages and JSON need.
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -15,6 +16,10 @@ namespace dualdamp::identify {
 /// valid UTF-8 is read as Windows-1252 (western European letters), with a warning. Errors: as `refuse_binary`.
 [[nodiscard]] std::string decoded(std::string_view bytes, const std::string& file,
                                   std::vector<std::string>& warnings);
+
+/// The bytes in another encoding, both by their names for iconv. Nothing if they are not valid in `from`.
+[[nodiscard]] std::optional<std::string> converted(std::string_view bytes, const char* from,
+                                                   const char* to = "UTF-8");
 
 /// Throws `core::InputError` with line and column if the text is not UTF-8, or has control characters other than
 /// tab and line ends.

@@ -51,15 +51,6 @@ struct Setup {
   std::vector<std::string> warnings;
 };
 
-/// A stated first state at which no record begins would be ignored.
-void refuse_idle_initial(const std::vector<DataItem>& items, std::vector<SetupFault>& faults) {
-  const auto begins = [](const DataItem& item) {
-    return !item.data.record.histories.empty() && !(item.keys.is_object() && item.keys.value("loop", false));
-  };
-  if (std::ranges::none_of(items, begins))
-    faults.push_back({"data", "'initial' is the state at the first sample of a history: the data hold none"});
-}
-
 Setup setup_of(const Json& analysis, const Json& system, const sim::Model& model, bool initial_is_known,
                const std::vector<DataFile>& files, std::vector<SetupFault>& faults) {
   Setup setup;

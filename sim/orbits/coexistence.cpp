@@ -120,9 +120,4 @@ std::vector<Orbit> other_orbits(const Model& model, const Orbit& orbit, std::vec
   return others;
 }
 
-std::optional<Orbit> orbit_near(double x, double v, int periods, OrbitSolver& solver) {
-  const State later = solver.map_over(1).from_start(x, v, Monodromy::without).end;
-  return periods == 1 ? solver.near_motion_from(later) : solver.near(later, periods);
-}
-
 }  // namespace dualdamp::sim

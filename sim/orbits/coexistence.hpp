@@ -6,11 +6,10 @@
 ///     |(k + 3/4 k3 A^2 - m w^2) A + i (c w A + 4 F/pi)| = P, if there are several;
 ///   * with static friction above kinetic, the orbit that never sticks.
 ///
-/// The mirror image of an asymmetric orbit is added if a motion that begins on it stays there: in a model that is
-/// not symmetric it is no orbit. Many kinds are not searched for (other subharmonic orbits, those that stick in
-/// another way): an empty list proves nothing.
+/// `steady_state` adds the mirror image of an asymmetric orbit if a motion that begins on it stays there: in a
+/// model that is not symmetric it is no orbit. Many kinds are not searched for (other subharmonic orbits, those
+/// that stick in another way): an empty list proves nothing.
 
-#include <optional>
 #include <vector>
 
 #include "sim/orbits/orbit_solver.hpp"
@@ -20,9 +19,5 @@ namespace dualdamp::sim {
 /// Orbits that attract, each different from the others and from `orbit`. `met`: candidates that are known already.
 [[nodiscard]] std::vector<Orbit> other_orbits(const Model& model, const Orbit& orbit, std::vector<Orbit> met,
                                               OrbitSolver& solver);
-
-/// An orbit that attracts, near the motion from x [m], v [m/s] at t = 0 with all laws at their start. Over one
-/// forcing period it is one on which the mass moves.
-[[nodiscard]] std::optional<Orbit> orbit_near(double x, double v, int periods, OrbitSolver& solver);
 
 }  // namespace dualdamp::sim

@@ -50,12 +50,6 @@ State linear_response(const Model& model) {
   return state;
 }
 
-/// A steady state and its state at t = 0.
-struct KnownState {
-  OtherState state;
-  State start;
-};
-
 class OrbitFinder {
  public:
   OrbitFinder(const Model& model, const SteadyStateOptions& options)
@@ -79,15 +73,15 @@ class OrbitFinder {
   [[nodiscard]] std::optional<Orbit> the_only_orbit(SteadyState& result);
   [[nodiscard]] std::optional<Orbit> only_orbit_from(const State& start, SteadyState& result);
   [[nodiscard]] State after_transient(double x, double v, SteadyState& result);
-  [[nodiscard]] KnownState with_extremes(const Orbit& orbit);
-  [[nodiscard]] std::optional<KnownState> mirror_image(const KnownState& of);
+  [[nodiscard]] SteadyState with_extremes(const Orbit& orbit);
+  [[nodiscard]] std::optional<SteadyState> mirror_image(const SteadyState& of);
   void add_mirror_images(SteadyState& result);
 
   const Model& model_;
   SteadyStateOptions options_;
   PeriodMap map_;
   Motions motions_;
-  std::vector<KnownState> others_;
+  std::vector<SteadyState> others_;
   std::optional<OrbitAccount> account_;  ///< of the sliding orbit that Newton's method began on, if it stayed there
   core::SearchCount searched_;           ///< in addition to those of the engine
   double rounding_closure_ = 0.0;
@@ -164,56 +158,52 @@ void OrbitFinder::describe(SteadyState& result) {
         "not the only steady state: the one that the motion approaches; others attract other motions");
 }
 
-KnownState OrbitFinder::with_extremes(const Orbit& orbit) {
+/// An orbit as a steady state of which only the extremes are known.
+SteadyState OrbitFinder::with_extremes(const Orbit& orbit) {
   SteadyState state{.period = 2.0 * std::numbers::pi / model_.excitation.frequency * orbit.period_ratio,
                     .period_ratio = orbit.period_ratio,
                     .start = orbit.period.begin};
   PeriodMap map(model_, orbit.period_ratio);
   account_for_orbit(model_, map, false, state);
   searched_ += map.engine().count();
-  return {{state.peak, state.trough, orbit.period_ratio}, state.start};
+  return state;
 }
 
-/// Whether both are the same motion, perhaps mirrored in x = 0 where `side` is -1.
-bool are_same(const OtherState& a, const OtherState& b, int side) {
+OtherState other_state(const SteadyState& state) { return {state.peak, state.trough, state.period_ratio}; }
+
+/// Whether b is the mirror image of a in x = 0.
+bool is_mirror_image(const SteadyState& a, const SteadyState& b) {
   constexpr double rounding = 1e-6;
-  const double peak = side > 0 ? b.peak : -b.trough;
-  const double trough = side > 0 ? b.trough : -b.peak;
-  return std::abs(a.peak - peak) + std::abs(a.trough - trough) <= rounding * 0.5 * (a.peak - a.trough);
+  return std::abs(a.peak + b.trough) + std::abs(a.trough + b.peak) <= rounding * 0.5 * (a.peak - a.trough);
 }
 
-/// The mirror image in x = 0, half a forcing period later. Every symmetric model has it; whether this one does, the
-/// motion that begins there tells.
-std::optional<KnownState> OrbitFinder::mirror_image(const KnownState& of) {
-  const int ratio = of.state.period_ratio;
-  const SteadyState orbit{.peak = of.state.peak,
-                          .trough = of.state.trough,
-                          .period = 2.0 * std::numbers::pi / model_.excitation.frequency * ratio,
-                          .period_ratio = ratio,
-                          .start = of.start};
-  const Sample half = one_period(model_, orbit, 2 * ratio)[1];
+/// The mirror image, half a forcing period later. Every symmetric model has it; whether this one does, the motion
+/// that begins there tells.
+std::optional<SteadyState> OrbitFinder::mirror_image(const SteadyState& of) {
+  const Sample half = one_period(model_, of, 2 * of.period_ratio)[1];
   OrbitSolver solver(model_, options_.tolerance, rounding_closure_);
-  const std::optional<Orbit> found = orbit_near(-half.x, -half.v, ratio, solver);
+  const State later = solver.map_over(1).from_start(-half.x, -half.v, Monodromy::without).end;
+  const std::optional<Orbit> found =
+      of.period_ratio == 1 ? solver.near_motion_from(later) : solver.near(later, of.period_ratio);
   searched_ += solver.count();
   if (!found) return std::nullopt;
-  KnownState image = with_extremes(*found);
-  if (!are_same(image.state, of.state, -1)) return std::nullopt;
+  SteadyState image = with_extremes(*found);
+  if (!is_mirror_image(image, of)) return std::nullopt;
   return image;
 }
 
 void OrbitFinder::add_mirror_images(SteadyState& result) {
   if (motions_ != Motions::may_part || map_.engine().has_past()) return;
-  std::vector<KnownState> states = {{{result.peak, result.trough, result.period_ratio}, result.start}};
-  states.insert(states.end(), others_.begin(), others_.end());
+  std::vector<SteadyState> states = others_;
+  states.insert(states.begin(), result);
   const std::size_t count = states.size();
   for (std::size_t i = 0; i < count; ++i) {
-    const KnownState of = states[i];
-    if (of.state.peak == of.state.trough || are_same(of.state, of.state, -1)) continue;
-    const auto is_image = [&](const KnownState& a) { return are_same(a.state, of.state, -1); };
-    if (std::ranges::none_of(states, is_image)) {
-      std::optional<KnownState> image = mirror_image(of);
+    const SteadyState of = states[i];
+    if (of.peak == of.trough || is_mirror_image(of, of)) continue;
+    if (std::ranges::none_of(states, [&](const SteadyState& a) { return is_mirror_image(a, of); })) {
+      std::optional<SteadyState> image = mirror_image(of);
       if (!image) continue;
-      result.others.push_back(image->state);
+      result.others.push_back(other_state(*image));
       states.push_back(std::move(*image));
     }
     if (i == 0) result.warnings.emplace_back("asymmetric: the mirror image of this steady state is another one");
@@ -237,7 +227,7 @@ void OrbitFinder::find(SteadyState& result) {
     searched_ += solver.count();
   }
   if (!orbit) return;
-  for (const KnownState& other : others_) result.others.push_back(other.state);
+  for (const SteadyState& other : others_) result.others.push_back(other_state(other));
   result.period_ratio = orbit->period_ratio;
   result.period *= orbit->period_ratio;
   result.start = orbit->period.begin;

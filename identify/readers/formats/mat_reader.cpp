@@ -113,9 +113,11 @@ class Reader {
 
   /// The unit that the name states, if it is used as this column: `x_mm`, `weg_mm`.
   [[nodiscard]] static std::string unit_of(const std::string& name, const KnownColumn& known) {
-    Heading heading{name, name, {}};
-    if (named_column(heading) != &known) split_unit(heading = {name, name, {}}, known);
-    return heading.unit;
+    Heading named{name, name, {}};
+    if (named_column(named) == &known) return named.unit;
+    Heading chosen{name, name, {}};
+    split_unit(chosen, known);
+    return chosen.unit;
   }
 
   /// The column of a name in the file, and the unit if the name has one: `x_mm`.

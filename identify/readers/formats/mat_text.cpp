@@ -2,8 +2,8 @@
 
 #include <matio.h>
 
-#include <algorithm>
-#include <cstdint>
+#include <bit>
+#include <cstring>
 
 #include "identify/readers/formats/mat_variable.hpp"
 #include "identify/readers/text.hpp"
@@ -12,70 +12,27 @@ namespace dualdamp::identify {
 
 namespace {
 
-void append(std::string& text, char32_t point) {
-  const auto byte = [&text](char32_t bits) { text += static_cast<char>(bits); };
-  if (point < 0x80) return byte(point);
-  if (point < 0x800) {
-    byte(0xC0U | point >> 6U);
-  } else {
-    if (point < 0x10000) {
-      byte(0xE0U | point >> 12U);
-    } else {
-      byte(0xF0U | point >> 18U);
-      byte(0x80U | (point >> 12U & 0x3FU));
-    }
-    byte(0x80U | (point >> 6U & 0x3FU));
-  }
-  byte(0x80U | (point & 0x3FU));
-}
+constexpr const char* utf16 = std::endian::native == std::endian::little ? "UTF-16LE" : "UTF-16BE";
 
-/// UTF-16 as UTF-8. Halves of a pair without the other half become question marks.
-std::string from_utf16(const std::u16string& units) {
-  std::string text;
-  const auto is_half = [](char16_t unit, unsigned high) { return (unit & 0xFC00U) == high; };
-  for (std::size_t i = 0; i < units.size(); ++i) {
-    if (is_half(units[i], 0xD800U) && i + 1 < units.size() && is_half(units[i + 1], 0xDC00U)) {
-      append(text, 0x10000U + ((units[i] & 0x3FFU) << 10U) + (units[i + 1] & 0x3FFU));
-      ++i;
-    } else {
-      append(text, (units[i] & 0xF800U) == 0xD800U ? U'?' : units[i]);
-    }
-  }
-  return text;
-}
-
-/// The bytes of a variable as UTF-16: MATLAB counts a row's characters so, which tells its rows apart.
-std::u16string to_utf16(std::string_view text) {
-  std::u16string units;
-  for (std::size_t i = 0; i < text.size();) {
-    const auto first = static_cast<unsigned char>(text[i]);
-    const std::size_t length = first < 0x80 ? 1 : first < 0xE0 ? 2 : first < 0xF0 ? 3 : 4;
-    char32_t point = length == 1 ? first : first & (0x7FU >> length);
-    for (std::size_t k = 1; k < length && i + k < text.size(); ++k)
-      point = point << 6U | (static_cast<unsigned char>(text[i + k]) & 0x3FU);
-    if (point >= 0x10000) {
-      units += static_cast<char16_t>(0xD800U + ((point - 0x10000U) >> 10U));
-      units += static_cast<char16_t>(0xDC00U + (point & 0x3FFU));
-    } else {
-      units += static_cast<char16_t>(point);
-    }
-    i += length;
-  }
+std::u16string units_of(const void* data, std::size_t bytes) {
+  std::u16string units(bytes / sizeof(char16_t), u'\0');
+  std::memcpy(units.data(), data, units.size() * sizeof(char16_t));
   return units;
 }
 
-/// All characters, column by column. Empty if the variable is no text.
+/// All characters as MATLAB counts them, in UTF-16, column by column. Empty if the variable is no text.
 std::u16string characters(const matvar_t& variable) {
   if (variable.class_type != MAT_C_CHAR || variable.rank != 2 || variable.data == nullptr) return {};
   switch (variable.data_type) {
     case MAT_T_UTF8:
-    case MAT_T_UINT8:
-      return to_utf16(to_utf8({static_cast<const char*>(variable.data), variable.nbytes}));
-    case MAT_T_UTF16:
-    case MAT_T_UINT16: {
-      const auto* const from = static_cast<const std::uint16_t*>(variable.data);
-      return {from, from + variable.nbytes / sizeof(std::uint16_t)};
+    case MAT_T_UINT8: {
+      const std::string text = to_utf8({static_cast<const char*>(variable.data), variable.nbytes});
+      const std::string wide = converted(text, "UTF-8", utf16).value_or("");
+      return units_of(wide.data(), wide.size());
     }
+    case MAT_T_UTF16:
+    case MAT_T_UINT16:
+      return units_of(variable.data, variable.nbytes);
     default:
       return {};  // matio 1.5 reads other types as zeros
   }
@@ -88,7 +45,12 @@ std::optional<std::vector<std::string>> rows_of(const matvar_t& variable) {
   std::vector<std::u16string> units(rows);
   for (std::size_t i = 0; i < all.size(); ++i) units[i % rows] += all[i];
   std::vector<std::string> result;
-  for (const std::u16string& row : units) result.emplace_back(trimmed(to_utf8(from_utf16(row))));
+  for (const std::u16string& row : units) {
+    const auto text =
+        converted({reinterpret_cast<const char*>(row.data()), row.size() * sizeof(char16_t)}, utf16);  // NOLINT
+    if (!text) return std::nullopt;  // half of a pair
+    result.emplace_back(trimmed(to_utf8(*text)));
+  }
   return result;
 }
 

@@ -167,11 +167,9 @@ std::string laws_text(const identify::Rig& rig) {
 
 namespace {
 
-bool is_loop(const DataItem& item) { return item.keys.is_object() && item.keys.value("loop", false); }
-
 /// A drive that the file holds and the model lacks; empty if there is none.
 std::string idle_drive(const DataItem& item, const sim::Model& model) {
-  if (is_loop(item) || model.excitation.type != sim::ExcitationType::none) return {};
+  if (item.is_loop() || model.excitation.type != sim::ExcitationType::none) return {};
   const auto moves = [](const std::vector<double>& signal) {
     return !signal.empty() && std::ranges::min(signal) < std::ranges::max(signal);
   };
@@ -218,15 +216,19 @@ void refuse_idle_noise(const std::vector<DataItem>& items, const std::string& ke
 
 }  // namespace
 
+void refuse_idle_initial(const std::vector<DataItem>& items, std::vector<SetupFault>& faults) {
+  if (std::ranges::none_of(items, &DataItem::is_motion))
+    faults.push_back({"data", "'initial' is the state at the first sample of a history: the data hold none"});
+}
+
 void refuse_idle_drive(const std::vector<DataItem>& items, const sim::Model& model,
                        std::vector<SetupFault>& faults) {
   const sim::Excitation& drive = model.excitation;
   if (drive.type == sim::ExcitationType::none) return;
-  bool drives = false;  // some history
-  bool needs = false;   // some reading does not state its frequency
+  const bool drives = std::ranges::any_of(items, &DataItem::is_motion);
+  bool needs = false;  // some reading does not state its frequency
   bool differs = false;
   for (const DataItem& item : items) {
-    drives = drives || (!is_loop(item) && !item.data.record.histories.empty());
     if (!item.data.record.pairs) continue;
     for (const identify::Pair& pair : item.data.record.pairs->pairs) {
       constexpr double far = 0.01;
@@ -235,7 +237,7 @@ void refuse_idle_drive(const std::vector<DataItem>& items, const sim::Model& mod
     }
   }
   const std::string wanted = ": the data hold no history";
-  const bool loops = std::ranges::all_of(items, is_loop);
+  const bool loops = std::ranges::all_of(items, &DataItem::is_loop);
   if (!drives && (loops || !drive.is_harmonic())) {
     faults.push_back({"data", "'excitation' is the drive of histories" + wanted +
                                   (loops ? ", and a loop compares the force along its measured motion" : "")});
@@ -355,7 +357,7 @@ namespace {
 /// nor sought.
 bool has_mass(const sim::Model& model, const std::vector<DataItem>& items, const Sought& sought) {
   const auto is_mass = [](const std::string& name) { return name == "mass" || name == "system.mass"; };
-  if (!std::ranges::all_of(items, is_loop)) return true;
+  if (!std::ranges::all_of(items, &DataItem::is_loop)) return true;
   return model.oscillator.mass > 0.0 || std::ranges::any_of(sought.free, is_mass);
 }
 
@@ -371,7 +373,7 @@ identify::Experiments experiments_from(const std::vector<DataItem>& items, const
     const Json& keys = items[i].keys;
     identify::ExperimentOptions options{
         .name = items[i].file,
-        .loop = is_loop(items[i]),
+        .loop = items[i].is_loop(),
         .has_mass = has_mass(model, items, sought),
         .frequency = drive.is_harmonic() && drive.frequency > 0.0 ? drive.frequency : identify::unknown,
         .force_driven = drive.type == sim::ExcitationType::force_harmonic};

@@ -18,6 +18,10 @@ struct DataItem {
   Json keys;  ///< of its item
   identify::MeasuredRecord data;
   std::vector<std::size_t> zeroed{};  ///< histories whose zero was subtracted: the remaining zero is fitted
+
+  [[nodiscard]] bool is_loop() const { return keys.is_object() && keys.value("loop", false); }
+  /// It moves from a first state under the drive of the model. A loop moves as it was measured.
+  [[nodiscard]] bool is_motion() const { return !is_loop() && !data.record.histories.empty(); }
 };
 
 [[nodiscard]] std::vector<DataItem> items_of(const Json& analysis, const std::vector<DataFile>& files,
@@ -65,6 +69,9 @@ void refuse(const std::vector<SetupFault>& faults);
 /// does, except for records whose `offset` is fitted. Returns warnings.
 [[nodiscard]] std::vector<std::string> remove_zeros(std::vector<DataItem>& items, const sim::Model& model,
                                                     const Sought& sought);
+
+/// Complains about a stated first state at which no item begins, because the fit would ignore it.
+void refuse_idle_initial(const std::vector<DataItem>& items, std::vector<SetupFault>& faults);
 
 /// Complains about a stated drive, or its frequency or amplitude, that no item needs, because the fit would ignore
 /// it.
