@@ -56,14 +56,22 @@ std::string data_of(const std::vector<std::string>& files, const RecordCommand& 
   return "[" + list + "]";
 }
 
+/// `replaces`: the scenario has a drive of another type, whose keys do not apply.
 template <typename RecordCommand>
-void add_drive(const RecordCommand& command, scenarios::LoadOptions& options) {
-  if (!command.frequency.empty()) {
-    options.set.push_back({"excitation.type=base_harmonic", "--frequency"});
-    options.set.push_back({"excitation.frequency=" + command.frequency, "--frequency"});
+void add_drive(const RecordCommand& command, bool replaces, scenarios::LoadOptions& options) {
+  const auto say = [&](const std::string& assignment, const char* option) {
+    options.set.push_back({"excitation" + assignment, option});
+  };
+  if (replaces && !command.frequency.empty()) {
+    const std::string amplitude = command.amplitude.empty() ? "" : ", amplitude: " + in_quotes(command.amplitude);
+    say("={type: base_harmonic, frequency: " + in_quotes(command.frequency) + amplitude + "}", "--frequency");
+  } else {
+    if (!command.frequency.empty()) {
+      say(".type=base_harmonic", "--frequency");
+      say(".frequency=" + command.frequency, "--frequency");
+    }
+    if (!command.amplitude.empty()) say(".amplitude=" + command.amplitude, "--amplitude");
   }
-  if (!command.amplitude.empty())
-    options.set.push_back({"excitation.amplitude=" + command.amplitude, "--amplitude"});
   for (const std::string& assignment : command.set) options.set.push_back({assignment});
 }
 
@@ -138,7 +146,7 @@ scenarios::Scenario scenario_of(const FitCommand& command) {
   if (command.starts > 0) options.set.push_back({"analysis.starts=" + std::to_string(command.starts), "--starts"});
   if (command.robust) options.set.push_back({"analysis.robust=true", "--robust"});
   if (command.no_profile) options.set.push_back({"analysis.profile=false", "--no-profile"});
-  add_drive(command, options);
+  add_drive(command, false, options);
   scenarios::Scenario scenario =
       scenarios::parse_scenario("schema: dualdamp/1\nsystem: {}\nanalysis: {type: fit}\n", "command line", options);
   scenario.file = command.data.front();
@@ -152,9 +160,9 @@ scenarios::Scenario prediction_by(const Json& document, const PredictCommand& co
   scenarios::LoadOptions options;
   options.data_anywhere = true;
   options.set = {{"analysis=" + prediction_of(result, command), "DATA"}};
-  add_drive(command, options);
-  scenarios::Scenario prediction =
-      scenarios::parse_scenario(result.at("rig").get<std::string>(), command.result, options);
+  const auto rig = result.at("rig").get<std::string>();
+  add_drive(command, rig.find("type: base_harmonic") == std::string::npos, options);
+  scenarios::Scenario prediction = scenarios::parse_scenario(rig, command.result, options);
   prediction.file = command.data.front();
   return prediction;
 }

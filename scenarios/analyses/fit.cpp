@@ -98,6 +98,7 @@ sim::Model outlined_model(const CheckedFile& file) {
 void check_fit(CheckedFile& file) {
   read_data_list(file, "data");
   read_data_list(file, "validate");
+  if (file.entry("excitation") == nullptr) take_recorded_drive(file);
   const bool laws = file.has("analysis", "laws");
   if (laws && file.stands_in_file("system", "friction"))
     file.complain("analysis.laws", "'analysis.laws' stands beside 'system.friction', which it replaces",

@@ -96,6 +96,8 @@ void check_laws(CheckedFile& file) {
 
 void check_predict(CheckedFile& file) {
   read_data_list(file, "data");
+  const bool assumes_drive = file.values().at("analysis").value("drive_of_fit", false);
+  if (assumes_drive || file.entry("excitation") == nullptr) take_recorded_drive(file);
   check_laws(file);
   // A loop compares forces: a constant that the fit lacked has no part in them.
   const auto is_loop = [&](const DataItem& item) {

@@ -85,9 +85,10 @@ class Prediction(case.Case):
         first, second = self.record("y5.csv", drive % 5, base=moved(5)), self.record("y8.csv", drive % 8, base=moved(8))
         measured = "excitation={type: measured_base, file: %s, column: y, interpolation: cubic}"
         self.run_program("fit", "coulomb", first, *CONSTANTS, "--set", measured % "y5.csv", "--no-profile", "--out", "fit")
-        refused = self.run_program("predict", "fit", second, status=3).stderr
+        refused = self.run_program("predict", "fit", second, "--frequency", "4 Hz", "--amplitude", "5 mm", status=3).stderr
         self.assertIn("the record holds y, and it differs from the drive by 37 % of y", refused)
         self.assert_right(self.predicted("fit", second, "--set", measured % "y8.csv"))
+        self.assert_right(self.predicted("fit", second))
         for arguments in ([second, "--frequency", "4 Hz", "--amplitude", "5 mm"], [first, second, "--set", measured % "y5.csv"]):
             self.assertIn("differs from the drive", self.run_program("fit", "coulomb", *arguments, *CONSTANTS, "--no-profile", status=3).stderr)
         # The phase of the drive is found, not stated.
@@ -95,6 +96,27 @@ class Prediction(case.Case):
         driven = (late, *CONSTANTS, "--frequency", "4 Hz", "--amplitude", "5 mm", "--no-profile")
         self.run_program("fit", "coulomb", *driven, "--free", "phase")
         self.assertIn("differs from the drive", self.run_program("fit", "coulomb", *driven, status=3).stderr)
+
+    def test_the_motion_of_the_base_in_the_file_is_the_drive(self):
+        drive = "{type: base_harmonic, amplitude: 5 mm, frequency: 4 Hz}"
+        record = self.record("run.csv", drive, base=lambda t: 5e-3 * math.cos(8.0 * math.pi * t))
+        rows = [line.split(",") for line in record.read_text().splitlines()[1:]]
+        renamed = self.write("renamed.csv", "clock,x [m],table\n" + "".join(f"{1e3 * float(t)!r},{x},{1e3 * float(y)!r}\n" for t, x, y in rows))
+        columns = ("--column", "y=table", "--column", "t=clock", "--unit", "y=mm", "--unit", "t=ms")
+        stated = ("--set", "excitation={type: measured_base, file: run.csv, column: y, interpolation: cubic}")
+        found = []
+        for arguments in ((record, *stated), (record,), (renamed, *columns)):
+            self.run_program("fit", "coulomb", *arguments, *CONSTANTS, "--no-profile", "--out", "fit")
+            found.append(json.loads((self.folder / "fit/result.json").read_text())["result"]["parameters"])
+        self.assertEqual(found[0], found[1])
+        for one, other in zip(found[0], found[2]):
+            self.assertAlmostEqual(one["value"], other["value"], delta=1e-3 * one["std"])
+        # What is stated stands: none, or the force of a column that may also be that of a friction loop.
+        self.assertIn("nothing drives the model", self.run_program("fit", "coulomb", record, *CONSTANTS, "--set", "excitation={type: none}", status=3).stderr)
+        forced = self.write("forced.csv", record.read_text().replace("y [m]", "force [N]"))
+        self.assertIn("or --loop for a friction loop", self.run_program("fit", "coulomb", forced, *CONSTANTS, status=3).stderr)
+        again = self.write("again.csv", record.read_text().replace("0.0,", "0.0001,", 1))
+        self.assertIn("the file holds y", self.run_program("fit", "coulomb", record, again, *CONSTANTS, status=3).stderr)
 
     def test_no_law_is_called_wrong_where_only_the_drive_of_the_fit_was_assumed(self):
         drive = "{type: base_harmonic, amplitude: %s mm, frequency: 4 Hz}"

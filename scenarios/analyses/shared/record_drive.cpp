@@ -8,12 +8,17 @@
 #include "core/numbers.hpp"
 #include "identify/fit/drive_values.hpp"
 #include "identify/statistics/noise_level.hpp"
+#include "scenarios/measurements/drives.hpp"
 
 namespace dualdamp::scenarios {
 
 namespace {
 
 using identify::History;
+
+bool moves(const std::vector<double>& signal) {
+  return !signal.empty() && std::ranges::min(signal) < std::ranges::max(signal);
+}
 
 std::string seconds(double t) { return core::format_number(t, 6) + " s"; }
 
@@ -71,7 +76,7 @@ std::string other_drive(const DataItem& item, const History& history, const sim:
   const bool base = model.excitation.moves_base();
   const std::vector<double>& measured = base ? history.y : history.force;
   constexpr std::size_t least = 8;
-  if (measured.size() < least || std::ranges::min(measured) == std::ranges::max(measured)) return {};
+  if (measured.size() < least || !moves(measured)) return {};
   // An amplitude that was set is not better known than this.
   constexpr double far = 0.1;
   const double miss = difference(model, history, measured, phase_is_sought);
@@ -103,6 +108,29 @@ void refuse_other_drives(const std::vector<DataItem>& items, const std::string& 
       if (!fault.empty()) faults.push_back({place, name + ": " + fault});
     }
   }
+}
+
+void take_recorded_drive(CheckedFile& file) {
+  const std::vector<DataItem> items = items_of(file.values().at("analysis"), file.files, "data");
+  if (items.size() != 1 || !items.front().is_motion()) return;
+  const DataItem& item = items.front();
+  const std::vector<History>& histories = item.data.record.histories;
+  if (histories.size() != 1 || !moves(histories.front().y)) return;
+  Json drive = {{"type", "measured_base"}, {"file", item.file}, {"interpolation", "cubic"},
+                {"repeat", false},         {"detrend", "none"}, {"offset", 0.0}};
+  const auto take = [&](const char* key, const char* list, const char* column) {
+    if (item.keys.is_object() && item.keys.contains(list) && item.keys.at(list).contains(column))
+      drive[key] = item.keys.at(list).at(column);
+  };
+  take("column", "columns", "y");
+  take("unit", "units", "y");
+  take("scale", "scale", "y");
+  take("time_column", "columns", "t");
+  take("time_unit", "units", "t");
+  for (const char* key : {"decimal", "no_header"})
+    if (item.keys.is_object() && item.keys.contains(key)) drive[key] = item.keys.at(key);
+  file.values()["excitation"] = std::move(drive);
+  read_drive(file);
 }
 
 }  // namespace dualdamp::scenarios

@@ -1,5 +1,5 @@
 #pragma once
-/// Whether the drive of a fit is the drive of its records.
+/// The drive of a fit and the drive of its records.
 
 #include <string>
 #include <vector>
@@ -14,5 +14,9 @@ namespace dualdamp::scenarios {
 /// that is sought is not compared.
 void refuse_other_drives(const std::vector<DataItem>& items, const std::string& key, const sim::Model& model,
                          double drive_start, const std::vector<std::string>& free, std::vector<SetupFault>& faults);
+
+/// Makes the motion y of the base, which the only data file holds, the excitation of the scenario. A loop and a file
+/// of several tests have none.
+void take_recorded_drive(CheckedFile& file);
 
 }  // namespace dualdamp::scenarios

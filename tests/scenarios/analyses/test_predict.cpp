@@ -76,18 +76,21 @@ TEST_CASE("predict: a drive that the file holds and the model lacks", "[scenario
   const std::string system =
       "schema: dualdamp/1\nsystem: {mass: 1 kg, stiffness: 1000 N/m, damping: 3 N.s/m, friction: {law: coulomb, "
       "kinetic: 1 N}}\n";
-  try {
-    static_cast<void>(
-        scenarios::run(parse_scenario(system + "analysis: {type: predict, data: " + file + "}\n", "a.yaml")));
-    FAIL("accepted");
-  } catch (const core::InputError& error) {
-    CHECK(std::string(error.what()).find("nothing drives the model") != std::string::npos);
-  }
-  CHECK_THROWS_AS(parse_scenario("schema: dualdamp/1\nsystem: {mass: 1 kg, stiffness: 1000 N/m, friction: {law: "
-                                 "coulomb}}\nanalysis: {type: fit, data: " +
-                                     file + "}\n",
-                                 "b.yaml"),
-                  core::InputError);
+  const std::string none = "excitation: {type: none}\n";
+  const auto fault_of = [](const std::string& text) -> std::string {
+    try {
+      static_cast<void>(scenarios::run(parse_scenario(text, "a.yaml")));
+    } catch (const core::InputError& error) {
+      return error.what();
+    }
+    return {};
+  };
+  const std::string lacks = "nothing drives the model";
+  CHECK(fault_of(system + none + "analysis: {type: predict, data: " + file + "}\n").find(lacks) !=
+        std::string::npos);
+  CHECK(fault_of("schema: dualdamp/1\nsystem: {mass: 1 kg, stiffness: 1000 N/m, friction: {law: coulomb}}\n" +
+                 none + "analysis: {type: fit, data: " + file + "}\n")
+            .find(lacks) != std::string::npos);
   // The same readings must not count twice, and must not predict themselves.
   const std::string fit =
       "schema: dualdamp/1\nsystem: {mass: 1 kg, stiffness: 1000 N/m, friction: {law: coulomb}}\nexcitation: {type: "
