@@ -5,7 +5,9 @@
 #include <chrono>
 #include <cmath>
 #include <iterator>
+#include <set>
 
+#include "core/diagnostics.hpp"
 #include "core/numbers.hpp"
 #include "friction_models/law_fault.hpp"
 #include "friction_models/registry.hpp"
@@ -64,6 +66,16 @@ Answer answer_of(const Scenario& scenario, const RunOptions& options) {
   }
 }
 
+/// Warning about requested units of no quantity of the result; empty if there are none.
+std::string unit_warning(const Scenario& scenario, const std::vector<Table>& tables) {
+  std::set<std::string> kinds;
+  for (const ResultField& field : scenario.result_fields) kinds.insert(kind_of(field.unit, field.path));
+  for (const Table& table : tables)
+    for (const Column& column : table.columns) kinds.insert(kind_of(column.unit, column.name));
+  const std::vector<std::string> unused = unused_units(scenario.written_units, kinds);
+  return unused.empty() ? "" : "no quantity of the result is in a unit that was asked for: " + core::joined(unused);
+}
+
 /// The result of an answer: its summary and its comparison with the expected values.
 RunResult result_of(const Scenario& scenario, Answer answer) {
   RunResult result;
@@ -81,6 +93,8 @@ RunResult result_of(const Scenario& scenario, Answer answer) {
     for (Table& table : result.tables)
       for (Column& column : table.columns)
         column.unit = core::unit_for(scenario.model.oscillator.coordinate, column.unit);
+    if (std::string idle = unit_warning(scenario, result.tables); !idle.empty())
+      result.warnings.push_back(std::move(idle));
     result.checks = compare(scenario.expect, answer.result, result.tables);
     if (!std::ranges::all_of(result.checks, &Check::ok)) result.status = core::ExitStatus::check_failed;
   }

@@ -67,36 +67,66 @@ std::string kind_of(const std::string& unit, std::string_view name) {
 
 bool is_asked_for(std::string_view path) { return path.starts_with(asked); }
 
-ShownUnits shown_units(const std::map<std::string, std::string>& written) {
+namespace {
+
+/// A velocity in rpm says nothing about the unit of frequencies.
+void add_stated(std::string_view path, const std::string& unit, ShownUnits& units) {
   constexpr std::array kinds = {"m", "rad", "rad/s", "m/s", "s", "N", "N.m"};
-  constexpr std::array quantities = {"data.x",
-                                     "data.y",
-                                     "data.Y",
-                                     "data.v",
-                                     "data.force",
-                                     "data.omega",
-                                     "data.t",
-                                     "analysis.amplitudes",
-                                     "analysis.frequencies",
-                                     "analysis.duration",
-                                     "analysis.measurement.amplitudes",
-                                     "excitation.amplitude",
-                                     "analysis.measurement.frequencies",
-                                     "excitation.frequency",
-                                     "initial.position",
-                                     "initial.velocity",
-                                     "system.friction.kinetic"};
+  constexpr std::array velocity = {"m/s"};
+  constexpr std::array of_friction = {"N", "N.m"};  // its lengths are those of asperities and bristles
+  if (path == "data.v" || path.find("velocity") != std::string_view::npos) {
+    add(unit, velocity, false, units);
+    add_angular_velocity(unit, false, units);
+  } else if (path.starts_with("system.friction")) {
+    add(unit, of_friction, false, units);
+  } else {
+    add(unit, kinds, false, units);
+  }
+}
+
+}  // namespace
+
+ShownUnits shown_units(const std::map<std::string, std::string>& written) {
+  constexpr std::array first = {"data.x",
+                                "data.y",
+                                "data.Y",
+                                "data.v",
+                                "data.force",
+                                "data.omega",
+                                "data.t",
+                                "analysis.amplitudes",
+                                "analysis.frequencies",
+                                "analysis.duration",
+                                "analysis.measurement.amplitudes",
+                                "excitation.amplitude",
+                                "analysis.measurement.frequencies",
+                                "excitation.frequency",
+                                "initial.position",
+                                "initial.velocity",
+                                "system.friction.kinetic"};
   ShownUnits units;
   for (const auto& [path, unit] : written)
     if (is_asked_for(path)) add_asked(unit, units);
-  for (const std::string quantity : quantities)
-    for (const std::string& path : {quantity, quantity + ".from"}) {
-      const auto unit = written.find(path);
-      if (unit == written.end()) continue;
-      add(unit->second, kinds, false, units);
-      if (quantity == "data.v" || quantity == "initial.velocity") add_angular_velocity(unit->second, false, units);
-    }
+  for (const std::string quantity : first)
+    for (const std::string& path : {quantity, quantity + ".from"})
+      if (const auto unit = written.find(path); unit != written.end()) add_stated(path, unit->second, units);
+  for (const auto& [path, unit] : written)
+    for (const std::string_view section : {"excitation.", "initial.", "system.friction"})
+      if (path.starts_with(section)) add_stated(path, unit, units);
   return units;
+}
+
+std::vector<std::string> unused_units(const std::map<std::string, std::string>& written,
+                                      const std::set<std::string>& kinds) {
+  std::vector<std::string> unused;
+  for (const auto& [path, unit] : written) {
+    if (!is_asked_for(path)) continue;
+    ShownUnits possible;
+    add_asked(unit, possible);
+    if (std::ranges::none_of(possible, [&](const auto& entry) { return kinds.contains(entry.first); }))
+      unused.push_back(unit);
+  }
+  return unused;
 }
 
 bool is_legible(double largest, const ShownUnit& unit) {

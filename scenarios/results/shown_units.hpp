@@ -4,8 +4,10 @@
 
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace dualdamp::scenarios {
 
@@ -22,12 +24,17 @@ using ShownUnits = std::map<std::string, ShownUnit, std::less<>>;  ///< by kind 
 [[nodiscard]] std::string kind_of(const std::string& unit, std::string_view name);
 
 /// `written`: `Scenario::written_units`. Order of preference: units of measured data, of varied quantities, of the
-/// excitation, of the initial state.
+/// amplitude and frequency of the excitation, of the initial state, of the kinetic friction; then of every other
+/// key of the excitation and the initial state, and of the forces and velocities of the friction.
 [[nodiscard]] ShownUnits shown_units(const std::map<std::string, std::string>& written);
 
 /// Adds requested units for results, separated by commas ("mm, Hz, kN"), to the written ones, before which they
 /// have preference. Returns why one cannot be the unit of a result; empty: all can.
 [[nodiscard]] std::string ask_for_units(std::string_view list, std::map<std::string, std::string>& written);
+
+/// The requested units that are of none of these kinds of quantities.
+[[nodiscard]] std::vector<std::string> unused_units(const std::map<std::string, std::string>& written,
+                                                    const std::set<std::string>& kinds);
 
 /// Whether an entry of the written units is a requested one.
 [[nodiscard]] bool is_asked_for(std::string_view path);

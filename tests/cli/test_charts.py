@@ -107,6 +107,7 @@ class Charts(Case):
         # Before those of the file, in the terminal, the chart, the page, and of a stored result.
         result = self.run_program("run", "curve.yaml", "--out", "out", "--plot", "curve.svg", "--units", "um, Hz")
         self.assertIn("Y [um]", result.stdout)
+        self.assertIn("no quantity of the result is in a unit that was asked for: Hz", result.stderr)
         texts, _ = self.drawing("curve.svg")
         self.assertIn("input amplitude Y [um]", texts)
         self.assertIn('"asked":true', (self.folder / "out/report.html").read_text().replace(" ", ""))

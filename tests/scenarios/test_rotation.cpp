@@ -229,4 +229,8 @@ TEST_CASE("rotation: a velocity is not shown in the unit of a frequency", "[scen
   CHECK(shown(asked("Hz"), "v") == "rad/s");
   CHECK(shown(asked("rpm, deg/s"), "omega") == "rpm");
   CHECK(shown(asked("rpm, deg/s"), "max_speed") == "deg/s");
+  // A velocity of a law that is stated in rpm is the unit of velocities, not of frequencies.
+  const auto of_law = scenarios::shown_units({{"system.friction[0].stribeck_velocity", "rpm"}});
+  CHECK(shown(of_law, "v") == "rpm");
+  CHECK(shown(of_law, "omega") == "rad/s");
 }
