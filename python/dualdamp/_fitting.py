@@ -49,7 +49,8 @@ def fit(
     frequency, amplitude : str, optional
         Frequency and amplitude of the harmonic motion of the base: ``"4 Hz"``, ``"5 mm"``.
     excitation : Excitation or mapping, optional
-        Another drive, in place of `frequency` and `amplitude`. If none is stated, the motion ``y`` in a single record is it.
+        Another drive, in place of `frequency` and `amplitude`. If no drive is stated, the motion ``y`` in a single record is
+        the drive.
     initial : mapping, optional
         The state at the start of the histories, if it is known.
     validate : like data, optional
@@ -110,8 +111,9 @@ def predict(fitted, data, *, excitation=None, record=None, out=None, threads=0):
     data, record
         As in `fit`.
     excitation : Excitation or mapping, optional
-        The drive of these records. Without it the motion ``y`` in the record, else that of the fit, is assumed, and refused where the records show that
-        they had another one; ``{"type": "none"}`` states that they had none.
+        The drive of these records. Without it the motion ``y`` in a single record is the drive, else that of the fit. The
+        drive of the fit is refused where the records show that they had another one; ``{"type": "none"}`` states that they
+        had none.
     out, threads
         As in `run`.
 
