@@ -15,7 +15,8 @@ namespace dualdamp::identify {
 namespace {
 
 constexpr std::string_view without_x =
-    "the displacement x was not recorded: record it, or add it to the file as the integral of v or a without its drift";
+    "the displacement x was not recorded: record it, or add it to the file as the integral of v or a without its "
+    "drift; 'dualdamp fit coulomb' takes v or a alone";
 
 using std::numbers::pi;
 

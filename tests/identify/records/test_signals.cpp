@@ -87,6 +87,7 @@ TEST_CASE("Unsound histories say what is wrong") {
   CHECK(fault_of(history) == "the sample rate is not positive");
   history.sample_rate = sine_sample_rate;
   CHECK(fault_of(history).starts_with("the displacement x was not recorded: record it"));
+  CHECK(fault_of(history).ends_with("'dualdamp fit coulomb' takes v or a alone"));
   history.x = sine(10.0, 10);
   CHECK(fault_of(history) == "there are fewer than 16 samples");
   history.x = sine(10.0, 100);
