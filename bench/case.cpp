@@ -68,6 +68,27 @@ identify::OptionValues options_for(const identify::MethodEntry& method, const De
   return {{std::string(identify::without_option.name), unknown}};
 }
 
+/// The cases of a departure that has no meaning on its rig: without readings, and with the reason.
+void take_unmeasured(const Grid& grid, std::size_t number, const std::string& reason,
+                     const std::function<bool(std::size_t)>& wanted,
+                     const std::function<void(const MeasuredCase&)>& take) {
+  const StressTest& question = grid.question();
+  const Grid::Motion motion = grid.motion(number);
+  const sim::Model& model = question.rigs[motion.rig].truth.model;
+  identify::Record nothing;
+  nothing.pairs.emplace();
+  const Consequence unknown;
+  constexpr UnmeasuredAmplitudes unmeasured = {not_stated, not_stated};
+  std::size_t place = number * grid.cases_per_motion();
+  for (const SensorSet& sensors : question.sensors) {
+    Laboratory laboratory{{model.oscillator.mass, model.oscillator.stiffness, model.excitation.frequency},
+                          sensors.sensors};
+    motion.departure.mislead(laboratory, {}, motion.severity);  // constants do not depend on the motion
+    for (int seed = 0; seed < question.seeds; ++seed, ++place)
+      if (wanted(place)) take({place, nothing, 0, laboratory.constants, sensors, unknown, unmeasured, reason});
+  }
+}
+
 }  // namespace
 
 void measure_motion(const Grid& grid, const sim::SteadyStateOptions& options, std::size_t number,
@@ -80,7 +101,11 @@ void measure_motion(const Grid& grid, const sim::SteadyStateOptions& options, st
   const sim::Oscillator& oscillator = rig.truth.model.oscillator;
   std::size_t place = number * grid.cases_per_motion();
   DepartedRig departed{motion.departure, motion.severity};
-  if (!motion.departure.is_truth()) departed.reference = maker.reference();
+  if (!motion.departure.is_truth()) {
+    const Reference reference = maker.reference();
+    if (!reference.outcome.ok()) return take_unmeasured(grid, number, reference.outcome.reason, wanted, take);
+    departed.reference = reference.motion;
+  }
   std::optional<DepartedMotions> unsampled;  // for all sensors without a sample rate
   for (const SensorSet& sensors : question.sensors) {
     Laboratory laboratory{{oscillator.mass, oscillator.stiffness, rig.truth.model.excitation.frequency},

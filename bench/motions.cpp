@@ -8,14 +8,6 @@
 
 namespace dualdamp::bench {
 
-namespace {
-
-std::vector<double> frequencies_of(const ExcitationRange& range, const TrueRig& rig) {
-  return range.frequencies.empty() ? std::vector{rig.frequency} : range.frequencies;
-}
-
-}  // namespace
-
 identify::Record Motions::reading(const identify::Sensors& sensors, std::uint64_t seed,
                                   std::vector<std::string>& warnings) const {
   constexpr std::uint64_t of_decay = 0xD1B54A32D192ED03U;  // other draws than those of the curve
@@ -37,13 +29,20 @@ MotionMaker::MotionMaker(const StressTest& question, const TrueRig& rig, const E
                          const sim::SteadyStateOptions& options)
     : question_(question), rig_(rig), range_(range), options_(options) {}
 
-ReferenceMotion MotionMaker::reference() const {
-  const std::vector<double> frequencies = frequencies_of(range_, rig_);
+Reference MotionMaker::reference() const {
   sim::Model model = undisturbed(rig_.truth);
-  model.excitation.amplitude = range_.amplitudes[range_.amplitudes.size() / 2];
-  model.excitation.frequency = frequencies[frequencies.size() / 2];
+  model.excitation.amplitude = middle_of(range_.amplitudes);
+  model.excitation.frequency = middle_of(range_.frequencies_or(rig_.frequency));
   const sim::SteadyState middle = sim::steady_state(model, options_);
-  return {.amplitude = middle.amplitude, .frequency = model.excitation.frequency, .Y = model.excitation.amplitude};
+  Reference reference{
+      {.amplitude = middle.amplitude, .frequency = model.excitation.frequency, .Y = model.excitation.amplitude},
+      middle.outcome};
+  constexpr double least = 1e-3;  // over Y; below it contacts so stiff that nothing computes them follow from F0/X
+  if (reference.outcome.ok() && !(middle.amplitude > least * model.excitation.amplitude))
+    reference.outcome = {
+        core::OutcomeKind::not_identifiable,
+        "the mass sticks, or hardly moves, in the middle of the range, and severities are relative to its motion there"};
+  return reference;
 }
 
 Motions MotionMaker::motions(const sim::Model& model, const identify::Sensors& sensors, double growth,
@@ -52,7 +51,7 @@ Motions MotionMaker::motions(const sim::Model& model, const identify::Sensors& s
   scenarios::Measurement curve{.kind = scenarios::MeasurementKind::steady_states};
   curve.amplitudes = range_.amplitudes;
   for (double& amplitude : curve.amplitudes) amplitude *= stretch;
-  curve.frequencies = frequencies_of(range_, rig_);
+  curve.frequencies = range_.frequencies_or(rig_.frequency);
   curve.sweeps = range_.sweeps;
   if (range_.sweeps > 1) curve.drift.rate = growth / (range_.sweeps - 1);
   result.stated = rig_.truth.model.excitation.frequency / model.excitation.frequency;

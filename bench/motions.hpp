@@ -10,6 +10,7 @@
 
 #include "bench/prediction.hpp"
 #include "bench/stress_test.hpp"
+#include "core/outcome.hpp"
 #include "identify/records/sensors.hpp"
 #include "scenarios/measurements/measure.hpp"
 #include "sim/orbits/steady_state.hpp"
@@ -31,14 +32,20 @@ struct Motions {
 void add_reading(const scenarios::MotionRecord& response, const identify::Sensors& sensors, std::uint64_t seed,
                  identify::Record& record);
 
+/// The motion that severities are relative to, or why there is none.
+struct Reference {
+  ReferenceMotion motion;
+  core::Outcome outcome;
+};
+
 /// A rig driven over a range, as a laboratory sets it.
 class MotionMaker {
  public:
   MotionMaker(const StressTest& question, const TrueRig& rig, const ExcitationRange& range,
               const sim::SteadyStateOptions& options);
 
-  /// The motion of the truth in the middle of the range.
-  [[nodiscard]] ReferenceMotion reference() const;
+  /// The motion of the truth in the middle of the range. A mass that sticks or hardly moves gives none.
+  [[nodiscard]] Reference reference() const;
 
   /// `model` is driven at its own frequency; the laboratory believes that it is the frequency of the rig. All
   /// friction of the model grows by `growth`, relative, from the first sweep to the last. `stretch` multiplies all

@@ -33,18 +33,18 @@ double amplitude_of(Truth estimate, const UnmeasuredTest& test) {
 UnmeasuredTests unmeasured_tests(const ExcitationRange& range, const TrueRig& rig) {
   constexpr double further = 1.5;
   constexpr double below = 0.9;
-  const std::vector<double> frequencies =
-      range.frequencies.empty() ? std::vector{rig.frequency} : range.frequencies;
-  const double middle = range.amplitudes[range.amplitudes.size() / 2];
-  return {{{further * std::ranges::max(range.amplitudes), frequencies[frequencies.size() / 2]},
-           {middle, below * std::ranges::min(frequencies)}}};
+  const std::vector<double> frequencies = range.frequencies_or(rig.frequency);
+  return {{{further * std::ranges::max(range.amplitudes), middle_of(frequencies)},
+           {middle_of(range.amplitudes), below * std::ranges::min(frequencies)}}};
 }
 
 double prediction_error(const CaseAnswer& answer, const Truth& believed, const UnmeasuredTests& tests,
                         const UnmeasuredAmplitudes& truth) {
+  // A motion at resonance with less would not settle in any time, and its prediction is wrong at any rate.
+  constexpr double least_zeta = 1e-6;
   Truth estimate = believed;
   sim::Oscillator& oscillator = estimate.model.oscillator;
-  oscillator.damping = 2.0 * std::sqrt(oscillator.mass * oscillator.stiffness) * std::max(answer.zeta, 0.0);
+  oscillator.damping = 2.0 * std::sqrt(oscillator.mass * oscillator.stiffness) * std::max(answer.zeta, least_zeta);
   estimate.F0 = std::max(answer.F0, 0.0);
   double sum = 0.0;
   for (std::size_t i = 0; i < tests.size(); ++i) {

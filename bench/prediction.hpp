@@ -7,8 +7,8 @@
 /// * 0.9 times the lowest frequency, at the input amplitude in the middle of the range.
 ///
 /// The truth is the amplitude x of the rig as it is, departure included. The prediction is x of Coulomb + viscous
-/// friction with the estimated zeta and F0 on the constants that the laboratory believes in. Estimates below zero
-/// count as zero.
+/// friction with the estimated zeta and F0 on the constants that the laboratory believes in. An F0 below zero
+/// counts as zero, and a zeta below 1e-6 as 1e-6.
 ///
 ///   prediction error = mean over both tests of |predicted x / true x - 1|, 1 at most each; 1 without an answer.
 ///

@@ -132,12 +132,14 @@ std::vector<Departure> departures_of(const Json& analysis) {
   return list;
 }
 
-/// Beyond its largest severity a departure has no meaning.
+/// Beyond its largest severity a departure has no meaning, and equal severities would be one cell twice.
 void check_severities(CheckedFile& file, const Json& analysis) {
-  const Json& grid = analysis.at("severities");
-  double most = 0.0;
-  for (const Json& value : grid.is_array() ? grid : Json::array({grid.at("from"), grid.at("to")}))
-    most = std::max(most, number(value));
+  std::vector<double> severities = grid_values(analysis.at("severities"));
+  std::ranges::sort(severities);
+  if (const auto twice = std::ranges::adjacent_find(severities); twice != severities.end())
+    file.complain("analysis.severities", "'analysis.severities' has a value twice", "each once",
+                  core::format_number(*twice, 6));
+  const double most = severities.back();
   for (const Departure& departure : departures_of(analysis)) {
     if (most > departure.largest())
       file.complain("analysis.severities", "'" + departure.name() + "' has no such severity",
@@ -186,6 +188,45 @@ void check_names(CheckedFile& file, const std::string& key) {
     if (std::ranges::count(names, names.back()) > 1)
       file.complain("analysis." + key + "[" + std::to_string(i) + "].name",
                     "there are two " + key + " with this name", "distinct names", names.back());
+  }
+}
+
+/// Smallest F0/k of the rigs [m]: the input amplitude up to which all of them stick. Nothing where it is not known
+/// or more than F0 and k decides.
+std::optional<double> least_moving_amplitude(const CheckedFile& file, const Json& analysis) {
+  const Json& system = file.values().at("system");
+  const std::optional<double> k = file.number_at("system", "stiffness");
+  if (!k || !file.has("system", "friction") || file.number_at("system", "cubic_stiffness").value_or(0.0) != 0.0 ||
+      (file.has("system", "damper_to") && file.text_at("system", "damper_to") != "ground") ||
+      file.has("excitation", "harmonics"))
+    return std::nullopt;
+  const Json& levels = analysis.at("ranges").at(0);
+  if (analysis.contains("rigs") && analysis.at("rigs").contains("friction_ratio")) {
+    const Json& ratio = analysis.at("rigs").at("friction_ratio");
+    if (!levels.contains("amplitudes") || !ratio.contains("from") || !ratio.contains("to")) return std::nullopt;
+    return middle_of(grid_values(levels.at("amplitudes"))) *
+           std::min(number(ratio.at("from")), number(ratio.at("to")));
+  }
+  const Json& friction = system.at("friction");
+  if (!friction.is_object() || !friction.contains("kinetic")) return std::nullopt;
+  return number(friction.at("kinetic")) / *k;
+}
+
+/// Refuses a range in which every rig sticks at every level: it has no motion that severities could refer to.
+void check_motion(CheckedFile& file, const Json& analysis) {
+  const std::optional<double> limit = least_moving_amplitude(file, analysis);
+  if (!limit) return;
+  for (std::size_t i = 0; i < analysis.at("ranges").size(); ++i) {
+    const Json& range = analysis.at("ranges").at(i);
+    if (!range.contains("amplitudes") || !range.contains("name")) continue;
+    const double most = std::ranges::max(grid_values(range.at("amplitudes")));
+    if (most > *limit) continue;
+    constexpr int digits = 3;
+    file.complain("analysis.ranges[" + std::to_string(i) + "].amplitudes",
+                  "the mass sticks at every level of the range '" + range.at("name").get<std::string>() +
+                      "': F0/(kY) is " + core::format_number(*limit / most, digits) + " at the largest Y",
+                  "an amplitude above F0/k = " + core::format_number(1e3 * *limit, digits) + " mm",
+                  core::format_number(1e3 * most, digits) + " mm");
   }
 }
 
@@ -263,6 +304,7 @@ void check_stress_test(CheckedFile& file) {
   if (!analysis.contains("laws")) return;
   check_pairs(file, analysis);
   check_severities(file, analysis);
+  check_motion(file, analysis);
   check_sweeps(file, analysis);
   const std::size_t departures = departures_of(analysis).size();
   const std::size_t motions =
@@ -325,8 +367,7 @@ StressTest stress_test_of(const CheckedValues& values) {
         {range.at("name").get<std::string>(), grid_values(range.at("amplitudes")),
          range.contains("frequencies") ? grid_values(range.at("frequencies")) : std::vector<double>{},
          range.at("sweeps").get<int>()});
-  const std::vector<double>& levels = result.ranges.front().amplitudes;
-  result.rigs = rigs_of(values, levels[levels.size() / 2]);
+  result.rigs = rigs_of(values, middle_of(result.ranges.front().amplitudes));
   if (section.contains("sensors"))
     for (const Json& set : section.at("sensors"))
       result.sensors.push_back({set.at("name").get<std::string>(), sensors_of(set)});
@@ -348,6 +389,12 @@ std::unique_ptr<const Question> ask_stress_test(CheckedValues&& values) {
 
 }  // namespace
 
+double middle_of(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::ranges::nth_element(values, middle);
+  return *middle;
+}
+
 const StressTest* stress_test_of(const Question& question) {
   const auto* const asked = dynamic_cast<const StressTestQuestion*>(&question);
   return asked == nullptr ? nullptr : &asked->question();
@@ -364,6 +411,14 @@ const Analysis& stress_test_analysis() {
       .keys = stress_test_keys(),
       .needs = {{"", {"base_harmonic"}, {"frequency"}, true, "the methods need the amplitude of the base"}},
       .results = score_fields(),
+      .chart = {.table = "consequences",
+                .list = "consequences",
+                .x = "distance",
+                .y = "harm",
+                .x_label = "distance in units of noise",
+                .y_label = "harm",
+                .by = "law",
+                .kind = MainChart::Kind::points},
       .check = check_stress_test,
       .ask = ask_stress_test};
   return analysis;

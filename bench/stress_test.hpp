@@ -23,10 +23,18 @@ namespace dualdamp::bench {
 /// combination of both.
 struct ExcitationRange {
   std::string name;
-  std::vector<double> amplitudes;   ///< m
-  std::vector<double> frequencies;  ///< rad/s; empty: that of the rig
+  std::vector<double> amplitudes;   ///< m, in any order
+  std::vector<double> frequencies;  ///< rad/s, in any order; empty: that of the rig
   int sweeps = 1;                   ///< how often all of them are measured, one after the other
+
+  /// The frequencies, where `of_rig` is that of the rig.
+  [[nodiscard]] std::vector<double> frequencies_or(double of_rig) const {
+    return frequencies.empty() ? std::vector{of_rig} : frequencies;
+  }
 };
+
+/// The value in the middle of a list in any order, the upper one of two. The list is not empty.
+[[nodiscard]] double middle_of(std::vector<double> values);
 
 struct SensorSet {
   std::string name;

@@ -105,7 +105,7 @@ class EntryReader {
     const core::NumberText parsed = core::parse_number(text);
     if (!parsed.value)
       refuse(path_, line_, "'" + std::string(column_names.at(static_cast<std::size_t>(column))) + "' is no number",
-             "a number, or nothing", text);
+             "a number; nothing, nan or none for no value", text);
     // Larger numbers would overflow in products, and a motion with such damping cannot be computed.
     constexpr double largest = 1e60;
     if (std::abs(*parsed.value) > largest)

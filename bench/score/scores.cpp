@@ -15,10 +15,7 @@ namespace {
 constexpr double significant = 2.0;  // standard errors
 
 double percentile_50(std::vector<double> values) {
-  if (values.empty()) return not_stated;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::ranges::nth_element(values, middle);
-  return *middle;
+  return values.empty() ? not_stated : middle_of(std::move(values));
 }
 
 /// Error statistics of one method in one cell.
