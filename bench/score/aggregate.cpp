@@ -1,19 +1,46 @@
 #include "bench/score/aggregate.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 namespace dualdamp::bench {
 
 namespace {
 
-/// Weights of cases and cells.
+/// Weights of cases, cells and departures.
 struct Weights {
   std::vector<double> cases;
-  std::vector<double> cells;      ///< sums of the weights of their cases
-  std::vector<double> laws;       ///< of the departures, then of the truth
-  std::vector<double> in_family;  ///< of the cells: equal for departures, and for the cells of each
+  std::vector<double> cells;  ///< sums of the weights of their cases
+  std::vector<double> laws;   ///< of the departures, then of the truth
+  /// Of the cells in the area of risk of their family: equal for departures, and for the cells of each; 0 for cells
+  /// without a loss.
+  std::vector<double> of_risk;
 };
+
+/// Whether the cases of a cell have a loss: there is a true zeta or F0.
+bool has_loss(const Plan& plan, std::size_t cell) {
+  const Grid& grid = plan.grid();
+  return grid.parameters(grid.motion(grid.first_of_cell(cell).motion)).is_given();
+}
+
+/// `Weights::of_risk` from the others.
+std::vector<double> weights_of_risk(const Plan& plan, const Weights& weights) {
+  std::vector<double> shares(weights.cells.size(), 0.0);
+  std::vector<double> members(weights.laws.size(), 0.0);
+  const auto counts = [&](std::size_t cell) { return weights.cells[cell] > 0.0 && has_loss(plan, cell); };
+  for (std::size_t cell = 0; cell < shares.size(); ++cell)
+    if (counts(cell)) members[plan.law_of(cell)] += 1.0;
+  std::map<Family, double> sums;
+  for (std::size_t cell = 0; cell < shares.size(); ++cell) {
+    if (!counts(cell)) continue;
+    shares[cell] = weights.laws[plan.law_of(cell)] / members[plan.law_of(cell)];
+    sums[plan.families()[cell]] += shares[cell];
+  }
+  for (std::size_t cell = 0; cell < shares.size(); ++cell)
+    if (shares[cell] > 0.0) shares[cell] /= sums[plan.families()[cell]];
+  return shares;
+}
 
 Weights weights_of(const Plan& plan, const Resample& resample) {
   Weights weights;
@@ -24,13 +51,7 @@ Weights weights_of(const Plan& plan, const Resample& resample) {
   weights.cells.assign(plan.grid().cells(), 0.0);
   for (std::size_t number = 0; number < weights.cases.size(); ++number)
     weights.cells[plan.groups()[plan.group_of(number)].cell] += weights.cases[number];
-  std::map<Family, double> sums;
-  for (std::size_t cell = 0; cell < weights.cells.size(); ++cell) {
-    weights.in_family.push_back(weights.laws[plan.law_of(cell)]);
-    if (weights.cells[cell] > 0.0) sums[plan.families()[cell]] += weights.in_family.back();
-  }
-  for (std::size_t cell = 0; cell < weights.cells.size(); ++cell)
-    weights.in_family[cell] /= std::max(sums[plan.families()[cell]], std::numeric_limits<double>::min());
+  weights.of_risk = weights_of_risk(plan, weights);
   return weights;
 }
 
@@ -63,10 +84,21 @@ class MeanMetrics {
   std::array<Mean, metric_count> means_;
 };
 
-/// The mean over families of the means of the families.
-Metrics over_families(const std::map<Family, MeanMetrics>& families) {
+/// The means over the departures of each family. `laws`: of the departures, then perhaps of the truth.
+std::map<Family, Metrics> over_laws(const Plan& plan, const Weights& weights, const std::vector<Metrics>& laws) {
+  const std::vector<Departure>& departures = plan.grid().question().departures;
+  std::map<Family, MeanMetrics> means;
+  for (std::size_t law = 0; law < laws.size(); ++law)
+    if (weights.laws[law] > 0.0)
+      means[law < departures.size() ? departures[law].family() : Family::none].add(weights.laws[law], laws[law]);
+  std::map<Family, Metrics> families;
+  for (const auto& [family, mean] : means) families[family] = mean.value();
+  return families;
+}
+
+Metrics over_families(const std::map<Family, Metrics>& families) {
   MeanMetrics all;
-  for (const auto& [family, mean] : families) all.add(1.0, mean.value());
+  for (const auto& [family, metrics] : families) all.add(1.0, metrics);
   return all.value();
 }
 
@@ -74,17 +106,14 @@ Metrics over_families(const std::map<Family, MeanMetrics>& families) {
 /// families.
 Metrics interval_metrics(const Plan& plan, const Weights& weights, const std::vector<MetricMeans>& groups,
                          std::size_t axis, std::size_t interval) {
-  const std::vector<Departure>& departures = plan.grid().question().departures;
-  std::vector<MetricMeans> laws(departures.size());
+  std::vector<MetricMeans> sums(plan.grid().question().departures.size());
   for (std::size_t group = 0; group < groups.size(); ++group) {
     const Plan::Group& place = plan.groups()[group];
-    if (place.law < laws.size() && place.intervals[axis] == interval) laws[place.law].add(groups[group]);
+    if (place.law < sums.size() && place.intervals[axis] == interval) sums[place.law].add(groups[group]);
   }
-  std::map<Family, MeanMetrics> families;
-  for (std::size_t law = 0; law < laws.size(); ++law)
-    if (weights.laws[law] > 0.0 && !laws[law].empty())
-      families[departures[law].family()].add(weights.laws[law], laws[law].value());
-  return over_families(families);
+  std::vector<Metrics> laws;
+  for (const MetricMeans& sum : sums) laws.push_back(sum.value());
+  return over_families(over_laws(plan, weights, laws));
 }
 
 /// An area of risk under construction, and the confidence of its last case.
@@ -115,9 +144,10 @@ void add_areas(const Plan& plan, const Weights& weights, std::size_t entrant, Ag
     if (weight == 0.0) continue;
     const Mark& mark = plan.mark(entrant, number);
     const std::size_t cell = plan.groups()[plan.group_of(number)].cell;
+    if (std::isnan(mark.loss)) continue;
     cells[cell].add(mark, weight);
-    if (weights.in_family[cell] == 0.0) continue;
-    const double share = weight * weights.in_family[cell] / weights.cells[cell];
+    if (weights.of_risk[cell] == 0.0) continue;
+    const double share = weight * weights.of_risk[cell] / weights.cells[cell];
     family_of[cell]->add(mark, share);
     all.add(mark, share);
   }
@@ -132,14 +162,15 @@ Aggregate aggregate_of(const Plan& plan, const Weights& weights, std::size_t ent
   std::vector<MetricMeans> cells(plan.grid().cells());
   for (std::size_t group = 0; group < groups.size(); ++group) cells[plan.groups()[group].cell].add(groups[group]);
   Aggregate result;
-  std::map<Family, MeanMetrics> families;
+  std::vector<MeanMetrics> means(weights.laws.size());
   for (std::size_t cell = 0; cell < cells.size(); ++cell) {
     result.cells.push_back(cells[cell].value());
-    if (weights.in_family[cell] > 0.0 && weights.cells[cell] > 0.0)
-      families[plan.families()[cell]].add(weights.in_family[cell], result.cells.back());
+    means[plan.law_of(cell)].add(1.0, result.cells.back());
   }
-  for (const auto& [family, mean] : families) result.families[family] = mean.value();
-  result.all = over_families(families);
+  std::vector<Metrics> laws;
+  for (const MeanMetrics& mean : means) laws.push_back(mean.value());
+  result.families = over_laws(plan, weights, laws);
+  result.all = over_families(result.families);
   add_areas(plan, weights, entrant, result);
   for (std::size_t axis = 0; axis < consequence_axes().size(); ++axis) {
     std::vector<Metrics>& list = result.intervals.emplace_back();

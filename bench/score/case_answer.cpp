@@ -10,17 +10,18 @@ namespace {
 constexpr double level = 0.05;
 constexpr auto nothing = std::numeric_limits<float>::quiet_NaN();
 
-bool rejects(const CaseAnswer& answer) {
-  if (!answer.is_given()) return true;
-  if (answer.usable != CaseAnswer::Usable::missing) return answer.usable == CaseAnswer::Usable::no;
-  return answer.p_value < level;
+/// Whether the method stands by its answer: what it says counts, else its p-value.
+bool stands_by(const CaseAnswer& answer) {
+  if (!answer.is_given()) return false;
+  if (answer.usable != CaseAnswer::Usable::missing) return answer.usable == CaseAnswer::Usable::yes;
+  return !(answer.p_value < level);
 }
 
 /// Confidence: usable answers in [0, 1], others in [-2, -1], no answer -3.
-double confidence_of(const CaseAnswer& answer) {
+double confidence_of(const CaseAnswer& answer, bool stands) {
   if (!answer.is_given()) return -3.0;
   const double p = std::isnan(answer.p_value) ? 1.0 : std::clamp(answer.p_value, 0.0, 1.0);
-  return answer.usable == CaseAnswer::Usable::no ? p - 2.0 : p;
+  return stands ? p : p - 2.0;
 }
 
 ParameterMark parameter_mark(double value, const std::array<double, 2>& interval, bool stands, double truth) {
@@ -54,12 +55,15 @@ double interval_score(double low, double high, double truth) {
 Mark mark_of(const CaseAnswer& answer, const TrueParameters& truth) {
   Mark mark;
   mark.given = answer.is_given();
-  const bool stands = mark.given && answer.usable != CaseAnswer::Usable::no;
+  const bool stands = stands_by(answer);
   mark.zeta = parameter_mark(answer.zeta, answer.zeta95, stands, truth.zeta);
   mark.F0 = parameter_mark(answer.F0, answer.F095, stands, truth.F0);
-  if (mark.given) mark.loss = loss_of(mark.zeta, mark.F0);
-  mark.rejected = rejects(answer);
-  mark.confidence = static_cast<float>(confidence_of(answer));
+  if (!truth.is_given())
+    mark.loss = nothing;
+  else if (mark.given)
+    mark.loss = loss_of(mark.zeta, mark.F0);
+  mark.rejected = !stands;
+  mark.confidence = static_cast<float>(confidence_of(answer, stands));
   return mark;
 }
 

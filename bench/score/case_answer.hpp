@@ -10,12 +10,14 @@
 /// Without an interval, or if the method does not stand by its answer, the score is that of the interval from 0 to
 /// twice the truth.
 ///
-///   loss = largest relative error of zeta and F0, 1 at most; 1 without an answer.
+///   loss = largest relative error of zeta and F0, 1 at most; 1 without an answer; NaN without a truth of either.
 ///
-/// rejected: the answer is not usable, or, where that is not stated, its p-value is below 0.05, or there is no
-/// answer. confidence orders the cases of one method: usable before not usable before none, then by the p-value.
+/// A method stands by an answer that it calls usable; where it does not say, by one whose p-value is not below
+/// 0.05. rejected: it does not, or there is no answer. confidence orders the cases of one method: usable before not
+/// usable before none, then by the p-value.
 
 #include <array>
+#include <cmath>
 #include <limits>
 #include <string>
 #include <vector>
@@ -45,6 +47,9 @@ struct Entry {
 struct TrueParameters {
   double zeta = not_stated;
   double F0 = not_stated;  ///< N
+
+  /// Whether there is at least one.
+  [[nodiscard]] bool is_given() const { return !std::isnan(zeta) || !std::isnan(F0); }
 };
 
 inline constexpr double worst_score = 40.0;
@@ -61,7 +66,7 @@ struct ParameterMark {
 /// The scores of one answer.
 struct Mark {
   ParameterMark zeta, F0;
-  float loss = 1.0F;
+  float loss = 1.0F;              ///< NaN: no truth
   float prediction_error = 1.0F;  ///< bench/prediction.hpp
   float confidence = 0.0F;
   bool rejected = true;

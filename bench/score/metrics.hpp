@@ -1,7 +1,6 @@
 #pragma once
 /// The metrics of a method's answers to many cases, and their weighted means.
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -84,7 +83,6 @@ class Mean {
     weight_ += other.weight_;
     sum_ += other.sum_;
   }
-  [[nodiscard]] bool empty() const { return weight_ == 0.0; }
   [[nodiscard]] double value() const { return weight_ > 0.0 ? sum_ / weight_ : not_stated; }
 
  private:
@@ -104,9 +102,6 @@ class MetricMeans {
   }
   void add(const MetricMeans& other) {
     for (std::size_t i = 0; i < metric_count; ++i) means_[i].add(other.means_[i]);
-  }
-  [[nodiscard]] bool empty() const {
-    return std::ranges::all_of(means_, [](const Mean& mean) { return mean.empty(); });
   }
   [[nodiscard]] Metrics value() const {
     Metrics metrics;

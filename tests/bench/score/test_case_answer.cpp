@@ -53,6 +53,25 @@ TEST_CASE("rejected: what is stated counts, else the p-value, else silence is no
   CHECK(mark_of({}, truth).rejected);
 }
 
+TEST_CASE("a small p-value withdraws an answer whose method says nothing else, as usable = no does") {
+  CaseAnswer silent = answer(0.1, 10.0);
+  silent.zeta95 = {0.09, 0.11};
+  silent.p_value = 0.01;
+  CaseAnswer stated = silent;
+  stated.usable = CaseAnswer::Usable::no;
+  CHECK(mark_of(silent, truth).zeta.score == Approx(ignorance_score));
+  CHECK_FALSE(mark_of(silent, truth).zeta.has_interval);
+  CHECK(mark_of(silent, truth).confidence == mark_of(stated, truth).confidence);
+  silent.p_value = 0.06;
+  CHECK(mark_of(silent, truth).zeta.has_interval);
+}
+
+TEST_CASE("loss: none where there is no truth to err from, with an answer and without") {
+  CHECK(std::isnan(mark_of(answer(0.1, 10.0), {}).loss));
+  CHECK(std::isnan(mark_of({}, {}).loss));
+  CHECK(mark_of({}, {not_stated, 10.0}).loss == 1.0F);
+}
+
 TEST_CASE("confidence: usable before not usable before none, then by the p-value") {
   const auto confidence = [](double p, CaseAnswer::Usable usable) {
     CaseAnswer given = answer(0.1, 10.0);
