@@ -148,6 +148,7 @@ class Parser {
         ->add_option("--seed", export_.seed,
                      "Seed of the noise, 0 to 9007199254740991 (default: a hidden one, at random)")
         ->type_name("N");
+    export_command_->add_flag("--overwrite", export_.overwrite, "Remove an earlier export in the directory");
     score_command_ =
         stress_command_->add_subcommand("score", "Score answers to exported records beside the methods");
     add_common(*score_command_, score_.file, score_.set, score_.jobs);

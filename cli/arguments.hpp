@@ -32,6 +32,7 @@ struct ExportCommand {
   std::string seed;  ///< of all random numbers; empty: a hidden random one
   std::vector<std::string> set;
   int jobs = 0;
+  bool overwrite = false;  ///< the files of an earlier export
 };
 
 /// `stress score`: scores answers of other programs beside the methods.

@@ -27,7 +27,8 @@ bench::ContestLoader loader(const std::string& file, const std::vector<std::stri
 std::string export_stress_test(const ExportCommand& command) {
   const scenarios::Scenario scenario = bench::contest_scenario(
       loader(command.file, command.set), command.seed.empty() ? bench::hidden_seed() : command.seed, "--seed");
-  const scenarios::RunOptions options{.directory = command.out, .threads = command.jobs};
+  scenarios::RunOptions options{.directory = command.out, .threads = command.jobs};
+  if (command.overwrite) options.found = scenarios::FoundCases::overwrite;
   const std::size_t cases = bench::export_cases(*bench::stress_test_of(*scenario.question),
                                                 scenarios::context_of(scenario, options), command.out);
   return "wrote " + std::to_string(cases) + " cases to " + command.out +

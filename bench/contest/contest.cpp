@@ -61,6 +61,7 @@ scenarios::Scenario scored_scenario(const ContestLoader& load, const std::string
   std::set<std::string> names;
   for (std::size_t i = 0; i < question.methods.size(); ++i) names.insert(question.entrant(i));
   for (const Answers& entry : answers) {
+    if (entry.name.empty()) refuse(entry.file, "answers need a name", "a name");
     if (!names.insert(entry.name).second)
       refuse(entry.file, "two entries have the same name", "another name", entry.name);
     question.entries.push_back(read_entry(entry.name, entry.file, key));

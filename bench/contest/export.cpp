@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <functional>
 #include <ostream>
 #include <span>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -16,6 +18,8 @@
 #include "sim/parallel.hpp"
 
 namespace dualdamp::bench {
+
+namespace fs = std::filesystem;
 
 namespace {
 
@@ -49,6 +53,10 @@ struct Columns {
 };
 
 void write_pairs(std::ostream& out, const std::vector<Pair>& pairs) {
+  if (pairs.empty()) {  // nothing could be measured
+    out << "Y [m],x [m]\n";
+    return;
+  }
   Columns columns;
   for (const auto& [name, member] :
        {std::pair("Y [m]", &Pair::Y), std::pair("x [m]", &Pair::x), std::pair("omega [rad/s]", &Pair::omega),
@@ -58,7 +66,7 @@ void write_pairs(std::ostream& out, const std::vector<Pair>& pairs) {
     for (const Pair& pair : pairs) column.push_back(pair.*member);
     columns.add(name, std::move(column));
   }
-  columns.write_header(out, !pairs.empty() && !pairs.front().sweep.empty());
+  columns.write_header(out, !pairs.front().sweep.empty());
   columns.write_rows(out, [&](std::size_t row) { return pairs[row].sweep; });
 }
 
@@ -121,6 +129,32 @@ void write_case(const std::string& directory, const std::string& name, const ide
   scenarios::write_files(directory, files);
 }
 
+/// "000001.csv", "000001-decay.csv", "000001-random.csv"
+bool is_record(const std::string& name) {
+  const std::size_t digits = std::min(name.find_first_not_of("0123456789"), name.size());
+  const std::string_view rest = std::string_view(name).substr(digits);
+  return digits >= 6 && (rest == ".csv" || rest == "-decay.csv" || rest == "-random.csv");
+}
+
+/// Refuses or removes the files of an earlier export: without its key its answers could not be scored, and its
+/// decays would be read as those of new cases.
+void clear(const std::string& directory, scenarios::FoundCases found) {
+  const fs::path folder(directory);
+  std::vector<fs::path> old;
+  for (const char* name : {"constants.csv", "key.json"})
+    if (fs::exists(folder / name)) old.push_back(folder / name);
+  std::error_code error;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder / "cases", error))
+    if (is_record(entry.path().filename().string())) old.push_back(entry.path());
+  if (old.empty()) return;
+  if (found != scenarios::FoundCases::overwrite)
+    throw scenarios::OutputError(directory +
+                                 " holds an earlier export: --overwrite removes it, --out DIR keeps them apart");
+  for (const fs::path& path : old)
+    if (!fs::remove(path, error) && error)
+      throw scenarios::OutputError("cannot remove " + path.string() + ": " + error.message());
+}
+
 /// One line of constants.csv.
 std::string constants_line(const MeasuredCase& measured) {
   const identify::Sensors& sensors = measured.sensors.sensors;
@@ -142,6 +176,7 @@ Key key_of(const StressTest& question, const scenarios::RunContext& context) {
 std::size_t export_cases(const StressTest& question, const scenarios::RunContext& context,
                          const std::string& directory) {
   const Grid grid(question);
+  clear(directory, context.options.found);
   const Key key = key_of(question, context);
   std::vector<std::size_t> file_of(key.numbers.size());
   for (std::size_t i = 0; i < key.numbers.size(); ++i) file_of[key.numbers[i]] = i + 1;

@@ -17,7 +17,7 @@
 namespace dualdamp::bench {
 
 /// Writes all records on all threads (`options.threads`), then `constants.csv`, then `key.json`. Returns the number
-/// of cases.
+/// of cases. Files of an earlier export are removed if `options.found` says so; else they are an error.
 std::size_t export_cases(const StressTest& question, const scenarios::RunContext& context,
                          const std::string& directory);
 

@@ -11,6 +11,7 @@ from pathlib import Path
 import numpy as np
 
 from ._arguments import path_text, thread_count
+from ._errors import InvalidScenario
 from ._identification import identify, in_memory
 from ._library import core
 from ._run import run_source, source_of
@@ -53,9 +54,11 @@ class Case:
 
     def identify(self, **options):
         """Calls `dualdamp.identify` with the record and the constants of the case. `options` are those of `identify`."""
-        units = {name: unit for name, unit in (("omega", "rad/s"), ("phase", "rad")) if name in self.record.dtype.names}
-        frequency = quantity(self.frequency, "rad/s")
-        return identify(self.record, mass=self.mass, stiffness=self.stiffness, frequency=frequency, units=units, **options)
+        columns = self.record.dtype.names
+        units = {name: unit for name, unit in (("omega", "rad/s"), ("phase", "rad")) if name in columns}
+        if "omega" not in columns:
+            options = {"frequency": quantity(self.frequency, "rad/s"), **options}
+        return identify(self.record, mass=self.mass, stiffness=self.stiffness, units=units, **options)
 
 
 def benchmark(scenario, methods, *, changes=None, seed=None, out=None, threads=0, progress=None):
@@ -67,8 +70,8 @@ def benchmark(scenario, methods, *, changes=None, seed=None, out=None, threads=0
         A scenario with the analysis ``stress_test``, such as ``"scenarios/stress/benchmark.yaml"``.
     methods : mapping of str to callable
         Each is called as ``method(case)`` with a `Case`, and returns a mapping with any of ``zeta``, ``F0``, ``zeta_low``,
-        ``zeta_high``, ``F0_low``, ``F0_high`` (95 % intervals), ``p_value``, ``usable``; or None. A mapping without ``zeta`` or
-        without ``F0`` counts as no answer.
+        ``zeta_high``, ``F0_low``, ``F0_high`` (95 % intervals), ``p_value``, ``usable`` (a bool, ``"yes"`` or ``"no"``); or None.
+        A mapping without ``zeta`` or without ``F0`` counts as no answer.
     changes : mapping, optional
         Values that replace those of the scenario, as in `run`.
     seed : int, optional
@@ -85,10 +88,12 @@ def benchmark(scenario, methods, *, changes=None, seed=None, out=None, threads=0
     ------
     InvalidScenario
         The scenario is no stress test, or an answer is invalid; the message names the case.
+    TypeError
+        A method returns no mapping, or one with other keys.
 
     Notes
     -----
-    An exception of a method ends the benchmark; a note of the exception names the case. A method is called for one case at a time.
+    An exception of a method, or its first invalid answer, ends the benchmark; a note of the exception names method and case. A method is called for one case at a time.
 
     Examples
     --------
@@ -101,6 +106,8 @@ def benchmark(scenario, methods, *, changes=None, seed=None, out=None, threads=0
     >>> [(row.method, round(row.interval_score, 2)) for row in scored.result.ranking]
     [('resonance_least_squares', 1.2), ('den_hartog_fit', 1.59), ('resonance_two_point', 2.0), ('line', 2.35)]
     """
+    if not all(isinstance(name, str) and name for name in methods):
+        raise TypeError("methods need names: texts that are not empty")
     with tempfile.TemporaryDirectory() as folder:
         stress_export(scenario, folder, changes=changes, seed=seed, threads=threads)
         answers = {name: _answers(name, method, folder) for name, method in methods.items()}
@@ -108,7 +115,7 @@ def benchmark(scenario, methods, *, changes=None, seed=None, out=None, threads=0
         return stress_score(scenario, key, answers, changes=changes, out=out, threads=threads, progress=progress)
 
 
-def stress_export(scenario, directory, *, changes=None, seed=None, threads=0):
+def stress_export(scenario, directory, *, changes=None, seed=None, threads=0, overwrite=False):
     """Write the records and constants of all cases of a stress test, and the key.
 
     Parameters
@@ -121,6 +128,8 @@ def stress_export(scenario, directory, *, changes=None, seed=None, threads=0):
         Seed of all noise. Default: a hidden one, drawn at random.
     threads : int, optional
         Largest number of threads; 0: all cores.
+    overwrite : bool, optional
+        Remove the files of an earlier export in this directory; without it they are refused.
 
     Returns
     -------
@@ -132,9 +141,10 @@ def stress_export(scenario, directory, *, changes=None, seed=None, threads=0):
     InvalidScenario
         The scenario is no stress test.
     OutputError
-        The files cannot be written.
+        The files cannot be written, or the directory holds an earlier export.
     """
-    return core.export_cases(source_of(scenario, changes), path_text(directory), "" if seed is None else str(seed), thread_count(threads))
+    seed = "" if seed is None else str(seed)
+    return core.export_cases(source_of(scenario, changes), path_text(directory), seed, thread_count(threads), bool(overwrite))
 
 
 def cases(directory):
@@ -198,7 +208,8 @@ def _table(path):
     """A structured array from a file that the program wrote, in SI."""
     with open(path) as file:
         names = [name.split(" ")[0] for name in file.readline().strip().split(",")]
-        numbers = np.loadtxt(file, delimiter=",", ndmin=2)
+        rows = file.readlines()
+    numbers = np.loadtxt(rows, delimiter=",", ndmin=2) if rows else np.empty((0, len(names)))
     table = np.empty(len(numbers), [(name, float) for name in names])
     for i, name in enumerate(names):
         table[name] = numbers[:, i]
@@ -225,11 +236,33 @@ def _row(number, answer):
         raise TypeError(f"a method returns a mapping or None, not {type(answer).__name__}")
     if unknown := set(answer) - set(_COLUMNS):
         raise TypeError(f"an answer has no {', '.join(map(repr, sorted(unknown)))}; it may have {', '.join(_COLUMNS)}")
-    return [number, *(_cell(column, answer.get(column)) for column in _COLUMNS)]
+    cells = {column: _cell(number, column, answer.get(column)) for column in _COLUMNS}
+    for name in ("zeta", "F0"):
+        low, high = cells[f"{name}_low"], cells[f"{name}_high"]
+        if (low == "") != (high == ""):
+            raise InvalidScenario(f"case {number}: the interval of {name!r} has one end")
+        if low and float(low) > float(high):
+            raise InvalidScenario(f"case {number}: the interval of {name!r} ends below its begin: {low} > {high}")
+    return [number, *cells.values()]
 
 
-def _cell(column, value):
+def _cell(number, column, value):
     if value is None:
         return ""
-    is_truth = isinstance(value, (bool, np.bool_)) or (column == "usable" and value in (0, 1))
-    return ("yes" if value else "no") if is_truth else repr(float(value))
+    if column == "usable":
+        for word, same in (("yes", True), ("no", False)):
+            if isinstance(value, str) and value == word or not isinstance(value, str) and value == same:
+                return word
+        raise InvalidScenario(f"case {number}: 'usable' is True, False, 'yes' or 'no', not {value!r}")
+    try:
+        found = float(value)
+    except (TypeError, ValueError):
+        found = None
+    if found is None or isinstance(value, (bool, np.bool_)):
+        raise InvalidScenario(f"case {number}: {column!r} is no number: {value!r}")
+    if np.isnan(found):
+        return ""
+    low, high = (0, 1) if column == "p_value" else (-1e60, 1e60)
+    if not low <= found <= high:
+        raise InvalidScenario(f"case {number}: {column!r} is out of range: {found!r}, not from {low} to {high}")
+    return repr(found)

@@ -119,11 +119,13 @@ Run run(const Source& source, const Settings& settings, std::optional<ProgressCa
 }
 
 /// Exports a stress test and returns the number of cases. `seed`: empty for a hidden one.
-std::size_t export_cases(const Source& source, const std::string& directory, const std::string& seed, int threads) {
+std::size_t export_cases(const Source& source, const std::string& directory, const std::string& seed, int threads,
+                         bool overwrite) {
   return interruptible([&] {
     const scenarios::Scenario scenario =
         bench::contest_scenario(loader(source), seed.empty() ? bench::hidden_seed() : seed, "seed");
-    const scenarios::RunOptions options{.directory = directory, .threads = threads};
+    scenarios::RunOptions options{.directory = directory, .threads = threads};
+    if (overwrite) options.found = scenarios::FoundCases::overwrite;
     return bench::export_cases(*bench::stress_test_of(*scenario.question), scenarios::context_of(scenario, options),
                                directory);
   });
@@ -236,7 +238,7 @@ void add_runs(py::module_& module) {
       py::arg("overwrite") = false, py::arg("progress") = py::none(), py::arg("key") = "",
       py::arg("answers") = std::vector<std::pair<std::string, std::string>>{});
   module.def("export_cases", &export_cases, py::arg("source"), py::arg("directory"), py::arg("seed"),
-             py::arg("threads"));
+             py::arg("threads"), py::arg("overwrite"));
   module.def("resolved", [](const Source& source) { return load(source).resolved; }, py::arg("source"));
   module.def("csv_text", &csv_text, py::arg("columns"), py::arg("rows"));
 }

@@ -176,6 +176,7 @@ def stress_export(
     changes: Mapping[str, Any] | None = None,
     seed: int | None = None,
     threads: int = 0,
+    overwrite: bool = False,
 ) -> int: ...
 def cases(directory: Path) -> Iterator[Case]: ...
 def stress_score(

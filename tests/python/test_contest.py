@@ -28,8 +28,8 @@ def test_a_truth_may_be_a_number():
     from dualdamp._contest import _row
 
     assert [_row(1, {"usable": value})[-1] for value in (1, 0, 1.0, np.int64(1), np.bool_(False), True, None)] == ["yes", "no", "yes", "yes", "no", "yes", ""]
-    assert _row(1, {"usable": 2})[-1] == "2.0"  # refused by the reader of the answers
-    assert _row(1, {"zeta": 1})[1] == "1.0"
+    assert [_row(1, {"usable": word})[-1] for word in ("yes", "no")] == ["yes", "no"]
+    assert _row(1, {"zeta": 1, "F0": float("nan")})[1:3] == ["1.0", ""]
 
 
 def test_a_method_of_the_program_scores_as_itself():
@@ -76,21 +76,48 @@ def test_answers_from_a_file_and_from_columns(tmp_path):
     [
         ({"beta": 1}, TypeError, "has no 'beta'"),
         (3, TypeError, "a mapping or None, not int"),
-        ({"zeta": "much"}, ValueError, "could not convert"),
-        ({"zeta_low": 0.1}, dd.InvalidScenario, "an interval has one end"),
-        ({"p_value": 2}, dd.InvalidScenario, "'p_value' is out of range"),
+        ({"zeta": "much"}, dd.InvalidScenario, "case 1: 'zeta' is no number: 'much'"),
+        ({"zeta": True}, dd.InvalidScenario, "case 1: 'zeta' is no number: True"),
+        ({"F0": float("inf")}, dd.InvalidScenario, "case 1: 'F0' is out of range: inf"),
+        ({"zeta_low": 0.1}, dd.InvalidScenario, "case 1: the interval of 'zeta' has one end"),
+        ({"F0_low": 3, "F0_high": 2}, dd.InvalidScenario, "case 1: the interval of 'F0' ends below its begin: 3.0 > 2.0"),
+        ({"p_value": 2}, dd.InvalidScenario, "case 1: 'p_value' is out of range: 2.0"),
+        ({"usable": 2}, dd.InvalidScenario, "case 1: 'usable' is True, False, 'yes' or 'no', not 2"),
+        ({"usable": float("nan")}, dd.InvalidScenario, "case 1: 'usable' is True, False, 'yes' or 'no', not nan"),
     ],
 )
-def test_answers_that_are_none(answer, error, message):
+def test_an_invalid_answer_ends_the_benchmark_at_its_case(answer, error, message):
     with pytest.raises(error, match=message) as caught:
         dd.benchmark(SMALL, {"mine": lambda case: answer}, seed=1)
-    if error is not dd.InvalidScenario:
-        assert caught.value.__notes__ == ["in case 1 of the method 'mine'"]
-    else:
-        assert "mine:2" in str(caught.value)
+    assert caught.value.__notes__ == ["in case 1 of the method 'mine'"]
+
+
+def test_a_case_through_resonance_is_identified_at_its_own_frequencies(tmp_path):
+    dd.stress_export("scenarios/stress/response.yaml", tmp_path, seed=7, changes={"analysis.laws": ["detuning"], "analysis.severities": [0.01]})
+    case = next(dd.cases(tmp_path))
+    assert np.ptp(case.record["omega"]) > 1
+    found = case.identify(methods=["receptance"])
+    assert found.result.estimates[0].zeta > 0
+
+
+def test_a_case_without_readings_is_an_empty_record(tmp_path):
+    changes = {"analysis.rigs": {"count": 2, "friction_ratio": {"from": 0.5, "to": 1.5}}, "analysis.laws": ["dahl"], "analysis.seeds": 1}
+    dd.stress_export(SMALL, tmp_path, seed=7, changes=changes)
+    lengths = [len(case.record) for case in dd.cases(tmp_path)]
+    assert 0 in lengths and 5 in lengths
+
+
+def test_an_earlier_export_is_removed_only_on_demand(tmp_path):
+    dd.stress_export(SMALL, tmp_path, seed=7, changes={"analysis.decay": {"displacement": "20 mm", "peaks": 6}})
+    with pytest.raises(dd.OutputError, match="holds an earlier export"):
+        dd.stress_export(SMALL, tmp_path, seed=8)
+    dd.stress_export(SMALL, tmp_path, seed=8, overwrite=True)
+    assert all(case.decay is None for case in dd.cases(tmp_path))
 
 
 def test_refusals(tmp_path):
+    with pytest.raises(TypeError, match="methods need names"):
+        dd.benchmark(SMALL, {"": lambda case: None})
     with pytest.raises(dd.InvalidScenario, match="asks for no stress test"):
         dd.benchmark("scenarios/examples/coulomb.yaml", {})
     with pytest.raises(dd.InvalidScenario, match="two entries have the same name"):
