@@ -25,7 +25,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::string_view number_key = "{\"case\":";
-constexpr const char* way_out = "--resume goes on with them, --overwrite begins anew, --out DIR keeps them apart";
+constexpr const char* way_out = "--overwrite begins anew, --out DIR keeps them apart";
 
 /// The number of the case in a line; nothing for a line without a case.
 std::optional<std::size_t> number_of(std::string_view line) {
@@ -168,7 +168,7 @@ void CaseFile::prepare(FoundCases found) {
   if (found == FoundCases::refuse && cases > 0) {
     if (is_this && cases >= finished_.size()) return;
     throw OutputError(directory_ + " holds " + std::to_string(cases) + " finished cases of " +
-                      (is_this ? "this" : "another") + " campaign: " + way_out);
+                      (is_this ? "this campaign: --resume goes on with them, " : "another campaign: ") + way_out);
   }
   for (const int part : parts())
     if (part != 0) fs::remove(part_path(part));
