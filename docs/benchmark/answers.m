@@ -7,6 +7,9 @@ out = fopen(arguments_{end}, 'w');
 fprintf(out, 'case,zeta,F0,zeta_low,zeta_high,F0_low,F0_high\n');
 for i = 1:size(constants, 1)
   pairs = dlmread(fullfile(folder, 'cases', sprintf('%06d.csv', constants(i, 1))), ',', 1, 0);
+  if size(pairs, 1) < 3
+    continue  % too little could be measured: no answer
+  end
   Y = pairs(:, 1);
   x = pairs(:, 2);
   n = numel(Y);

@@ -11,7 +11,10 @@ with open(Path(sys.argv[1]) / "constants.csv") as constants, open(sys.argv[2], "
     answers.writerow(["case", "zeta", "F0", "zeta_low", "zeta_high", "F0_low", "F0_high"])
     for known in csv.DictReader(constants):
         with open(Path(sys.argv[1]) / "cases" / f"{int(known['case']):06d}.csv") as file:
-            Y, x = zip(*((float(row["Y [m]"]), float(row["x [m]"])) for row in csv.DictReader(file)))
+            pairs = [(float(row["Y [m]"]), float(row["x [m]"])) for row in csv.DictReader(file)]
+        if len(pairs) < 3:
+            continue  # too little could be measured: no answer
+        Y, x = zip(*pairs)
         n, mean_Y, mean_x = len(Y), sum(Y) / len(Y), sum(x) / len(x)
         S = sum((v - mean_Y) ** 2 for v in Y)
         b = sum((v - mean_Y) * (w - mean_x) for v, w in zip(Y, x)) / S

@@ -68,6 +68,9 @@ class Rules(unittest.TestCase):
             self.assertTrue(all("reason" in estimate for estimate in line["estimates"]))
         self.assertTrue(all("reason" not in line for line in lines if line["rig"] == 0))
         self.call("run", self.scenario, *setting(rigs=rest, laws=laws, severities="[0.1]", seeds=1), "--dry-run")
+        self.call("stress", "export", self.scenario, *setting(rigs=rest, laws=laws, severities="[0.1]", seeds=1), "--out", self.folder / "export")
+        answers = subprocess.run([sys.executable, str(ROOT / "docs/benchmark/answers.py"), str(self.folder / "export"), str(self.folder / "answers.csv")])
+        self.assertEqual(answers.returncode, 0)
 
     def test_a_range_in_which_no_rig_moves_is_refused(self):
         rest = "{count: 8, friction_ratio: {from: 1.3, to: 1.5}}"
