@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/numbers.hpp"
 #include "sim/orbits/orbit_account.hpp"
 
 namespace dualdamp::sim {
@@ -78,9 +79,11 @@ std::optional<Orbit> Approach::find(SteadyState& result) {
     ++result.transient_periods;
     growth_.observe(period.size);
     recurrence_.add(period.end, period.size);
+    creep_.observe(recurrence_.closure(1), period.size);
+    size_ = period.size;
     orbit = look(period, result);
     if (orbit || growth_.is_endless() || passed_ >= options_.max_periods || divergence_ > diverging) break;
-    if (is_followed_enough()) break;
+    if (is_followed_enough() || creeps()) break;
     period = map_.next(Monodromy::without);
   }
   if (!orbit && map_.outcome().ok()) orbit = nearly_there(result);
@@ -111,8 +114,15 @@ std::optional<Orbit> Approach::look(const ForcingPeriod& period, SteadyState& re
 /// Whether the motion has used its share of the work; attempts to find an orbit near it have their own share.
 bool Approach::is_followed_enough() const { return map_.engine().work() - begun_at_ >= patience_.work; }
 
+/// Whether the motion becomes periodic within no reasonable time, and no orbit was found near it. Under the exact
+/// engine periods are cheap, so that such a motion is followed to its end.
+bool Approach::creeps() const {
+  return map_.engine().accuracy() > 0.0 && !has_past_ && !candidate_ && creep_.goes_on();
+}
+
 bool Approach::is_time_to_tell() const {
-  if (is_told_ || has_past_) return false;
+  // Motions that cannot part do not run away from each other, whatever rounding makes of them.
+  if (is_told_ || has_past_ || motions_ != Motions::may_part) return false;
   return passed_ >= patience_.periods || is_followed_enough();
 }
 
@@ -242,7 +252,7 @@ double Approach::divergence(const State& state) {
   return std::accumulate(growth.begin(), growth.end(), 0.0) / static_cast<double>(growth.size());
 }
 
-/// Why the integration found no orbit. The text has no numbers of one point, so that many points share a reason.
+/// Why the integration found no orbit.
 core::Outcome Approach::failure() const {
   if (growth_.has_grown()) {
     return {core::OutcomeKind::no_steady_state,
@@ -252,6 +262,14 @@ core::Outcome Approach::failure() const {
     return {core::OutcomeKind::no_steady_state,
             "no steady state: the motion is aperiodic: it has not come back within " + std::to_string(passed_) +
                 " forcing periods, and neighbouring motions run away from it"};
+  }
+  if (creeps()) {
+    return {
+        core::OutcomeKind::no_steady_state,
+        "no steady state found: the motion creeps, or its contacts age: what it misses of coming back falls like "
+        "a power of time only; it misses " +
+            core::format_number(100.0 * recurrence_.closure(1), 2) + " % after " + std::to_string(passed_) +
+            " forcing periods, and the mass stays within " + core::format_number(size_, 3) + " m of zero"};
   }
   if (is_followed_enough()) {
     return {core::OutcomeKind::no_steady_state,

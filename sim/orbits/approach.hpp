@@ -50,6 +50,7 @@ class Approach {
   [[nodiscard]] std::optional<Orbit> nearly_there(SteadyState& result);
   [[nodiscard]] double divergence(const State& state);
   [[nodiscard]] bool is_followed_enough() const;
+  [[nodiscard]] bool creeps() const;
   [[nodiscard]] bool is_time_to_tell() const;
   [[nodiscard]] core::Outcome failure() const;
 
@@ -62,6 +63,8 @@ class Approach {
   bool has_past_;
   Recurrence recurrence_;
   Growth growth_;
+  Creep creep_;
+  double size_ = 0.0;                             ///< largest |x| in the last forcing period [m]
   std::array<double, longest_period + 1> level_;  ///< closure over n periods at which Newton's method is tried next
   std::array<int, longest_period + 1> streak_{};  ///< number of periods in a row that closed so well
   std::optional<Candidate> candidate_;

@@ -1,5 +1,7 @@
 #pragma once
-/// Distinguishes growth without end from growth that slows down and from beats.
+/// Judges of a motion that does not become periodic: growth without end, and creep.
+///
+/// Growth without end differs from growth that slows down and from beats.
 ///
 /// It decides after 500, 1000, 2000, ... periods. An amplitude grows without end if it gained 1.7 times as much
 /// over the last doubling of time, n to 2 n, as over the doubling before; growth in proportion to time gains 2
@@ -59,6 +61,55 @@ class Growth {
   double second_half_ = 0.0;
   bool goes_on_ = false;
   bool runs_away_ = false;
+};
+
+/// Tells a motion that creeps from one that approaches an orbit.
+///
+/// Near an orbit that attracts, the motion comes back better by the same factor in each forcing period: over
+/// doublings of time, n to 2 n, the closure falls by r, then r^2, then r^4. Where contacts age, or a mass creeps
+/// below the force that would break it away, the closure falls like a power of time instead: by much the same
+/// factor over each doubling, 1/2 for a state that grows like ln t. Such a motion becomes periodic within no time
+/// that anybody waits.
+///
+/// It decides at 32, 64, ... forcing periods by the two doublings before. A factor r in [0.2, 0.7] followed by one
+/// that is not smaller than 0.85 r is no r^2. The closure has to fall in each period of the last doubling, or the
+/// motion winds or beats, and the amplitude must not grow. Sums of decays can look like this for a while: the
+/// caller looks for an orbit first, which Newton's method finds in such a case.
+class Creep {
+ public:
+  /// Takes the closure of the next forcing period, and the largest |x| in it [m].
+  void observe(double closure, double amplitude) {
+    falls_ = falls_ && closure < previous_;
+    previous_ = closure;
+    if (++period_ != next_) return;
+    next_ *= 2;
+    const double before = factor_;
+    factor_ = last_ > 0.0 ? closure / last_ : 0.0;
+    constexpr double as_before = 0.85;
+    constexpr double growing = 1.05;
+    goes_on_ = period_ >= earliest && falls_ && amplitude < growing * amplitude_ && is_in_band(before) &&
+               is_in_band(factor_) && factor_ >= as_before * before;
+    last_ = closure;
+    amplitude_ = amplitude;
+    falls_ = true;
+  }
+
+  /// Whether the closure falls like a power of time.
+  [[nodiscard]] bool goes_on() const { return goes_on_; }
+
+ private:
+  static constexpr long earliest = 32;
+
+  static bool is_in_band(double factor) { return factor >= 0.2 && factor <= 0.7; }
+
+  long period_ = 0;
+  long next_ = 1;
+  double last_ = 0.0;       ///< closure at the last decision
+  double amplitude_ = 0.0;  ///< then
+  double previous_ = 0.0;   ///< closure one period ago
+  bool falls_ = true;       ///< in each period since the last decision
+  double factor_ = 0.0;
+  bool goes_on_ = false;
 };
 
 }  // namespace dualdamp::sim

@@ -11,6 +11,7 @@
 #include "friction_models/laws/contact_compliance.hpp"
 #include "friction_models/laws/coulomb.hpp"
 #include "sim/motion/simulate.hpp"
+#include "sim/orbits/growth.hpp"
 #include "sim/orbits/steady_state.hpp"
 #include "tests/support/make_law.hpp"
 #include "tests/support/random.hpp"
@@ -271,6 +272,60 @@ TEST_CASE("an aperiodic motion is called so") {
   CHECK(state.outcome.kind == core::OutcomeKind::no_steady_state);
   CHECK(state.outcome.reason.find("aperiodic") != std::string::npos);
   CHECK(state.transient_periods < 1010);
+}
+
+TEST_CASE("contacts that age below their break-away are a creep, told within 64 forcing periods") {
+  // psi = ln(1 + V0 t/D) while the mass hardly moves: the closure of psi falls like 1/(n ln n).
+  sim::Model model;
+  model.oscillator = {.mass = 1.0, .stiffness = 100.0, .damping = 1.0};
+  model.excitation = {.type = sim::ExcitationType::base_harmonic, .amplitude = 0.005, .frequency = 6.283};
+  model.friction = {test::law("rate_state", {{"normal_force", 10.0},
+                                             {"mu0", 0.2},
+                                             {"a", 0.05},
+                                             {"b", 0.075},
+                                             {"slip_distance", 0.01},
+                                             {"reference_velocity", 0.01}})};
+  const sim::SteadyState state = sim::steady_state(model);
+  CHECK(state.outcome.kind == core::OutcomeKind::no_steady_state);
+  INFO(state.outcome.reason);
+  CHECK(state.outcome.reason.find("the motion creeps") != std::string::npos);
+  CHECK(state.outcome.reason.find("it misses 0.88 % after 32 forcing periods") != std::string::npos);
+  CHECK(state.transient_periods <= 64);
+}
+
+TEST_CASE("a closure that falls by a constant factor is no creep, one that falls like 1/n is") {
+  for (double factor = 0.05; factor < 0.99999; factor += 0.5 * (1.0 - factor) * factor) {
+    sim::Creep creep;
+    double closure = 1.0;
+    for (int n = 1; n < 5000; ++n) {
+      creep.observe(closure *= factor, 1.0);
+      INFO(factor << " " << n);
+      REQUIRE(!creep.goes_on());
+    }
+  }
+  sim::Creep creep;
+  sim::Creep growing;
+  sim::Creep winding;
+  for (int n = 1; n <= 32; ++n) {
+    creep.observe(1.0 / n, 1.0);
+    growing.observe(1.0 / n, n);
+    winding.observe((n % 2 == 0 ? 1.0 : 0.5) / n, 1.0);
+  }
+  CHECK(creep.goes_on());
+  CHECK(!growing.goes_on());
+  CHECK(!winding.goes_on());
+}
+
+TEST_CASE("motions that cannot part are not called aperiodic") {
+  // The force rises with speed by 1 % in each e-fold of it: the mass hardly moves, and rounding shakes it.
+  sim::Model model;
+  model.oscillator = {.mass = 1.0, .stiffness = 100.0, .damping = 1.0};
+  model.excitation = {.type = sim::ExcitationType::base_harmonic, .amplitude = 0.015, .frequency = 10.0};
+  model.friction = {test::law("viscous_power", {{"coefficient", 10.0}, {"exponent", 0.01}})};
+  const sim::SteadyState state = sim::steady_state(model);
+  CHECK(!state.outcome.ok());
+  INFO(state.outcome.reason);
+  CHECK(state.outcome.reason.find("aperiodic") == std::string::npos);
 }
 
 TEST_CASE("a motion that winds towards its orbit is not looked at anew in each period") {
