@@ -38,14 +38,6 @@ constexpr double small_motion = 1e-3;
 
 constexpr int max_rejections = 200;
 
-/// In one of the shortest periods: beyond that friction changes too fast to be integrated in reasonable time.
-constexpr long max_steps = 300'000;
-
-/// At one instant to rounding: a creep is found within a few hundred.
-constexpr long max_standing = 3'000;
-
-constexpr const char* ran_away = "the mass is far beyond the place from which a softening spring pushes outward";
-
 /// Kinks of a delayed velocity pass on this often, each time one derivative higher.
 constexpr int echoes = 4;
 
@@ -251,25 +243,6 @@ void SmoothEngine::notice_stiffness() {
   stiff_steps_ = stepper_->stiffness() > stiff ? stiff_steps_ + 1 : std::max(0, stiff_steps_ - 1);
 }
 
-/// False, with an outcome, when the motion takes more steps than anybody waits for; rejected ones count.
-bool SmoothEngine::makes_headway() {
-  if (time() >= counted_to_) {
-    counted_to_ = time() + shortest_period();
-    steps_ = 0;
-  }
-  const bool stands_still = time() == stood_at_;
-  stood_at_ = time();
-  standing_ = stands_still ? standing_ + 1 : 0;
-  if (++steps_ <= max_steps && standing_ <= max_standing) return true;
-  const std::string spent = standing_ > max_standing ? std::to_string(max_standing) + " steps at one instant, "
-                                                     : std::to_string(max_steps) + " steps in one period before ";
-  const bool away = has_run_away();
-  outcome_ = {away ? core::OutcomeKind::not_finite : core::OutcomeKind::event_limit,
-              "more than " + spent + "t = " + std::to_string(time()) +
-                  " s: " + (away ? ran_away : "friction changes too fast there to be integrated")};
-  return false;
-}
-
 /// One accepted step from X_ to end_, at most `left` long; taken_ says how long.
 bool SmoothEngine::advance(double left) {
   const bool hold_off = h_ == 0.0 && !is_implicit_ && begins_stiff();
@@ -304,7 +277,8 @@ bool SmoothEngine::advance(double left) {
   }
   outcome_ = {core::OutcomeKind::not_finite,
               "the equation of motion could not be integrated at t = " + std::to_string(time()) +
-                  " s: steps became too small" + (has_run_away() ? std::string(": ") + ran_away : "")};
+                  " s: steps became too small" +
+                  (has_run_away() ? std::string(": ") + ran_away : infinite_force())};
   return false;
 }
 

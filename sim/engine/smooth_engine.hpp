@@ -22,6 +22,7 @@
 #include <array>
 #include <memory>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "sim/engine/engine.hpp"
@@ -49,6 +50,8 @@ class SmoothEngine final : public Engine {
  private:
   class StepInterval;
   static constexpr std::size_t points = 5;
+  static constexpr const char* ran_away =
+      "the mass is far beyond the place from which a softening spring pushes outward";
   /// A guard of the present interval, and its values at 0, 1/4, ..., 1 of the step taken last.
   struct Watch {
     Ending ending;
@@ -98,6 +101,8 @@ class SmoothEngine final : public Engine {
   [[nodiscard]] double longest_step() const;
   [[nodiscard]] double excess_error() const;
   [[nodiscard]] bool makes_headway();
+  [[nodiscard]] std::string too_fast() const;
+  [[nodiscard]] std::string infinite_force();
   [[nodiscard]] bool advance(double left);
   [[nodiscard]] bool begins_stiff();
   void notice_stiffness();

@@ -1,9 +1,14 @@
-// Steps of the smooth engine that begin or end where the mass turns.
+// Steps of the smooth engine that begin or end where the mass turns, and steps that are too many.
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <complex>
+#include <numbers>
+#include <string>
 
+#include "core/numbers.hpp"
+#include "sim/engine/eigenvalues.hpp"
 #include "sim/engine/smooth_engine.hpp"
 
 namespace dualdamp::sim {
@@ -24,6 +29,17 @@ constexpr double sharp_change = 0.01;
 
 /// Steps shorter than this part of the longest one are not shortened further.
 constexpr double shortest_with_turn = 1e-9;
+
+/// In one of the shortest periods: beyond that the motion changes too fast to be integrated in reasonable time.
+constexpr long max_steps = 300'000;
+
+/// At one instant to rounding: a creep is found within a few hundred.
+constexpr long max_standing = 3'000;
+
+/// Swings of a vibration in one of the shortest periods that a steady state can follow one by one. Damped as much
+/// as this, a vibration is soon gone.
+constexpr double many_swings = 1'000.0;
+constexpr double soon_gone = 0.01;
 
 }  // namespace
 
@@ -73,6 +89,70 @@ bool SmoothEngine::passes_over_turn(bool at_stop) {
     return true;
   }
   return false;
+}
+
+/// What changes too fast: a vibration of its own that nearly nothing damps, or else friction.
+std::string SmoothEngine::too_fast() const {
+  const auto n = static_cast<Eigen::Index>(X_.size());
+  std::vector<double> columns(X_.size() * X_.size());
+  flow_.jacobian(X_, local_time_, columns);
+  std::complex<double> fastest = 0.0;
+  for (const std::complex<double>& value : eigenvalues_of(Eigen::Map<const Eigen::MatrixXd>(columns.data(), n, n)))
+    if (std::abs(value.imag()) > fastest.imag()) fastest = {value.real(), std::abs(value.imag())};
+  const double rate = std::abs(fastest);
+  const double swings = rate * shortest_period() / (2.0 * std::numbers::pi);
+  const bool is_damped = !(std::abs(fastest.real()) < soon_gone * rate);
+  if (standing_ > max_standing || is_damped || !(swings > many_swings) || !std::isfinite(rate))
+    return "friction changes too fast there to be integrated";
+  const double slower = swings / many_swings;
+  return "a second vibration at " + core::format_number(rate, 3) +
+         " rad/s, which hardly anything damps, swings too often to be followed; it can be up to " +
+         core::format_number(rate / slower, 3) + " rad/s (an attached mass " +
+         core::format_number(slower * slower, 2) + " times as heavy), or with a damping ratio of " +
+         core::format_number(soon_gone, 2) + " or more";
+}
+
+/// False, with an outcome, when the motion takes more steps than anybody waits for; rejected ones count.
+bool SmoothEngine::makes_headway() {
+  if (time() >= counted_to_) {
+    counted_to_ = time() + shortest_period();
+    steps_ = 0;
+  }
+  const bool stands_still = time() == stood_at_;
+  stood_at_ = time();
+  standing_ = stands_still ? standing_ + 1 : 0;
+  if (++steps_ <= max_steps && standing_ <= max_standing) return true;
+  const std::string spent = standing_ > max_standing ? std::to_string(max_standing) + " steps at one instant, "
+                                                     : std::to_string(max_steps) + " steps in one period before ";
+  const bool away = has_run_away();
+  outcome_ = {away ? core::OutcomeKind::not_finite : core::OutcomeKind::event_limit,
+              "more than " + spent + "t = " + std::to_string(time()) + " s: " + (away ? ran_away : too_fast())};
+  return false;
+}
+
+/// Which law's force is no number just ahead of the motion, and where; empty: none is.
+std::string SmoothEngine::infinite_force() {
+  flow_.evaluate(X_, local_time_, rates_);
+  const std::vector<double> ahead = rates_;
+  std::vector<friction::Memory> memories = memories_;
+  friction::Instant there = now();
+  for (double s = 1e-15 * longest_step(); s < longest_step(); s *= 10.0) {
+    probe_ = X_;
+    for (std::size_t k = 0; k < probe_.size(); ++k) probe_[k] += s * ahead[k];
+    flow_.scatter(probe_, memories);
+    there.t = time() + s;
+    there.x = probe_[0];
+    there.v = probe_[1];
+    for (std::size_t i = 0; i < memories.size(); ++i) {
+      if (!std::isfinite(there.v) || std::isfinite(model_.friction[i].force(memories[i], there, direction_)))
+        continue;
+      const std::string which =
+          memories.size() == 1 ? "friction" : "item " + std::to_string(i + 1) + " of system.friction";
+      return ": the force of " + which + " is not finite at x = " + core::format_number(there.x, 6) +
+             " m, v = " + core::format_number(there.v, 6) + " m/s";
+    }
+  }
+  return {};
 }
 
 }  // namespace dualdamp::sim

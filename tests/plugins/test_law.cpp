@@ -57,6 +57,11 @@ int respond(const void* law, int mode, const double* state, const dualdamp_insta
   if (is("throws a number")) throw 5;
   const auto& p = *static_cast<const Slider*>(law);
   const double limit = dualdamp_limit(now, p.kinetic);
+  if (is("infinite") && now->x > 0.05) {
+    *force = std::numeric_limits<double>::infinity();
+    rates[0] = 0.0;
+    return DUALDAMP_OK;
+  }
   *force = mode == stuck ? p.stiffness * (now->x - state[slider_position]) : side_of(mode) * limit;
   if (is("active")) *force = -*force;
   if (is("NaN") && now->t > 0.1) *force = std::numeric_limits<double>::quiet_NaN();

@@ -63,6 +63,7 @@ FAILED = {
     "throws a number": "respond() threw an exception, which no C function may",
     "create throws": "create() threw an exception, which no C function may: out of memory",
     "NaN": "respond() gave a value that is no number, at t = 0.1",
+    "infinite": "the force of friction is not finite at x = 0.05",
     "rate NaN": "respond() gave a value that is no number",
     "guard NaN": "guard() gave a value that is no number",
     "jump NaN": "jump() left a state that is no number",

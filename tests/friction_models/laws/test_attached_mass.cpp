@@ -100,3 +100,15 @@ TEST_CASE("attached_mass: on a stiff spring it is part of the mass, also where t
     CHECK(parts.sticks.empty() == whole.sticks.empty());
   }
 }
+
+TEST_CASE("attached_mass: a light one that nothing damps is given up with its own frequency and the mass that does",
+          "[attached_mass]") {
+  // sqrt(1e3/1e-9) = 1e6 rad/s swings 100,000 times in a forcing period of 2 pi/10 s; 1,000 can be followed.
+  const sim::Model model = test::standard_system(Law(AttachedMass(1e-9, 1e3, 0.0)));
+  const sim::SteadyState state = sim::steady_state(model);
+  CHECK(state.outcome.kind == core::OutcomeKind::event_limit);
+  INFO(state.outcome.reason);
+  CHECK(state.outcome.reason.find("a second vibration at 1e+06 rad/s") != std::string::npos);
+  CHECK(state.outcome.reason.find("an attached mass 1e+04 times as heavy") != std::string::npos);
+  CHECK(sim::steady_state(test::standard_system(Law(AttachedMass(1e-5, 1e3, 0.0)))).outcome.ok());
+}
