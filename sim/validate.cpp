@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/numbers.hpp"
+#include "friction_models/modifiers/modifiers.hpp"
 #include "sim/sampled_signal.hpp"
 
 namespace dualdamp::sim {
@@ -16,6 +17,7 @@ using friction::Range;
 
 constexpr int max_order = 1000;
 constexpr Range any{};
+constexpr Range phases{.low = -friction::largest_phase, .high = friction::largest_phase};
 constexpr Range tolerances{.low = 1e-15, .high = 1e-3};
 
 std::string with_unit(double value, std::string_view unit) {
@@ -62,7 +64,7 @@ class Check {
     if (e.is_harmonic()) {
       in(not_negative, "excitation.amplitude", e.amplitude, unit);
       in(positive, "excitation.frequency", e.frequency, "rad/s");
-      in(any, "excitation.phase", e.phase, "rad");
+      in(phases, "excitation.phase", e.phase, "rad");
       in(any, "excitation.offset", e.offset, "N");
       if (e.harmonics.size() > static_cast<std::size_t>(max_harmonics))
         problems_.push_back(too_many("excitation.harmonics", max_harmonics, e.harmonics.size()));
@@ -72,7 +74,7 @@ class Check {
       in(positive, "excitation.bandwidth", e.noise.bandwidth, "rad/s");
     } else if (e.is_chirp()) {
       in(not_negative, "excitation.amplitude", e.amplitude, unit);
-      in(any, "excitation.phase", e.phase, "rad");
+      in(phases, "excitation.phase", e.phase, "rad");
       in(positive, "excitation.from", e.chirp.from, "rad/s");
       in(positive, "excitation.to", e.chirp.to, "rad/s");
       in(positive, "excitation.duration", e.chirp.duration, "s");
@@ -112,7 +114,7 @@ class Check {
   void harmonic(const Harmonic& harmonic, std::string_view unit) {
     in({.low = 2, .high = max_order}, "excitation.harmonics.order", harmonic.order, "");
     in(not_negative, "excitation.harmonics.amplitude", harmonic.amplitude, unit);
-    in(any, "excitation.harmonics.phase", harmonic.phase, "rad");
+    in(phases, "excitation.harmonics.phase", harmonic.phase, "rad");
   }
 
   std::vector<Diagnostic> problems_;

@@ -20,7 +20,11 @@ Parameter load_modulation() {
                   .fallback = 1.0,
                   .range = {.low = 1.0, .high = 1000.0},
                   .meaning = "multiple of the excitation's frequency"},
-                 {.name = "phase", .unit = "rad", .fallback = 0.0, .meaning = "phase in cos(order w t + phase)"}},
+                 {.name = "phase",
+                  .unit = "rad",
+                  .fallback = 0.0,
+                  .range = {.low = -largest_phase, .high = largest_phase},
+                  .meaning = "phase in cos(order w t + phase)"}},
       .is_optional = true,
       .meaning = "load of the contact that follows a harmonic excitation; the force limits are proportional to it"};
 }

@@ -21,6 +21,10 @@
 
 namespace dualdamp::friction {
 
+/// The largest phase of a load or a drive that is taken, either way [rad]. Beyond it an angle is known to less than
+/// 1e-10 rad; at 1e16 rad nothing is left of it.
+inline constexpr double largest_phase = 1e6;
+
 /// The parameters of all modifiers, each optional; an absent modifier has no effect.
 [[nodiscard]] const std::vector<Parameter>& modifier_parameters();
 

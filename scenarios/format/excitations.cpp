@@ -1,5 +1,9 @@
 #include "scenarios/format/excitations.hpp"
 
+#include <string>
+#include <utility>
+
+#include "friction_models/modifiers/modifiers.hpp"
 #include "friction_models/parameters.hpp"
 #include "friction_models/registry.hpp"
 #include "scenarios/format/common_keys.hpp"
@@ -10,18 +14,25 @@ namespace dualdamp::scenarios {
 
 namespace {
 
+Field phase(std::string meaning) {
+  return quantity("phase", {"rad"}, std::move(meaning))
+      .at_least(-friction::largest_phase)
+      .at_most(friction::largest_phase)
+      .with_fallback(0.0);
+}
+
 /// The harmonic excitations differ in the unit of their amplitudes.
 std::vector<Field> harmonic_fields(const std::string& unit) {
   const Section harmonic = {{integer("order", "multiple of the frequency").required().at_least(2).at_most(1000),
                              quantity("amplitude", {unit}, "amplitude of the harmonic").required().at_least(0),
-                             quantity("phase", {"rad"}, "phase of the harmonic").with_fallback(0.0)}};
+                             phase("phase of the harmonic")}};
   return {quantity("amplitude", {unit}, "amplitude A of A cos(w t + phase)").at_least(0),
           quantity("frequency", {"rad/s"},
                    "forcing frequency w; natural: sqrt(k/m); damped: sqrt(k/m) sqrt(1 - zeta^2)")
               .above(0)
               .or_words({"natural", "damped"})
               .with_uncertainty(),
-          uncertainty_of("frequency", {"rad/s"}), quantity("phase", {"rad"}, "phase at t = 0").with_fallback(0.0),
+          uncertainty_of("frequency", {"rad/s"}), phase("phase at t = 0"),
           section_list("harmonics", harmonic, "further harmonics of a distorted drive")
               .items(1, static_cast<std::size_t>(sim::max_harmonics))};
 }
@@ -45,7 +56,7 @@ std::vector<Field> chirp_fields(const std::string& unit) {
           words("spacing", {"linear", "log"},
                 "in equal times the frequency changes by equal steps (linear) or by equal ratios (log)")
               .with_fallback("linear"),
-          quantity("phase", {"rad"}, "phase at t = 0").with_fallback(0.0)};
+          phase("phase at t = 0")};
 }
 
 Field interpolation() {

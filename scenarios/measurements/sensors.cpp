@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "friction_models/modifiers/modifiers.hpp"
 #include "scenarios/format/common_keys.hpp"
 #include "scenarios/format/values.hpp"
 
@@ -28,7 +29,9 @@ Field sensor(const std::string& name, const std::string& unit, const std::string
             .at_least(0)
             .at_most(1'000'000),
         quantity("outlier_size", {"1"}, "relative error of these readings").with_fallback(0.0),
-        quantity("phase_lag", {"rad"}, "lag of the reading as an angle at the forcing frequency").at_least(0),
+        quantity("phase_lag", {"rad"}, "lag of the reading as an angle at the forcing frequency")
+            .at_least(0)
+            .at_most(friction::largest_phase),
         quantity("delay", {"s"}, "time lag of the reading").at_least(0),
         quantity("clipping", {unit}, "readings are limited to plus and minus this value").above(0)},
        {{{"phase_lag", "delay"}, false}}},
