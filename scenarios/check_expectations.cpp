@@ -19,6 +19,33 @@ void check_index(CheckedFile& file, const Expectable& result, Place place, const
                   std::to_string(path.indices.front()));
 }
 
+/// Whether the text stands for a value that is not finite. Nothing equals such a value.
+bool is_not_finite(std::string text) {
+  std::ranges::transform(text, text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  std::erase_if(text, [](char c) { return c == '+' || c == '-' || c == '.'; });
+  return text == "nan" || text == "inf" || text == "infinity";
+}
+
+/// Checks that the value can be met and that the bounds belong to it.
+void check_equals(CheckedFile& file, const std::string& path, const Json& expectation) {
+  if (!expectation.contains("equals")) return;
+  const Json& equals = expectation.at("equals");
+  const std::string found = equals.is_string() ? equals.get<std::string>() : equals.dump();
+  if (is_not_finite(found))
+    file.complain(file.place_of(path + ".equals"), "'" + path + ".equals' must be a finite number",
+                  "a number, true, false or a text", found);
+  for (const std::string bound : {"within", "within_relative"}) {
+    if (!expectation.contains(bound)) continue;
+    const std::string key = path + "." + bound;
+    if (!equals.is_number())
+      file.complain(file.place_of(key), "'" + key + "' is a bound beside a value that is no number",
+                    "'" + bound + "' beside a number, none beside true, false or a text", "equals: " + found);
+    else if (bound == "within_relative" && equals.get<double>() == 0.0)
+      file.complain(file.place_of(key), "'" + key + "' is relative to 0: no difference but 0 is within it",
+                    "within", "equals: 0");
+  }
+}
+
 }  // namespace
 
 void check_expectations(CheckedFile& file, const Expectable& result) {
@@ -26,8 +53,10 @@ void check_expectations(CheckedFile& file, const Expectable& result) {
   for (const ResultField& field : result.fields) patterns.push_back(field.path);
   for (std::size_t i = 0; i < file.values().at("expect").size(); ++i) {
     const Json& expectation = file.values().at("expect").at(i);
+    const std::string item = "expect[" + std::to_string(i) + "]";
+    check_equals(file, item, expectation);
     if (!expectation.contains("value") || patterns.empty()) continue;
-    const Place place = file.place_of("expect[" + std::to_string(i) + "].value");
+    const Place place = file.place_of(item + ".value");
     const auto text = expectation.at("value").get<std::string>();
     const auto path = parse_result_path(text);
     if (!path || std::ranges::find(patterns, path->pattern) == patterns.end()) {
