@@ -263,6 +263,26 @@ class Charts(Case):
         (self.folder / "curves/sweep.csv").unlink()
         self.assertIn("allowed: a result with sweep.csv of the same run beside it", self.run_program("compare", "curves", "curves", status=3).stderr)
 
+    def test_a_response_lies_on_its_branch(self):
+        frequency = ["--set", "excitation.amplitude=10 cm", "--set"]
+        kinds = {"xy": ["--set", "analysis={type: xy_branch, amplitudes: {from: 10 cm, to: 30 cm}}"],
+                 "response": [*frequency, "analysis={type: frequency_response, frequencies: [8 rad/s, 12 rad/s]}"],
+                 "branch": [*frequency, "analysis={type: frequency_branch, frequencies: {from: 8 rad/s, to: 12 rad/s}}"]}
+        self.run_program("run", "curve.yaml", "--out", "curve")
+        for name, changes in kinds.items():
+            self.run_program("run", "curve.yaml", *changes, "--out", name)
+        for curve, branch, both in (("curve", "xy", "one"), ("branch", "response", "two")):
+            with self.subTest(curve):
+                self.run_program("compare", curve, branch, "--out", both)
+                series = {}
+                lines = [line for line in (self.folder / both / "compare.csv").read_text().splitlines() if line[0] != "#"]
+                for label, x, y in list(csv.reader(lines))[1:]:
+                    series.setdefault(label, []).append((float(x), float(y)))
+                first, second = series.values()
+                self.assertEqual(first[0][0], second[0][0])
+                self.assertAlmostEqual(first[0][1] / second[0][1], 1.0, delta=1e-9)
+        self.assertIn("another analysis", self.run_program("compare", "curve", "response", status=3).stderr)
+
     def test_results_of_different_kinds(self):
         self.run_program("run", "curve.yaml", "--out", "curve")
         self.run_program("run", ROOT / "scenarios/examples/free_decay.yaml", "--out", "decay")
