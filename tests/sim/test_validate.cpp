@@ -54,7 +54,11 @@ std::vector<Fault> faults() {
       {"excitation.amplitude", ">= 0 m", [](Model& m) { m.excitation.amplitude = infinity; }},
       {"excitation.frequency", "> 0 rad/s", [](Model& m) { m.excitation.frequency = 0.0; }},
       {"excitation.frequency", "> 0 rad/s", [](Model& m) { m.excitation.frequency = not_a_number; }},
-      {"excitation.phase", "any finite value", [](Model& m) { m.excitation.phase = not_a_number; }},
+      {"excitation.phase", ">= -1.0e+06 rad and <= 1.0e+06 rad",
+       [](Model& m) { m.excitation.phase = not_a_number; }},
+      {"excitation.phase", ">= -1.0e+06 rad and <= 1.0e+06 rad", [](Model& m) { m.excitation.phase = -1e18; }},
+      {"excitation.harmonics.phase", ">= -1.0e+06 rad and <= 1.0e+06 rad",
+       [](Model& m) { m.excitation.harmonics = {{2, 1.0, 1e18}}; }},
       {"excitation.offset", "any finite value",
        [](Model& m) {
          m.excitation.type = sim::ExcitationType::force_harmonic;
