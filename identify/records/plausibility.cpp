@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/numbers.hpp"
+#include "identify/records/phase_checks.hpp"
 #include "identify/records/sensor_agreement.hpp"
 #include "identify/records/sine_fit.hpp"
 #include "identify/statistics/median.hpp"
@@ -274,39 +275,6 @@ class Check {
              "both in their units, and the mass and the stiffness stated: --unit force=kN, --unit x=mm");
   }
 
-  struct Balance {
-    int pairs = 0;
-    int too_much = 0;          ///< pairs with |k - m w^2| x far above k Y
-    int swapped_too_much = 0;  ///< the same with x and Y exchanged
-    int negative_work = 0;
-    int phases = 0;
-    std::vector<double> cosines, cosines_of_radians, cosines_of_degrees;  ///< errors of k Y cos(phase)
-    std::vector<double> excess;
-  };
-
-  [[nodiscard]] Balance balance_of(const std::vector<Pair>& pairs) const {
-    Balance balance;
-    for (const Pair& pair : pairs) {
-      const double omega = frequency_of(pair, constants_);
-      const double real = (constants_.stiffness - constants_.mass * omega * omega) / constants_.stiffness;
-      if (!(std::isfinite(real) && pair.Y > 0.0 && pair.x > 0.0)) continue;
-      ++balance.pairs;
-      constexpr double room = 3.0;
-      balance.too_much += std::abs(real) * pair.x > room * pair.Y ? 1 : 0;
-      balance.swapped_too_much += std::abs(real) * pair.Y > room * pair.x ? 1 : 0;
-      balance.excess.push_back(std::abs(real) * pair.x / pair.Y);
-      if (std::isnan(pair.phase)) continue;
-      ++balance.phases;
-      balance.negative_work += std::sin(pair.phase) < -0.3 ? 1 : 0;
-      const double wanted = real * pair.x / pair.Y;
-      constexpr double degree = std::numbers::pi / 180.0;
-      balance.cosines.push_back(std::abs(std::cos(pair.phase) - wanted));
-      balance.cosines_of_radians.push_back(std::abs(std::cos(pair.phase / degree) - wanted));
-      balance.cosines_of_degrees.push_back(std::abs(std::cos(pair.phase * degree) - wanted));
-    }
-    return balance;
-  }
-
   /// Reports that the motion needs more force than the drive gives. Near resonance, a mass needs little force, so a
   /// wrong frequency or constant has the same effect as wrong amplitudes.
   void refuse_balance(const std::vector<Pair>& pairs, const Balance& balance, const std::string& swapped) {
@@ -318,7 +286,7 @@ class Check {
     for (const auto& [factor, unit] : {std::pair{turn, "Hz, not rad/s"}, {1.0 / turn, "rad/s, not Hz"}}) {
       std::vector<Pair> turned = pairs;
       for (Pair& pair : turned) pair.omega = factor * frequency_of(pair, constants_);
-      if (balance_of(turned).too_much > 0) continue;
+      if (balance_of(turned, constants_).too_much > 0) continue;
       refuse("x, Y and the frequency do not belong together" + where,
              std::string("the frequency in its unit: it may be in ") + unit);
       return;
@@ -335,20 +303,11 @@ class Check {
   void check_pairs(const std::vector<Pair>& pairs) {
     check_readings(pairs);
     if (!faults_.empty()) return;
-    const Balance balance = balance_of(pairs);
+    const Balance balance = balance_of(pairs, constants_);
     const std::string swapped =
         "x is the amplitude of the mass, Y that of the base; --column x=..., --column Y=...";
     if (2 * balance.too_much > balance.pairs && balance.pairs > 0) return refuse_balance(pairs, balance, swapped);
-    if (2 * balance.negative_work > balance.phases && balance.phases > 0) {
-      refuse(
-          "by the phases, x leads the base in " + std::to_string(balance.negative_work) + " of " +
-              std::to_string(balance.phases) +
-              " pairs, so the base would take energy out of the motion: x and Y (x and y) are swapped, or one of them "
-              "has the wrong sign",
-          "phase is the lag of x behind y, from 0 to 180 deg; a sign is turned by --scale x=-1, or phase=-1");
-      return;
-    }
-    if (balance.phases > 0) check_phases(pairs, balance);
+    check_phases(pairs);
     if (faults_.empty()) check_line(pairs, swapped);
   }
 
@@ -378,21 +337,9 @@ class Check {
                std::string("both in their units: --unit x=UNIT, --unit ") + name + "=UNIT");
   }
 
-  void check_phases(const std::vector<Pair>& pairs, const Balance& balance) {
-    double largest = 0.0;
-    for (const Pair& pair : pairs)
-      if (!std::isnan(pair.phase)) largest = std::max(largest, std::abs(pair.phase));
-    constexpr double most = 4.0 * std::numbers::pi;
-    constexpr double bad = 0.4;
-    constexpr double good = 0.15;
-    const double here = upper_median(balance.cosines);
-    if (largest > most || (here > bad && upper_median(balance.cosines_of_degrees) < good && largest > 2.0))
-      refuse("the phases, up to " + shown(largest) + " rad, are no lags in radians; they may be degrees",
-             "their unit: --unit phase=deg");
-    else if (here > bad && upper_median(balance.cosines_of_radians) < good)
-      refuse("the phases, up to " + shown(largest * 180.0 / std::numbers::pi) +
-                 " deg, do not fit x and Y, k Y cos(phase) = (k - m w^2) x; they would in radians",
-             "their unit: --unit phase=rad");
+  void check_phases(const std::vector<Pair>& pairs) {
+    if (const auto fault = phase_fault(pairs, constants_, !record_.histories.empty()))
+      refuse(fault->message, fault->allowed);
   }
 
   void check_line(const std::vector<Pair>& pairs, const std::string& swapped) {

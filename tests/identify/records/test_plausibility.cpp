@@ -108,6 +108,60 @@ TEST_CASE("Amplitudes off by 1000, degrees for radians, and readings that do not
   CHECK(mentions(changed([](Pair& p) { p.phase *= pi / 180.0; }), "they would in radians"));
 }
 
+TEST_CASE("Degrees read as radians are called degrees, though their sines are those of a wrong sign") {
+  // Lags of 92 to 94 degrees: as radians, their sines are -0.78, 0.23 and -0.97.
+  const KnownConstants constants{1.0, 1000.0, std::sqrt(1000.0)};
+  PairRecord record;
+  for (const double phase : {92.0, 94.1, 98.2}) {
+    Pair pair{1e-3, 8e-3, "", static_cast<int>(record.pairs.size()) + 1};
+    pair.phase = phase;
+    record.pairs.push_back(pair);
+  }
+  CHECK(mentions(faults_in(record, constants), "they may be degrees"));
+}
+
+TEST_CASE("Of the causes of a wrong phase all that fit are named, and no others") {
+  const auto turned = [](double phase, const KnownConstants& constants, double x) {
+    PairRecord record;
+    for (int i = 0; i < 4; ++i) {
+      Pair pair{1e-3 * (1 + i), x * (1 + i), "", i + 1};
+      pair.phase = phase;
+      record.pairs.push_back(pair);
+    }
+    return faults_in(record, constants);
+  };
+  const double natural = std::sqrt(1000.0);
+  // r = 1.5, x = 0.75 Y, cos(phase) = -0.94.
+  const KnownConstants above{1.0, 1000.0, 1.5 * natural};
+  const double lag = std::acos(-1.25 * 0.75);
+  CHECK(turned(lag, above, 0.75e-3).empty());
+  const std::string sign = turned(-lag, above, 0.75e-3);
+  CHECK(mentions(sign, "the phase has the wrong sign"));
+  CHECK_FALSE(mentions(sign, "x or Y (x or y) has the wrong sign"));
+  const std::string reversed = turned(lag - pi, above, 0.75e-3);
+  CHECK(mentions(reversed, "x or Y (x or y) has the wrong sign"));
+  CHECK_FALSE(mentions(reversed, "the phase has the wrong sign"));
+}
+
+TEST_CASE("A phase that a wrong stiffness makes is not called one of another unit alone") {
+  // The lag of 113 degrees of a rig beyond its resonance; the stiffness is 20 % too high. Read as radians, 113
+  // fits.
+  const KnownConstants constants{1.0, 1200.0, std::sqrt(1000.0)};
+  Record record;
+  record.pairs.emplace();
+  for (int i = 0; i < 4; ++i) {
+    Pair pair{1e-3 * (1 + i), 6e-3 * (1 + i), "", i + 1};
+    pair.phase = 113.0 * pi / 180.0;
+    record.pairs->pairs.push_back(pair);
+  }
+  const std::string said = faults_in(*record.pairs, constants);
+  CHECK(mentions(said, "they would in radians"));
+  CHECK(mentions(said, "the mass, the stiffness or the frequency is wrong"));
+  // From a history the phase was computed, and has no other unit.
+  record.histories.emplace_back();
+  CHECK(gross_faults(record, constants, {}, "data.csv").empty());
+}
+
 TEST_CASE("An angle without unit is refused in the words of angles") {
   std::mt19937_64 random(18);
   Rig rig = random_rig(random, 0.9, 1.1);

@@ -1,0 +1,141 @@
+#include "identify/records/phase_checks.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "core/diagnostics.hpp"
+#include "core/numbers.hpp"
+#include "identify/statistics/median.hpp"
+
+namespace dualdamp::identify {
+
+namespace {
+
+constexpr double degree = std::numbers::pi / 180.0;
+
+std::string brief(double value) {
+  constexpr int digits = 3;
+  return core::format_number(value, digits);
+}
+
+/// What the columns may hold instead, and the pairs read so.
+struct Cause {
+  std::string text, remedy;
+  std::vector<Pair> pairs;
+};
+
+/// The pairs with every phase multiplied and turned, or with x and Y exchanged.
+std::vector<Pair> altered(std::vector<Pair> pairs, double factor, double turn = 0.0, bool swapped = false) {
+  for (Pair& pair : pairs) {
+    pair.phase = factor * pair.phase + turn;
+    if (swapped) std::swap(pair.x, pair.Y);
+  }
+  return pairs;
+}
+
+std::vector<Cause> wrong_units(const std::vector<Pair>& pairs) {
+  return {{"they may be degrees", "their unit: --unit phase=deg", altered(pairs, degree)},
+          {"they would in radians", "their unit: --unit phase=rad", altered(pairs, 1.0 / degree)}};
+}
+
+std::vector<Cause> wrong_signs(const std::vector<Pair>& pairs) {
+  return {{"the phase has the wrong sign", "--scale phase=-1", altered(pairs, -1.0)},
+          {"x or Y (x or y) has the wrong sign", "--scale x=-1", altered(pairs, 1.0, std::numbers::pi)},
+          {"x and Y (x and y) are swapped", "--column x=..., --column Y=...", altered(pairs, -1.0, 0.0, true)}};
+}
+
+bool fits(const std::vector<Pair>& pairs, const KnownConstants& constants) {
+  constexpr double good = 0.15;
+  const Balance balance = balance_of(pairs, constants);
+  return !balance.takes_work() && balance.phases > 0 && upper_median(balance.cosines) < good;
+}
+
+/// Does another natural frequency, the same for all pairs, explain the phases?
+bool fits_with_other_mass(const std::vector<Pair>& pairs, KnownConstants constants) {
+  std::vector<double> masses;
+  for (const Pair& pair : pairs) {
+    const double omega = frequency_of(pair, constants);
+    const double mass = constants.stiffness * (1.0 - pair.Y * std::cos(pair.phase) / pair.x) / (omega * omega);
+    if (std::isfinite(mass)) masses.push_back(mass);
+  }
+  if (masses.empty()) return false;
+  constants.mass = upper_median(std::move(masses));
+  return constants.mass > 0.0 && fits(pairs, constants);
+}
+
+struct Causes {
+  std::vector<std::string> texts, remedies;
+
+  void add_fitting(const std::vector<Cause>& list, const KnownConstants& constants) {
+    for (const Cause& cause : list)
+      if (fits(cause.pairs, constants)) add(cause.text, cause.remedy);
+  }
+  void add(const std::string& text, const std::string& remedy) {
+    texts.push_back(text);
+    remedies.push_back(remedy);
+  }
+};
+
+/// The base would take energy out: with the causes that fit; without one, with all.
+PhaseFault work_fault(const Balance& balance, const Causes& causes) {
+  const bool none = causes.texts.empty();
+  return {"by the phases, x leads the base in " + std::to_string(balance.negative_work) + " of " +
+              std::to_string(balance.phases) + " pairs, so the base would take energy out of the motion: " +
+              (none ? "x and Y (x and y) are swapped, or one of them has the wrong sign"
+                    : core::joined(causes.texts, ", or ")),
+          "phase is the lag of x behind y, from 0 to 180 deg; " +
+              (none ? "a sign is turned by --scale x=-1, or phase=-1" : core::joined(causes.remedies, ", or "))};
+}
+
+}  // namespace
+
+Balance balance_of(const std::vector<Pair>& pairs, const KnownConstants& constants) {
+  Balance balance;
+  for (const Pair& pair : pairs) {
+    const double omega = frequency_of(pair, constants);
+    const double real = (constants.stiffness - constants.mass * omega * omega) / constants.stiffness;
+    if (!(std::isfinite(real) && pair.Y > 0.0 && pair.x > 0.0)) continue;
+    ++balance.pairs;
+    constexpr double room = 3.0;
+    balance.too_much += std::abs(real) * pair.x > room * pair.Y ? 1 : 0;
+    balance.swapped_too_much += std::abs(real) * pair.Y > room * pair.x ? 1 : 0;
+    balance.excess.push_back(std::abs(real) * pair.x / pair.Y);
+    if (std::isnan(pair.phase)) continue;
+    ++balance.phases;
+    balance.negative_work += std::sin(pair.phase) < -0.3 ? 1 : 0;
+    balance.cosines.push_back(std::abs(std::cos(pair.phase) - real * pair.x / pair.Y));
+  }
+  return balance;
+}
+
+std::optional<PhaseFault> phase_fault(const std::vector<Pair>& pairs, const KnownConstants& constants,
+                                      bool from_histories) {
+  const Balance balance = balance_of(pairs, constants);
+  if (balance.phases == 0) return std::nullopt;
+  double largest = 0.0;
+  for (const Pair& pair : pairs)
+    if (!std::isnan(pair.phase)) largest = std::max(largest, std::abs(pair.phase));
+  const std::string range = "the phases, up to " + brief(largest) + " rad";
+  constexpr double most = 4.0 * std::numbers::pi;
+  if (largest > most && !from_histories)
+    return PhaseFault{range + ", are no lags in radians; they may be degrees", "their unit: --unit phase=deg"};
+  constexpr double bad = 0.4;
+  if (!balance.takes_work() && !(upper_median(balance.cosines) > bad)) return std::nullopt;
+  Causes causes;
+  if (!from_histories) causes.add_fitting(wrong_units(pairs), constants);
+  if (balance.takes_work()) {
+    causes.add_fitting(wrong_signs(pairs), constants);
+    return work_fault(balance, causes);
+  }
+  if (causes.texts.empty()) return std::nullopt;
+  if (fits_with_other_mass(pairs, constants))
+    causes.add("the mass, the stiffness or the frequency is wrong", "mass, stiffness and frequency in their units");
+  return PhaseFault{range + " (" + brief(largest / degree) +
+                        " deg), do not fit x and Y, k Y cos(phase) = (k - m w^2) x; " +
+                        core::joined(causes.texts, ", or "),
+                    core::joined(causes.remedies, ", or ")};
+}
+
+}  // namespace dualdamp::identify

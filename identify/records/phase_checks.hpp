@@ -1,0 +1,43 @@
+#pragma once
+/// Do x, Y and phase of x-Y pairs belong together?
+///
+///   k Y cos(phase) = (k - m w^2) x,   sin(phase) > 0
+///
+/// phase: lag of x behind y. Friction acts at right angles to the first equation; by the second the base puts
+/// energy in. Where they fail, every simple cause is tried: the unit of the phase, a sign, columns exchanged. All
+/// that fit are named.
+///
+/// Errors: none. Cost: linear.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "identify/record.hpp"
+
+namespace dualdamp::identify {
+
+struct Balance {
+  int pairs = 0;
+  int too_much = 0;          ///< pairs with |k - m w^2| x far above k Y
+  int swapped_too_much = 0;  ///< the same with x and Y exchanged
+  int negative_work = 0;
+  int phases = 0;
+  std::vector<double> cosines;  ///< errors of k Y cos(phase), over k Y
+  std::vector<double> excess;   ///< |k - m w^2| x over k Y
+
+  [[nodiscard]] bool takes_work() const { return 2 * negative_work > phases && phases > 0; }
+};
+
+[[nodiscard]] Balance balance_of(const std::vector<Pair>& pairs, const KnownConstants& constants);
+
+struct PhaseFault {
+  std::string message, allowed;
+};
+
+/// What is wrong with the phases; nothing where they fit, or where only another mass or stiffness would make them
+/// fit: the ledger tests for it. `from_histories`: they were computed, in radians.
+[[nodiscard]] std::optional<PhaseFault> phase_fault(const std::vector<Pair>& pairs, const KnownConstants& constants,
+                                                    bool from_histories);
+
+}  // namespace dualdamp::identify
