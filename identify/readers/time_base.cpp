@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/diagnostics.hpp"
 #include "core/numbers.hpp"
 #include "identify/statistics/median.hpp"
 
@@ -214,12 +215,21 @@ class StampReader {
                  "an uninterrupted stretch of " + std::to_string(fewest_samples) + " rows and a tenth of all");
   }
 
-  [[nodiscard]] std::string gap_warning(Part longest) const {
+  [[nodiscard]] std::string span_text(Part part) const {
     constexpr int shown = 6;
+    return std::to_string(part.size()) + " rows from t = " + core::format_number(t_[part.first], shown) + " s to " +
+           core::format_number(t_[part.last - 1], shown) + " s";
+  }
+
+  /// The stretches before and after the one that is used, and what to do with them.
+  [[nodiscard]] std::string gap_warning(Part longest) const {
+    std::vector<std::string> others;
+    if (longest.first > 0) others.push_back(span_text({0, longest.first}));
+    if (longest.last < all_.last) others.push_back(span_text({longest.last, all_.last}));
     return "the times have gaps: of " + std::to_string(all_.size()) +
-           " rows only the longest uninterrupted stretch is used, " + std::to_string(longest.size()) +
-           " rows from t = " + core::format_number(t_[longest.first], shown) + " s to " +
-           core::format_number(t_[longest.last - 1], shown) + " s";
+           " rows only the longest uninterrupted stretch is used, " + span_text(longest) + "; left out are " +
+           core::joined(others, " and ") +
+           ": a label in a column sweep for each stretch, the same in all its rows, makes it a test of its own";
   }
 
   [[nodiscard]] TimeBase without_gaps(Part longest) const {

@@ -77,7 +77,7 @@ class DecayReader {
       noise.add(history_.x);
       turns = read_turns(noise.deviation());
     }
-    if (turns.size() < 3) return refused("x turns back less than twice");
+    if (turns.size() < 3) return refused(no_turns());
     if (half_period_ < fewest_in_half_period) {
       DerivedDecay slow = refused(too_slow());
       slow.warnings.push_back("no extremes are read: " + slow.fault);
@@ -102,6 +102,7 @@ class DecayReader {
 
   /// Sets the band and the half period. Returns the turning points.
   std::vector<std::size_t> read_turns(double noise) {
+    noise_ = noise;
     band_ = band_of(noise);
     half_period_ = 0.0;
     std::vector<std::size_t> turns = zigzag(x_, band_);
@@ -136,6 +137,22 @@ class DecayReader {
     const std::size_t begin = is_held(turns[0]) ? held_until() : turns[0];
     if (lengths.empty()) return static_cast<double>(turns[1]) - static_cast<double>(begin);
     return upper_median(std::move(lengths));
+  }
+
+  [[nodiscard]] std::string duration() const {
+    const double lasts = static_cast<double>(x_.size() - 1) / history_.sample_rate;
+    return " in " + core::format_number(lasts, 4) + " s";
+  }
+
+  /// The first and the last of two turning points of a zigzag are its ends.
+  [[nodiscard]] std::string no_turns() const {
+    const auto [low, high] = std::ranges::minmax(x_);
+    if (!(high > low)) return "x does not move" + duration();
+    const auto share = [range = high - low](double length) {
+      return core::format_number(100.0 * length / range, 3) + " %";
+    };
+    return "x does not turn back" + duration() + ", where swings count above " + share(band_) +
+           " of its range and its noise is " + share(noise_);
   }
 
   [[nodiscard]] std::string too_slow() const {
@@ -334,7 +351,7 @@ class DecayReader {
   /// are cut off. Returns why the history is no free decay; empty if it is one.
   [[nodiscard]] std::string keep_decay(DerivedDecay& result) const {
     const std::vector<double>& extremes = result.record.extremes;
-    if (extremes.size() < 3) return "x has fewer than three extremes";
+    if (extremes.size() < 3) return "x has " + std::to_string(extremes.size()) + " extremes" + duration();
     const auto swing = [&extremes](std::size_t i) { return std::abs(extremes[i] - extremes[i - 1]); };
     std::size_t largest = 1;
     for (std::size_t i = 2; i < extremes.size(); ++i)
@@ -362,7 +379,7 @@ class DecayReader {
     const std::size_t begin = largest > 1 ? largest : 0;
     if (begin > longest_start + 1)
       return "the swings grow at the beginning: the drive of the motion was not recorded";
-    if (end < begin + 3) return "x has fewer than three extremes after its largest swing";
+    if (end < begin + 3) return "x has " + std::to_string(end - begin) + " extremes from its largest swing on";
     if (fails) {
       const std::string where = " at t = " + core::format_number(result.record.times[end], 4) + " s, where " +
                                 core::format_number(100.0 * swing(end - 1) / swing(largest), 2) +
@@ -415,6 +432,7 @@ class DecayReader {
   const History& history_;
   std::span<const double> x_;
   double band_ = 0.0;         ///< differences below it are noise [m]
+  double noise_ = 0.0;        ///< deviation [m]
   double half_period_ = 0.0;  ///< in samples
   double width_ = 0.0;        ///< half the number of samples of a local fit
 };

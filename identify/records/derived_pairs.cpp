@@ -171,7 +171,9 @@ class PairReader {
     const SineFit drive = drive_fit(frequency);
     if (!drive.outcome.ok()) return nothing(drive.outcome.reason);
     if (std::abs(drive.omega / frequency - 1.0) > most_detuning)
-      return nothing("it is no steady state at the frequency stated: " + frequencies(drive.omega, frequency));
+      return nothing("it is no steady state at the frequency stated: " + frequencies(drive.omega, frequency) +
+                     ", " + percent_text(std::abs(drive.omega / frequency - 1.0)) + " away where at most " +
+                     percent_text(most_detuning) + " is taken for rounding");
     const auto steady = steady_part(history_, drive.omega);
     if (!steady) return nothing("it holds no whole period");
     if (steady->drifts() && std::abs(steady->drift) > most_drift)

@@ -1,6 +1,7 @@
 #include "identify/records/derived_records.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <utility>
 
@@ -39,9 +40,11 @@ std::vector<std::string> complete(Record& record, double frequency, double stiff
   };
   for (History& history : record.histories) warn(history, remove_zero(history, stiffness));
   DerivedPairs driven = pairs_of(record.histories, frequency);
-  if (!driven.record.pairs.empty()) {
+  const bool has_pairs = !driven.record.pairs.empty();
+  // Without a stated frequency, a motion that is not steady is as good as one that is.
+  if (has_pairs || !std::isnan(frequency)) std::ranges::move(driven.warnings, std::back_inserter(warnings));
+  if (has_pairs) {
     record.pairs = std::move(driven.record);
-    std::ranges::move(driven.warnings, std::back_inserter(warnings));
     return warnings;
   }
   const auto is_free = [](const History& history) {

@@ -1,6 +1,7 @@
 #include "scenarios/measurements/method_choice.hpp"
 
 #include <algorithm>
+#include <iterator>
 
 #include "core/diagnostics.hpp"
 #include "identify/records/derived_records.hpp"
@@ -22,6 +23,16 @@ std::string why_no_decay(const CheckedFile& file, const std::vector<identify::Re
   for (const std::string& warning : file.data->warnings)
     if (warning.starts_with("the times have gaps")) text += "; " + warning;
   return text;
+}
+
+/// Why histories give no x-Y pairs.
+std::string why_no_pairs(const CheckedFile& file, const std::vector<identify::Record>& records) {
+  std::vector<std::string> said = file.data ? file.data->warnings : std::vector<std::string>();
+  for (const identify::Record& record : records)
+    if (!record.pairs) std::ranges::move(identify::pairs_of(record.histories).warnings, std::back_inserter(said));
+  for (const std::string& warning : said)
+    if (warning.find("gives no x-Y pair") != std::string::npos) return ": " + warning;
+  return {};
 }
 
 }  // namespace
@@ -55,7 +66,10 @@ void resolve_methods(CheckedFile& file, const std::vector<identify::Record>& rec
       const identify::MethodEntry& method = *identify::find_method(name);
       std::string lack = lack_of(method);
       if (lack.empty()) continue;
+      const bool of_pairs =
+          method.needs == identify::RecordKind::pairs || method.needs == identify::RecordKind::states;
       if (method.needs == identify::RecordKind::decay) lack += why_no_decay(file, records);
+      if (of_pairs) lack += why_no_pairs(file, records);
       file.complain("analysis.methods[" + std::to_string(i) + "]", "method '" + name + "' cannot be used: " + lack,
                     core::joined(fitting));
     }

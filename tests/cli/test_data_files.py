@@ -164,13 +164,23 @@ class DataFiles(unittest.TestCase):
         rows = "".join(f"{t:.4f},{x:.4f}\n" for t, x in zip(times, moved))
         options = ["--mass", "1 kg", "--stiffness", "1521 N/m", "--method", "free_decay"]
         said = self.identify(self.write("behind.csv", "t [s],x [mm]\n" + rows), constants=options).stderr
-        self.assertIn("no extremes of a free vibration: x turns back less than twice; needed are four extremes", said)
+        self.assertIn("no extremes of a free vibration: x does not turn back in 1.618 s, where swings count above", said)
+        self.assertIn("; needed are four extremes", said)
         self.assertIn("of 1210 rows only the longest uninterrupted stretch is used, 810 rows from t = 0.88 s", said)
 
     def test_gaps_are_told(self):
         times = [t for i, t in enumerate(EVEN) if i not in (10, 11)]
         result = self.identify(self.write("gaps.csv", history(times).replace("t,x", "t,x [mm]")))
         self.assertIn("the longest uninterrupted stretch is used, 88 rows", result.stderr)
+        self.assertIn("left out are 10 rows from t = 0 s to", result.stderr)
+        self.assertIn("a label in a column sweep", result.stderr)
+
+    def test_a_frequency_that_the_base_does_not_have_is_named(self):
+        rows = "".join(f"{i / 500:.3f},{math.sin(37.7 * i / 500 - 1):.6f},{0.2 * math.sin(37.7 * i / 500):.6f}\n" for i in range(1000))
+        path = self.write("off.csv", "t [s],x [mm],y [mm]\n" + rows)
+        options = ["--mass", "1 kg", "--stiffness", "1421 N/m", "--frequency", "6.12 Hz"]
+        said = self.identify(path, "--method", "den_hartog_fit", constants=options).stderr
+        self.assertIn("the base moves at 6.00014 Hz, not at 6.12 Hz, 2 % away where at most 1 % is taken for rounding", said)
 
     def test_a_history_without_x_is_told_once_what_to_do(self):
         rows = "".join(f"{i / 1000:.3f},{math.cos(39.0 * i / 1000) * math.exp(-2 * i / 1000):.6f}\n" for i in range(2000))

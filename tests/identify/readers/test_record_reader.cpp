@@ -155,6 +155,9 @@ TEST_CASE("Gaps: the longest uninterrupted stretch is used, and said so") {
   CHECK(history.x.back() == 899.0);
   REQUIRE(file.warnings.size() == 1);
   CHECK(mentions(file.warnings[0], "of 997 rows only the longest uninterrupted stretch is used, 698 rows"));
+  CHECK(
+      mentions(file.warnings[0], "left out are 200 rows from t = 0 s to 0.199 s and 99 rows from t = 0.901 s to "));
+  CHECK(mentions(file.warnings[0], "a label in a column sweep"));
   // One missing sample is a gap, though times rounded to 1 ms would allow a step of 1.001 ms.
   std::string lone = "t,x\n";
   for (int i = 0; i < 1000; ++i)

@@ -247,3 +247,13 @@ TEST_CASE("A long rest read by a coarse converter adds no extremes and does not 
     CHECK(warnings.size() == 1);
   }
 }
+
+TEST_CASE("A motion that hardly turns is refused with its turning points, its time and its noise") {
+  History history{.sample_rate = 100.0};
+  for (int i = 0; i < 101; ++i) history.x.push_back(std::sin(0.012 * i));
+  CHECK(decay_of(history).fault.starts_with("x does not turn back in 1 s, where swings count above "));
+  for (int i = 0; i < 101; ++i) history.x[static_cast<std::size_t>(i)] = std::cos(0.05 * i);
+  CHECK(decay_of(history).fault == "x has 2 extremes in 1 s");
+  for (double& x : history.x) x = 1.0;
+  CHECK(decay_of(history).fault == "x does not move in 1 s");
+}
