@@ -60,10 +60,8 @@ bool misses(Estimate& estimate, const Ledger& ledger) {
                       core::format_number(estimate.laws->inflation, 2) + " times their noise";
   else if (ledger.misfit && !estimate.laws)
     estimate.reason = misfit_size(*ledger.misfit);
-  else if (gives_out_work(ledger) && !estimate.laws)
-    estimate.reason =
-        "the joint model fits these histories only with friction that is clearly negative, so a constant, a unit or "
-        "the drive is wrong, or friction is not Coulomb + viscous";
+  else if (const std::string negative = negative_friction(ledger); !negative.empty() && !estimate.laws)
+    estimate.reason = negative;
   else
     return false;
   estimate.usable = false;
@@ -71,10 +69,7 @@ bool misses(Estimate& estimate, const Ledger& ledger) {
 }
 
 void judge(Estimate& estimate, const Ledger& ledger) {
-  if (!estimate.outcome.ok()) return;
-  if (misses(estimate, ledger)) return;
-  if (ledger.data.empty()) return;
-  if (!estimate.sound) return;
+  if (!estimate.outcome.ok() || misses(estimate, ledger) || ledger.data.empty() || !estimate.sound) return;
   std::vector<Assumption> violated;
   for (const LedgerEntry& entry : ledger.entries)
     if (entry.standing == Standing::violated && rests_on(estimate).contains(entry.assumption))
@@ -267,6 +262,7 @@ std::string why_none(const Identification& all) {
     return misfit_text(*all.ledger.misfit) +
            (all.ledger.departures.empty() ? "" : "; " + why_contradicted(all.ledger));
   if (!all.ledger.departures.empty()) return why_contradicted(all.ledger);
+  if (std::string negative = negative_friction(all.ledger); !negative.empty()) return negative;
   const auto there = std::ranges::find_if(all.estimates, [](const Estimate& e) { return e.outcome.ok(); });
   if (there == all.estimates.end())
     return all.estimates.empty() ? "" : all.estimates.front().method + ": " + all.estimates.front().outcome.reason;
@@ -303,7 +299,10 @@ std::string departures_text(const Ledger& ledger) {
   for (const std::vector<Assumption>& departure : ledger.departures) {
     const LedgerEntry& first = ledger.entry(departure.front());
     text += " These data contradict that " + statements(departure, ", or that ") + " (" + first.test +
-            ", p = " + core::format_number(*first.p_value, 2) + ").";
+            ", p = " + core::format_number(*first.p_value, 2) + ")";
+    const std::string& wanted = ledger.entry(Assumption::constants).wanted;
+    const bool of_constants = std::ranges::count(departure, Assumption::constants) > 0;
+    text += of_constants && !wanted.empty() ? ": they want " + wanted + "." : ".";
   }
   return text;
 }
@@ -405,7 +404,7 @@ std::string verdict_of(const Identification& all) {
   const std::string harmless = harmless_text(all.ledger);
   if (all.ledger.misfit) text += " As a whole, " + misfit_text(*all.ledger.misfit) + ".";
   text =
-      numbers_of(best, all.ledger.coordinate) + ", by " + best.method + ". " +
+      numbers_of(best, all.ledger.coordinate) + ", by " + best.method + no_freedom(best) + ". " +
       (!text.empty()       ? text.substr(1)
        : untested          ? "These data cannot tell whether friction is Coulomb + viscous."
        : !harmless.empty() ? "These data contradict no assumption in a way that matters; seen is: " + harmless + "."

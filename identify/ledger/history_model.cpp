@@ -202,6 +202,16 @@ class Histories {
     return at;
   }
 
+  /// Where damping is below zero, a motion in which noise of the drive grows is none that the noise can be judged
+  /// by.
+  [[nodiscard]] bool noise_grows(const ForceParameters& force) {
+    const double rate = -0.5 * force.c / force.m;
+    return std::ranges::any_of(fit_.tests(), [rate](const ForwardTest& test) {
+      const History& history = *test.history;
+      return rate * static_cast<double>(history.x.size()) > history.sample_rate;
+    });
+  }
+
   /// Rows of every channel. `white`: whitened by `errors`, else by its own residuals, with `shaken`.
   [[nodiscard]] std::optional<Linearised> linearised(const Place& at, const Numbers& wanted, bool white,
                                                      const std::vector<Autoregression>& errors = {}) {
@@ -211,7 +221,7 @@ class Histories {
     // Innovations are nearly white: the noise levels are estimates. In a, noise of the drive may last for a period.
     Channel v{.most_lags = 4};
     Channel a{.most_lags = 24};
-    const bool shake = white && !shaken_.empty();
+    const bool shake = white && !shaken_.empty() && !noise_grows(force);
     for (std::size_t t = 0; t < fit_.tests().size(); ++t)
       if (!add_test(t, at, wanted, shake, x, v, a)) return std::nullopt;
     Linearised result;

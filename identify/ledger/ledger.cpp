@@ -124,9 +124,33 @@ class Writer {
       if (harms && is_uneven(test))
         entry.reason += std::string("; ") + (test.zeta_part == 0.0 ? "F0" : "zeta") +
                         " of a part of the record is off its mean by " + in_percent(unevenness(test));
+      if (harms && entry.assumption == Assumption::constants) {
+        entry.wanted = wanted_constants(departure);
+        if (!entry.wanted.empty()) entry.reason = "these data want " + entry.wanted + "; " + entry.reason;
+      }
       if (harms) named.push_back(assumption_of(test));
     }
     if (!named.empty()) ledger.departures.push_back(std::move(named));
+  }
+
+  /// "a stiffness of 1421 N/m instead of 1563 N/m, or a mass of 1.1 kg instead of 1 kg", of the fits that explain
+  /// the departure.
+  [[nodiscard]] std::string wanted_constants(const Departure& departure) const {
+    std::vector<std::string> texts;
+    const auto add = [&](const char* what, double wanted, double stated, const char* unit) {
+      constexpr double same = 1e-6;
+      if (!(std::abs(wanted - stated) > same * std::abs(stated))) return;
+      constexpr int digits = 4;
+      const std::string in_unit = " " + stated_.unit(unit);
+      texts.push_back(what + core::format_number(wanted, digits) + in_unit + " instead of " +
+                      core::format_number(stated, digits) + in_unit);
+    };
+    for (const RelaxationTest& test : departure.explanations) {
+      if (assumption_of(test) != Assumption::constants) continue;
+      add("a stiffness of ", test.constants.stiffness, stated_.stiffness, "N/m");
+      add("a mass of ", test.constants.mass, stated_.mass, "kg");
+    }
+    return core::joined(texts, ", or ");
   }
 
   /// Do the stated uncertainties allow constants or gains to be off by as much? All uncertainties count for each of

@@ -48,13 +48,16 @@ std::string misfit_size(const Misfit& misfit) {
          " times their noise (p = " + core::format_number(misfit.p_value, 2) + ")";
 }
 
-bool gives_out_work(const Ledger& ledger) {
-  if (!ledger.tests_histories || !ledger.joint || !ledger.joint->interval95) return false;
+std::string negative_friction(const Ledger& ledger) {
+  if (!ledger.tests_histories || !ledger.joint || !ledger.joint->interval95) return {};
   const auto clearly_negative = [](double value, const std::array<double, 2>& interval) {
     return value + (interval[1] - interval[0]) < 0.0;
   };
-  return clearly_negative(ledger.joint->value.c, ledger.joint->interval95->c) ||
-         clearly_negative(ledger.joint->value.F0, ledger.joint->interval95->F0);
+  const bool gives_out_work = clearly_negative(ledger.joint->value.c, ledger.joint->interval95->c) ||
+                              clearly_negative(ledger.joint->value.F0, ledger.joint->interval95->F0);
+  return gives_out_work ? "the joint model fits these histories only with friction that is clearly negative, so a "
+                          "constant, a unit or the drive is wrong, or friction is not Coulomb + viscous"
+                        : "";
 }
 
 }  // namespace dualdamp::identify

@@ -28,8 +28,8 @@ inline constexpr double misfit_share = 0.1;
 /// "the joint model misses these data by 12 times their noise (p = 1e-9)"
 [[nodiscard]] std::string misfit_size(const Misfit& misfit);
 
-/// Do histories, with all that is relaxed, need friction that is negative by twice its interval? What one method
-/// makes of them by energy or forces is then no better.
-[[nodiscard]] bool gives_out_work(const Ledger& ledger);
+/// Histories that, with all that is relaxed, need friction that is negative by twice its interval: a sentence. What
+/// one method makes of them by energy or forces is then no better. Empty otherwise.
+[[nodiscard]] std::string negative_friction(const Ledger& ledger);
 
 }  // namespace dualdamp::identify

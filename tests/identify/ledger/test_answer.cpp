@@ -273,6 +273,35 @@ TEST_CASE("No answer has negative friction") {
   CHECK(answer.value.F0 == 2.0);
 }
 
+TEST_CASE("An answer of as many readings as unknowns says that they leave no freedom") {
+  Estimate exact = estimate("free_decay", 0.06, 2.0, 0.01);
+  exact.interval95.reset();
+  exact.used = {1, 2, 3, 4};
+  Ledger nothing = ledger({});
+  nothing.data.clear();
+  CHECK(mentions(concluded({exact}, nothing).verdict,
+                 "from 4 readings that leave no freedom for an interval or a test"));
+  exact.used = {1, 2, 3, 4, 5};
+  CHECK_FALSE(mentions(concluded({exact}, nothing).verdict, "no freedom"));
+}
+
+TEST_CASE("Clearly negative friction is named as the cause, before what one method says of itself") {
+  Ledger negative = ledger({});
+  negative.tests_histories = true;
+  negative.joint = estimate("joint_fit", 0.06, 2.0, 0.01);
+  negative.joint->value.c = -6.0;
+  negative.joint->interval95->c = {-6.1, -5.9};
+  Estimate unsound = estimate("friction_force", 0.06, 2.0, 0.01);
+  unsound.sound = unsound.usable = false;
+  unsound.reason = "friction over speed is not a straight line";
+  const Identification found = concluded({unsound}, negative);
+  CHECK_FALSE(found.answer);
+  CHECK(
+      found.reason.starts_with("the joint model fits these histories only with friction that is clearly negative"));
+  CHECK(mentions(found.verdict, "clearly negative"));
+  CHECK(concluded({unsound}, ledger({})).reason == "friction_force: friction over speed is not a straight line");
+}
+
 TEST_CASE("Where the joint model misses the record no narrow estimate answers, and the verdict says so") {
   Ledger missed = ledger({});
   missed.misfit = Misfit{1e-5, 12.0};
