@@ -96,12 +96,21 @@ struct Request {
   const FitOptions& options;
 };
 
+core::Outcome cut_short(long most_work) {
+  return {
+      core::OutcomeKind::not_identifiable,
+      "search cut short: the motions took more than " + std::to_string(most_work) +
+          " steps. Data that do not determine a parameter lead the search to values of it that make a law stiff: "
+          "state values or bounds, or free fewer parameters"};
+}
+
 /// Sets all results of a fit at the end of a search. Returns coordinates with a smaller sum of squares, if a
 /// profile found any.
 std::optional<Eigen::VectorXd> describe(const FitProblem& problem, const Request& request,
                                         const SearchResult& found, Fit& result) {
   const Eigen::VectorXd& q = found.coordinates;
   Eigen::MatrixXd jacobian;
+  problem.limit(std::numeric_limits<long>::max());
   if (!problem.derivatives(q, result.outputs, jacobian)) {
     result.outcome = {core::OutcomeKind::not_identifiable, "the motion has no derivative at the estimate"};
     return std::nullopt;
@@ -115,6 +124,7 @@ std::optional<Eigen::VectorXd> describe(const FitProblem& problem, const Request
   for (std::size_t i = 0; i < request.parameters.size(); ++i)
     result.parameters.push_back(
         {.parameter = request.parameters[i], .value = values[static_cast<Eigen::Index>(i)]});
+  problem.limit(request.options.most_work);
   return add_uncertainty(
       {problem, found.weights, q, misses, jacobian, request.options.profile, request.options.robust}, result);
 }
@@ -140,7 +150,12 @@ Fit fit_rig(const Rig& rig, std::vector<FitParameter> parameters, const Experime
   result.starts = options.starts > 0 ? options.starts : all_stated ? 8 : 40;
   const SearchOptions search{
       .points = result.starts, .most_starts = all_stated ? 2U : 3U, .robust = options.robust};
+  problem.limit(options.most_work);
   std::optional<SearchResult> found = search_parameters(problem, parameters, sizes, search);
+  if (problem.is_exhausted()) {
+    result.outcome = cut_short(options.most_work);
+    return result;
+  }
   if (!found) {
     const std::string fault = law_fault(rig, parameters, sizes, experiments);
     result.outcome = {core::OutcomeKind::not_identifiable, "the rig has no such motion with any of " +
@@ -155,6 +170,7 @@ Fit fit_rig(const Rig& rig, std::vector<FitParameter> parameters, const Experime
         describe(problem, {rig, parameters, experiments, options}, *found, described);
     if (!lower) return described;
     std::optional<SearchResult> next;
+    problem.limit(options.most_work);
     if (round < most_rounds) next = search_from(problem, *lower, search);
     if (!next) {
       described.warnings.emplace_back(

@@ -16,6 +16,9 @@
 /// parameters along which the data allow a change of 100 % are described in words. Laws are compared by AICc
 /// (burnham2002) with the number of samples that count as independent.
 ///
+/// A search that takes more work than `FitOptions::most_work` ends without a result, and says so; the profiles then
+/// only end without theirs.
+///
 /// Source: ljung1999, burnham2002, newey1987, huber1964. Errors: `outcome`. Cost: that of a motion, times 40 for
 /// the starts and times two for each parameter and step.
 
@@ -36,6 +39,8 @@ struct FitOptions {
   bool robust = false;
   bool profile = true;
   int starts = 0;  ///< 0: 8 if all parameters have stated values, else 40
+  /// Of a search, and of all profiles (`Experiment::work`): some ten minutes of processor time.
+  long most_work = 400'000'000;
 };
 
 /// Numbers that do not exist are `unknown`.

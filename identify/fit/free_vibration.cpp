@@ -45,6 +45,7 @@ class FreeVibration final : public Experiment {
     free.initial = {own[static_cast<std::size_t>(Own::position)], 0.0};
     const std::size_t wanted = signals.front().measured.size();
     const sim::FreeDecay decay = sim::free_decay(free, static_cast<int>(wanted));
+    *work += decay.work;
     if (!decay.outcome.ok()) return false;
     outputs.resize(size());
     const double swing = std::numbers::pi / sim::natural_frequency(model.oscillator);

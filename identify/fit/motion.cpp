@@ -139,8 +139,9 @@ class MeasuredMotion final : public Experiment {
     while (const sim::Interval* interval = engine->next(end * (1.0 + 1e-9) + 1e-12)) {
       take_until(*interval, interval->end());
       if (next == samples_) break;
-      if (engine->work() > most_work(there)) return false;
+      if (engine->work() > most_work(there)) break;
     }
+    *work += engine->work();
     return engine->outcome().ok() && next == samples_ && outputs.allFinite();
   }
 

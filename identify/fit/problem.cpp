@@ -59,7 +59,8 @@ FitProblem::FitProblem(const FitProblem& whole, Experiments parts)
       parameters_(whole.parameters_),
       parts_(std::move(parts)),
       experiments_(whole.experiments_),
-      coordinates_(whole.coordinates_) {
+      coordinates_(whole.coordinates_),
+      most_work_(whole.most_work_) {
   for (std::size_t e = 0; e < parts_.size(); ++e)
     if (parts_[e]) experiments_[e] = parts_[e].get();
   number_rows();
@@ -103,6 +104,18 @@ void FitProblem::number_rows() {
         Eigen::Map<const Eigen::VectorXd>(signal(rows).measured.data(), rows.end - rows.begin);
     for (const std::size_t i : signal(rows).unsure) counted_[rows.begin + static_cast<Eigen::Index>(i)] = 0.0;
   }
+}
+
+long FitProblem::work() const {
+  long sum = 0;
+  for (const Experiment* experiment : experiments_) sum += *experiment->work;
+  return sum;
+}
+
+void FitProblem::limit(long most) const {
+  constexpr long largest = std::numeric_limits<long>::max();
+  const long begun = work();
+  *most_work_ = most < largest - begun ? begun + most : largest;
 }
 
 double FitProblem::rms(const Eigen::VectorXd& misses, const SignalRows& rows) const {
@@ -174,6 +187,7 @@ std::optional<sim::Model> FitProblem::model_at(const Eigen::VectorXd& values) co
 }
 
 bool FitProblem::outputs(const Eigen::VectorXd& q, Eigen::VectorXd& result) const {
+  if (is_exhausted()) return false;
   const Eigen::VectorXd p = values(q);
   return guarded([&] {
     const std::optional<sim::Model> model = model_at(p);

@@ -9,6 +9,7 @@
 /// Newton's method from the orbit of the unchanged model.
 
 #include <Eigen/Core>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -56,6 +57,11 @@ class FitProblem {
   /// With models tied to the measured motions; nothing if there is no motion.
   [[nodiscard]] std::optional<FitProblem> tied(double strength) const;
 
+  /// Begins to count the work of the motions (`Experiment::work`), also those of the problems made from this one.
+  /// Beyond `most` there are no motions any more.
+  void limit(long most) const;
+  [[nodiscard]] bool is_exhausted() const { return work() > *most_work_; }
+
   [[nodiscard]] Eigen::Index rows() const { return rows_; }
   [[nodiscard]] const std::vector<SignalRows>& signals() const { return signals_; }
   [[nodiscard]] const std::vector<Coordinate>& coordinates() const { return coordinates_; }
@@ -97,7 +103,7 @@ class FitProblem {
   [[nodiscard]] std::optional<sim::Model> model_at(const Eigen::VectorXd& values) const;
   FitProblem(const FitProblem& whole, Experiments parts);
   void number_rows();
-
+  [[nodiscard]] long work() const;
   const Rig& rig_;
   Accuracy accuracy_{};
   const std::vector<FitParameter>& parameters_;
@@ -109,6 +115,8 @@ class FitProblem {
   Eigen::VectorXd measured_;
   Eigen::VectorXd counted_;
   Eigen::Index rows_ = 0;
+  /// Of `work`; of all problems made from one.
+  std::shared_ptr<long> most_work_ = std::make_shared<long>(std::numeric_limits<long>::max());
 };
 
 }  // namespace dualdamp::identify

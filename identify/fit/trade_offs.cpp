@@ -59,14 +59,19 @@ TradeOff trade_off(const WeakDirection& direction, const std::vector<FitParamete
   });
   TradeOff found;
   for (const Eigen::Index i : order) found.parameters.push_back(parameters[static_cast<std::size_t>(i)].name);
+  const double open = 2.0 * direction.deviation * largest;
+  const double near_zero = direction.near_zero[first];
+  const std::string quantity =
+      core::format_number(open * near_zero, 2) + " " + parameters[static_cast<std::size_t>(first)].unit;
   const std::string known = std::isfinite(direction.deviation)
-                                ? "; the data leave " + percent_of_size(2.0 * direction.deviation * largest) +
+                                ? "; the data leave " + (near_zero > 0.0 ? quantity : percent_of_size(open)) +
                                       " of " + sought(parameters, first) + " open"
                                 : "; the data do not determine them";
   if (order.size() == 1)
     found.text = std::isfinite(direction.deviation)
                      ? "the data hardly show " + sought(parameters, first) + ": it is known to " +
-                           percent_of_size(2.0 * direction.deviation * largest) + " of its value"
+                           (near_zero > 0.0 ? quantity + ", and is zero within that"
+                                            : percent_of_size(open) + " of its value")
                      : "the data do not show " + found.parameters.front() + " at all";
   else if (order.size() == 2)
     found.text = pair_text(direction, parameters, order[0], order[1]) + known;

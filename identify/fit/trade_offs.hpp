@@ -16,6 +16,8 @@ struct WeakDirection {
   Eigen::VectorXd effect;  ///< of each component on the readings, absolute
   double deviation = 0.0;  ///< standard deviation along it, in units of `share`; infinite: not determined
   double rounding = 0.0;   ///< a smaller `effect` may be rounding
+  /// One unit of `share` of a parameter whose own value is too small to be a unit, in its unit; else 0.
+  Eigen::VectorXd near_zero;
 };
 
 [[nodiscard]] TradeOff trade_off(const WeakDirection& direction, const std::vector<FitParameter>& parameters);

@@ -24,6 +24,7 @@ class Uncertainty {
  public:
   Uncertainty(const FitEnd& end, Fit& fit) : end_(end), fit_(fit), size_(end.q.size()) {
     rows_ = end.weights.asDiagonal() * end.jacobian;
+    if (size_ > 0) strongest_ = effects(whole_all()).maxCoeff();
     for (Eigen::Index i = 0; i < size_; ++i) {
       const Coordinate& c = end.problem.coordinates()[static_cast<std::size_t>(i)];
       constexpr double near = 1e-6;
@@ -32,9 +33,9 @@ class Uncertainty {
       fit.parameters[static_cast<std::size_t>(i)].at_bound = low || high;
       // At the end of a logarithmic range, most parameters have no effect any more: a factor e changes the readings
       // by less than their noise. One with an effect widens the intervals of the others.
-      const bool acts = !(c.logarithmic && (low || high)) || rows_.col(i).norm() >= 1.0;
-      if (acts) free_.push_back(i);
-      if (acts && c.logarithmic) warn_of_end(i, low, high);
+      const double effect = rows_.col(i).norm();
+      if (!(c.logarithmic && (low || high)) || effect * unit(i) >= 1.0) free_.push_back(i);
+      if (c.logarithmic && effect >= 1.0) warn_of_end(i, low, high);
     }
     residuals_ = end.weights.cwiseProduct(end.misses);
     measure_variance();
@@ -81,6 +82,25 @@ class Uncertainty {
     return std::max(std::abs(end_.q[i]), least);
   }
 
+  /// The change of a parameter, in coordinates, in which its part of a direction is judged: 100 %, or more if the
+  /// effect of that is small, up to the largest value of the search. Within it a spring that is nearly zero makes
+  /// up for all of a mass, which a factor e of it does not show.
+  [[nodiscard]] double unit(Eigen::Index i) const {
+    const Coordinate& c = end_.problem.coordinates()[static_cast<std::size_t>(i)];
+    if (!c.logarithmic) return whole(i);
+    constexpr double least = 0.1;
+    const double effect = rows_.col(i).norm();
+    const double wanted = effect > 0.0 ? least * strongest_ / effect : 1.0;
+    return std::clamp(wanted, 1.0, std::max(1.0, std::exp(c.high - end_.q[i])));
+  }
+
+  /// A parameter that is so small that its own value is no measure of it.
+  [[nodiscard]] bool is_near_zero(Eigen::Index i) const {
+    const Coordinate& c = end_.problem.coordinates()[static_cast<std::size_t>(i)];
+    constexpr double least = 0.1;
+    return (c.logarithmic ? std::exp(end_.q[i]) : std::abs(end_.q[i])) < least;
+  }
+
   void measure_variance() {
     for (std::size_t s = 0; s < end_.problem.signals().size(); ++s) {
       const SignalRows& rows = end_.problem.signals()[s];
@@ -101,9 +121,9 @@ class Uncertainty {
     }
   }
 
-  /// A parameter as a direction in parts of the sizes.
+  /// A parameter as a direction in parts of the units.
   [[nodiscard]] Eigen::VectorXd scaled_row(Eigen::Index i) const {
-    return slope_.row(i).transpose().cwiseProduct(whole_all());
+    return slope_.row(i).transpose().cwiseProduct(units());
   }
 
   /// The part of each signal in the variance along a direction.
@@ -136,11 +156,10 @@ class Uncertainty {
     if (free == 0) return;
     Eigen::MatrixXd scaled(rows_.rows(), free);
     for (Eigen::Index j = 0; j < free; ++j)
-      scaled.col(j) = rows_.col(free_[static_cast<std::size_t>(j)]) * whole(free_[static_cast<std::size_t>(j)]);
+      scaled.col(j) = rows_.col(free_[static_cast<std::size_t>(j)]) * unit(free_[static_cast<std::size_t>(j)]);
     const SymmetricSpectrum normal = symmetric_spectrum(scaled.transpose() * scaled);
     const double largest = normal.values[free - 1];
     constexpr double singular = 1e-12;  // of squares
-    strongest_ = std::sqrt(largest);
     Eigen::VectorXd inverse(free);
     for (Eigen::Index j = 0; j < free; ++j) {
       const double value = normal.values[j];
@@ -159,7 +178,7 @@ class Uncertainty {
       scaled_covariance_ += parts_.back();
       plain += variances_[s] * (part.transpose() * part);
     }
-    const Eigen::VectorXd all = whole_all();
+    const Eigen::VectorXd all = units();
     covariance_ = all.asDiagonal() * scaled_covariance_ * all.asDiagonal();
     classical_ = all.asDiagonal() * lift(bread * plain * bread) * all.asDiagonal();
     if (end_.robust) covariance_ *= robust_factor();
@@ -185,6 +204,12 @@ class Uncertainty {
     return all;
   }
 
+  [[nodiscard]] Eigen::VectorXd units() const {
+    Eigen::VectorXd all(size_);
+    for (Eigen::Index i = 0; i < size_; ++i) all[i] = unit(i);
+    return all;
+  }
+
   [[nodiscard]] Eigen::VectorXd expand(const Eigen::VectorXd& part) const {
     Eigen::VectorXd all = Eigen::VectorXd::Zero(size_);
     for (Eigen::Index j = 0; j < part.size(); ++j) all[free_[static_cast<std::size_t>(j)]] = part[j];
@@ -199,13 +224,21 @@ class Uncertainty {
     return all;
   }
 
+  /// A parameter takes part in a direction with a part of its own, or with a part of the effects that cancel there.
   [[nodiscard]] bool is_lost(Eigen::Index i) const {
     constexpr double part = 0.01;
     const auto& above = fit_.parameters[static_cast<std::size_t>(i)].parameter.above;
     return std::ranges::any_of(lost_, [&](const Eigen::VectorXd& direction) {
-      return std::abs(direction[i]) > part ||
-             (above && std::abs(direction[static_cast<Eigen::Index>(*above)]) > part);
+      const Eigen::VectorXd effect = effects(units().cwiseProduct(direction));
+      const double least = std::max(rounding * strongest_, part * effect.maxCoeff());
+      const auto takes_part = [&](Eigen::Index j) { return std::abs(direction[j]) > part || effect[j] > least; };
+      return takes_part(i) || (above && takes_part(static_cast<Eigen::Index>(*above)));
     });
+  }
+
+  /// Of each component of a change of the coordinates on the readings.
+  [[nodiscard]] Eigen::VectorXd effects(const Eigen::VectorXd& change) const {
+    return (rows_ * change.asDiagonal()).colwise().norm();
   }
 
   void add_interval(Eigen::Index i) {
@@ -225,7 +258,9 @@ class Uncertainty {
     }
     fitted.std = std::sqrt(std::max(fit_.covariance(i, i), 0.0));
     const double width = quantiles_[static_cast<std::size_t>(i)] * fitted.std;
-    if (c.logarithmic) {
+    if (c.logarithmic && is_near_zero(i) && width > fitted.value) {
+      fitted.interval95 = {0.0, fitted.value + width};
+    } else if (c.logarithmic) {
       const double factor = std::exp(std::min(width / fitted.value, 100.0));
       fitted.interval95 = {fitted.value / factor, fitted.value * factor};
     } else {
@@ -260,6 +295,7 @@ class Uncertainty {
     FittedParameter& fitted = fit_.parameters[static_cast<std::size_t>(i)];
     const auto& [low, high] = fitted.profile95;
     const bool ends = !std::isnan(low) && !std::isnan(high);
+    if (ends && fitted.at_bound) fitted.interval95 = fitted.profile95;
     if (ends && acts_in_steps(i) && !fitted.at_bound && low > fitted.parameter.range.low &&
         high < fitted.parameter.range.high) {
       fitted.interval95 = fitted.profile95;
@@ -290,10 +326,18 @@ class Uncertainty {
                                   : fit_.covariance(i, i) / variance * mean_variance();
       fitted.profile95 =
           profiler.interval(i, fitted, quantiles_[static_cast<std::size_t>(i)] * std::sqrt(widening));
-      if (fitted.at_bound && !std::isnan(fitted.profile95[0]) && !std::isnan(fitted.profile95[1]))
-        fitted.interval95 = fitted.profile95;
     });
-    lower_ = profiler.lower();
+    if (end_.problem.is_exhausted())
+      drop_profiles();
+    else
+      lower_ = profiler.lower();
+  }
+
+  /// Some of them have ended; which ones depends on the number of threads.
+  void drop_profiles() {
+    for (FittedParameter& fitted : fit_.parameters) fitted.profile95 = {unknown, unknown};
+    fit_.warnings.emplace_back(
+        "the search for profiles was cut short: their motions took too many steps, and no parameter has one");
   }
 
   [[nodiscard]] double mean_variance() const {
@@ -303,33 +347,38 @@ class Uncertainty {
   void add_trade_offs() {
     std::vector<FitParameter> parameters;
     for (const FittedParameter& fitted : fit_.parameters) parameters.push_back(fitted.parameter);
-    const Eigen::VectorXd all = whole_all();
+    Eigen::VectorXd near_zero = Eigen::VectorXd::Zero(size_);
+    for (Eigen::Index i = 0; i < size_; ++i)
+      if (is_near_zero(i)) near_zero[i] = slope_(i, i) * whole(i);
     const auto add = [&](const Eigen::VectorXd& direction, double deviation) {
-      const Eigen::VectorXd change = all.asDiagonal() * direction;
-      const Eigen::VectorXd effect = (rows_ * change.asDiagonal()).colwise().norm();
-      constexpr double rounding = 1e-4;
-      fit_.not_identifiable.push_back(
-          trade_off({slope_ * change, direction, effect, deviation, rounding * strongest_}, parameters));
+      const Eigen::VectorXd change = whole_all().cwiseProduct(direction);
+      fit_.not_identifiable.push_back(trade_off(
+          {slope_ * change, direction, effects(change), deviation, rounding * strongest_, near_zero}, parameters));
     };
-    for (const Eigen::VectorXd& direction : lost_) add(direction, infinity);
+    const Eigen::VectorXd ratio = units().cwiseQuotient(whole_all());
+    for (const Eigen::VectorXd& direction : lost_) add(ratio.cwiseProduct(direction).normalized(), infinity);
     if (free_.empty()) return;
-    const SymmetricSpectrum spectrum = symmetric_spectrum(scaled_covariance_);
+    const SymmetricSpectrum spectrum =
+        symmetric_spectrum(ratio.asDiagonal() * scaled_covariance_ * ratio.asDiagonal());
     for (Eigen::Index j = size_ - 1; j >= 0; --j) {
       const Eigen::VectorXd direction = spectrum.vectors.col(j);
+      const Eigen::VectorXd in_units = ratio.cwiseProduct(direction);
       const double deviation = std::sqrt(std::max(spectrum.values[j], 0.0));
-      if (!needs_noise(direction) && quantile95(freedom_along(direction)) * deviation > 1.0)
+      if (!needs_noise(in_units) && quantile95(freedom_along(in_units)) * deviation > 1.0)
         add(direction, deviation);
     }
   }
 
   void add_undetermined() {
-    constexpr double rounding = 1e-4;  // of a direction of length 1
     fit_.undetermined.resize(size_, static_cast<Eigen::Index>(lost_.size()));
     for (std::size_t j = 0; j < lost_.size(); ++j) {
       const Eigen::VectorXd direction = (lost_[j].array().abs() > rounding).select(lost_[j], 0.0);
-      fit_.undetermined.col(static_cast<Eigen::Index>(j)) = slope_ * whole_all().cwiseProduct(direction);
+      fit_.undetermined.col(static_cast<Eigen::Index>(j)) = slope_ * units().cwiseProduct(direction);
     }
   }
+
+  /// Of a direction of length 1, and of the strongest effect.
+  static constexpr double rounding = 1e-4;
 
   const FitEnd& end_;
   Fit& fit_;
@@ -343,9 +392,9 @@ class Uncertainty {
   Eigen::MatrixXd slope_;               ///< d(values)/d(coordinates)
   Eigen::MatrixXd covariance_;          ///< of coordinates
   Eigen::MatrixXd classical_;           ///< the same for independent residuals
-  Eigen::MatrixXd scaled_covariance_;   ///< in parts of the parameters' sizes
+  Eigen::MatrixXd scaled_covariance_;   ///< in parts of the parameters' units
   std::vector<Eigen::MatrixXd> parts_;  ///< of each signal in `scaled_covariance_`
-  std::vector<Eigen::VectorXd> lost_;   ///< directions that change nothing, in parts of the sizes
+  std::vector<Eigen::VectorXd> lost_;   ///< directions that change nothing, in parts of the units
   double strongest_ = 0.0;              ///< largest effect of a change of 100 %
   std::vector<double> quantiles_;       ///< of each parameter
   std::optional<Eigen::VectorXd> lower_;

@@ -19,6 +19,9 @@ namespace {
 
 constexpr int max_jumps = 32;
 constexpr double tolerance = 1e-12;
+// Explicit steps end here, as those of the smooth engine.
+constexpr double stiff = 1.0;
+constexpr int stiff_enough = 15;
 constexpr int max_events = 1000;  ///< within one call of move_along
 
 /// The states of a law over their scales, followed by work and heat.
@@ -41,8 +44,24 @@ class StatesOnPath final : public VectorField {
     rates[n + 1] = law_.dissipation(memory_, now, direction_);
     for (std::size_t i = 0; i < n; ++i) rates[i] /= scales_[i];
   }
-  /// The explicit method needs none.
-  void jacobian(std::span<const double>, double, std::span<double>) const override {}
+  /// Of the states by differences; work and heat follow from the states.
+  void jacobian(std::span<const double> y, double t, std::span<double> columns) const override {
+    const Instant now = path_(t);
+    const std::size_t n = scales_.size();
+    std::vector<double> base(n);
+    std::vector<double> moved(n);
+    std::ranges::fill(columns, 0.0);
+    unscale(y, memory_);
+    law_.rates(memory_, now, direction_, base);
+    constexpr double root_of_rounding = 1.5e-8;
+    for (std::size_t j = 0; j < n; ++j) {
+      const double step = root_of_rounding * std::max(1.0, std::abs(y[j]));
+      memory_.state[j] = (y[j] + step) * scales_[j];
+      law_.rates(memory_, now, direction_, moved);
+      memory_.state[j] = y[j] * scales_[j];
+      for (std::size_t i = 0; i < n; ++i) columns[j * size() + i] = (moved[i] - base[i]) / (step * scales_[i]);
+    }
+  }
 
   [[nodiscard]] std::vector<double> scaled(const Memory& memory) const {
     std::vector<double> y(size());
@@ -129,10 +148,12 @@ void LawHost::move_to(double x) {
 
 /// The first time at which a guard is below zero, or `end`. A guard that is above zero at `end` counts as above
 /// zero until then.
-double LawHost::time_of_violation(double end, const Path& path) const {
+double LawHost::time_of_violation(double end, const Path& path) {
+  if (!law_.is_modal()) return end;
   const auto violated = [&](double t) {
     LawHost trial = *this;
     trial.go(t, path);
+    steps_ = trial.steps_;
     // Far beyond the zero of its guard a formula may overflow.
     return trial.worst_guard() >= 0 || trial.broken();
   };
@@ -159,10 +180,12 @@ void LawHost::go(double end, const Path& path) {
   }
 }
 
-/// Integrates the states, relative to their scales, by explicit steps.
+/// Integrates the states, relative to their scales: by explicit steps, and by implicit ones once stability limits
+/// those.
 void LawHost::integrate(double end, const Path& path) {
   const StatesOnPath field(law_, memory_, direction_, path);
-  const auto stepper = make_explicit_stepper();
+  auto stepper = make_explicit_stepper();
+  int stiff_steps = 0;
   std::vector<double> y = field.scaled(memory_);
   std::vector<double> next(y.size());
   std::vector<double> error(y.size());
@@ -170,6 +193,7 @@ void LawHost::integrate(double end, const Path& path) {
   double t = now_.t;
   double h = end - t;
   while (t < end) {
+    if (++steps_ > most_steps_) return give_up("its states change too fast to be integrated");
     for (std::size_t i = 0; i < y.size(); ++i) allowed[i] = tolerance * (1.0 + std::abs(y[i]));
     const bool is_last = h >= end - t;
     if (is_last) h = end - t;
@@ -182,6 +206,11 @@ void LawHost::integrate(double end, const Path& path) {
     if (excess <= 1.0) {
       t = is_last ? end : t + h;
       y.swap(next);
+      stiff_steps = stepper->stiffness() > stiff ? stiff_steps + 1 : std::max(0, stiff_steps - 1);
+      if (stiff_steps > stiff_enough) {
+        stepper = make_implicit_stepper();
+        stiff_steps = 0;
+      }
     } else if (h < 1e-12 * (end - now_.t)) {
       return give_up("its states are not finite, or cannot be integrated");
     }

@@ -4,6 +4,7 @@
 /// independent, so that a step can be tried.
 
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -37,6 +38,10 @@ class LawHost {
   [[nodiscard]] const std::vector<std::string>& faults() const { return faults_; }
   [[nodiscard]] bool broken() const { return broken_; }
 
+  /// Steps of integration so far, and their largest number: beyond it the motion is broken.
+  [[nodiscard]] long steps() const { return steps_; }
+  void limit_steps(long most) { most_steps_ = most; }
+
   /// The mass stops and then moves in this direction, or sticks (none).
   void change_direction(friction::Direction direction);
   /// Moves the mass to time `end`, through the events of the law. The path must keep the present direction.
@@ -55,7 +60,7 @@ class LawHost {
   [[nodiscard]] Path with_past(const Path& way);
   void integrate(double end, const Path& path);
   [[nodiscard]] int worst_guard();
-  [[nodiscard]] double time_of_violation(double end, const Path& path) const;
+  [[nodiscard]] double time_of_violation(double end, const Path& path);
   void settle();
   void give_up(const std::string& fault);
 
@@ -69,6 +74,8 @@ class LawHost {
   double work_ = 0.0;
   double heat_ = 0.0;
   int events_ = 0;
+  long steps_ = 0;
+  long most_steps_ = std::numeric_limits<long>::max();
   friction::Instant last_event_;
   std::vector<std::string> faults_;
   bool broken_ = false;

@@ -70,6 +70,7 @@ FreeDecay free_decay(const Model& model, int peaks) {
   }
   decay.outcome = engine.outcome();
   decay.accuracy = engine.accuracy();
+  decay.work = engine.work();
   return decay;
 }
 

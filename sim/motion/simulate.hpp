@@ -50,6 +50,7 @@ struct FreeDecay {
   bool came_to_rest = false;   ///< fewer peaks than requested because the mass sticks
   bool creeps = false;         ///< fewer because the motion has no turning point within 100 natural periods
   double accuracy = 0.0;       ///< error of the engine, relative to the motion
+  long work = 0;               ///< `Engine::work`
 };
 
 /// Successive extremes of the motion from `model.initial`; at most `peaks` of them. The excitation must be `none`.

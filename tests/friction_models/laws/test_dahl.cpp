@@ -48,6 +48,22 @@ TEST_CASE("dahl: first loading in closed form", "[friction][dahl]") {
   }
 }
 
+TEST_CASE("dahl: bristles far stiffer than the path is long take few steps", "[friction][dahl]") {
+  // They relax within 1e-10 of the way: explicit steps would be billions.
+  sim::LawHost host(Law(Dahl(1e-3, 1e7, 1.0)), {});
+  for (const double x : {1.0, 0.0}) {
+    host.move_to(x);
+    CHECK(!host.broken());
+    CHECK(host.force() == Approx(std::copysign(1e-3, x - 0.5)).epsilon(1e-9));
+  }
+  CHECK(host.steps() < 2000);
+  sim::LawHost limited(Law(Dahl(1e-3, 1e7, 1.0)), {});
+  limited.limit_steps(10);
+  limited.move_to(1.0);
+  CHECK(limited.broken());
+  CHECK(limited.steps() < 200);
+}
+
 TEST_CASE("dahl: peak force and work of a loop", "[friction][dahl]") {
   // Fmax = Fc tanh a, W = 4 Fc A (1 - tanh(a)/a). Loops tend to it as exp(-2 a) each: 40 leave nothing for a >=
   // 0.5.

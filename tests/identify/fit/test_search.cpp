@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -179,4 +180,36 @@ TEST_CASE("search: a play of which each reading lies on one side is sought, thou
   const test::KnownFit known = test::Laboratory(test::law_case_of("free_play"), test::RecordKind::loop).fit(1);
   REQUIRE(known.fit.outcome.ok());
   CHECK(known.fit.noise_units == Approx(1.0).margin(0.1));
+}
+
+TEST_CASE("search: a search that takes too much work is cut short, and says so", "[identify][fit]") {
+  const auto outcome_of = [](identify::Rig rig, const identify::Record& record, bool is_loop) {
+    std::string fault;
+    const identify::Experiments experiments =
+        identify::experiments_of(record, {.name = "record", .loop = is_loop}, fault);
+    REQUIRE(fault.empty());
+    std::vector<identify::FitParameter> parameters = test::sought_in(rig, {"kinetic"}, 1.2);
+    for (const identify::Own own : experiments.front()->own_free)
+      parameters.push_back(identify::own_parameter(*experiments.front(), 0, own, true));
+    return identify::fit_rig(rig, parameters, experiments, {.most_work = 500}).outcome;
+  };
+  for (const char* law : {"coulomb", "dahl"}) {
+    CAPTURE(law);
+    const identify::Rig rig = test::rig_with(test::law_case_of(law));
+    const identify::Record history = test::history_of(rig, {}, 6);
+    const identify::Record loop = test::loop_of(rig, 0.01, 0.01, 4);
+    identify::Rig free = rig;
+    free.known.excitation = {};
+    identify::Record decay;
+    decay.decay = identify::DecayRecord{{0.04, -0.037, 0.034, -0.031, 0.028, -0.025}, {}};
+    identify::Record pairs;
+    const double omega = rig.known.excitation.frequency;
+    pairs.pairs.emplace();
+    for (const double Y : {4e-3, 5e-3, 6e-3}) pairs.pairs->pairs.push_back({.Y = Y, .x = Y, .omega = omega});
+    for (const auto& [model, record, is_loop] : {std::tuple{rig, history, false},
+                                                 {free, decay, false},
+                                                 {rig, pairs, false},
+                                                 {test::loop_alone(rig), loop, true}})
+      CHECK_THAT(outcome_of(model, record, is_loop).reason, Catch::StartsWith("search cut short"));
+  }
 }
