@@ -67,6 +67,16 @@ class FreeVibration final : public Experiment {
 std::unique_ptr<Experiment> free_vibration(const DecayRecord& record, const ExperimentOptions& options,
                                            std::string& fault) {
   constexpr std::size_t least = 4;
+  const std::vector<double>& x = record.extremes;
+  for (std::size_t i = 2; i < x.size(); ++i) {
+    if (!((x[i] - x[i - 1]) * (x[i - 1] - x[i - 2]) > 0.0)) continue;
+    fault =
+        "x without samples of time is read as the extremes of a free vibration, which alternate, and number " +
+        std::to_string(i) +
+        " lies between its neighbours. Samples need their times t; extremes of one side, or without signs, need "
+        "those of the other side; those after the mass has come to rest must be left out";
+    return nullptr;
+  }
   if (record.extremes.size() >= least) return std::make_unique<FreeVibration>(record, options);
   fault = "a decay needs four extremes, and the record has " + std::to_string(record.extremes.size());
   return nullptr;

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/numbers.hpp"
+#include "core/uncertain_quantity.hpp"
 #include "core/units.hpp"
 #include "identify/readers/text.hpp"
 
@@ -128,6 +129,11 @@ double ColumnFactors::scaled(const KnownColumn& known, const std::string& scale,
   core::Diagnostic fault = where;
   fault.found = scale;
   const std::string text(trimmed(scale));
+  // `identify` takes an uncertainty from the scale before its file is read.
+  const core::SplitQuantityText split = core::split_uncertainty(text);
+  if (split.relative || !split.fault.empty())
+    return refuse(fault, "the scale of column " + name + " states an uncertainty, which only 'identify' uses",
+                  split.relative ? "'" + split.quantity + "'" : allowed);
   const core::NumberText number = core::read_number(text);
   if (!number.value || *number.value == 0.0)
     return refuse(fault, "the scale of column " + name + " does not begin with a number other than zero", allowed);

@@ -99,6 +99,7 @@ class Reader {
       if (size_of(*variable) > most_mat_values)
         refuse_file(file_, "variable '" + std::string(variable->name) + "' holds more than 20 million numbers");
       if (size_of(*variable) > 0 && Mat_VarReadDataAll(file.get(), variable.get()) != 0) refuse_damaged_mat(file_);
+      if (matvar_t* again = with_signed_texts(file.get(), *variable)) variable.reset(again);
       variables_.push_back(std::move(variable));
     }
   }

@@ -7,6 +7,7 @@
 
 #include "identify/readers/data_table.hpp"
 
+struct _mat_t;    // of matio, NOLINT(bugprone-reserved-identifier)
 struct matvar_t;  // of matio
 
 namespace dualdamp::identify {
@@ -15,6 +16,11 @@ namespace dualdamp::identify {
 /// Nothing if the variable holds no text. MATLAB writes UTF-16, and UTF-8 if all characters are ASCII; other
 /// programs write UTF-8 or single bytes.
 [[nodiscard]] std::optional<std::vector<std::string>> texts(const matvar_t& variable);
+
+/// matio 1.5 reads characters that are stored as signed numbers as zeros. Returns the variable again, with these
+/// characters, for the caller to own; null if it holds none. In compressed cells they remain zeros, which are no
+/// text.
+[[nodiscard]] matvar_t* with_signed_texts(_mat_t* file, const matvar_t& variable);
 
 /// The labels of rows, alike neighbours together.
 [[nodiscard]] std::vector<LabelRun> runs_of(const std::vector<std::string>& labels);

@@ -119,3 +119,17 @@ TEST_CASE("residuals: laws are compared by what is left where the stated noise i
   identify::compare_fits(too_small);
   CHECK(too_small[1].AICc - too_small[0].AICc == Approx(9.758).margin(1e-3));
 }
+
+TEST_CASE("residuals: extremes that do not alternate are refused", "[identify][fit]") {
+  const auto fault_of = [](std::vector<double> extremes) {
+    identify::Record record;
+    record.decay = identify::DecayRecord{std::move(extremes), {}};
+    std::string fault;
+    const bool is_refused = identify::experiments_of(record, {.name = "record"}, fault).empty();
+    CHECK(is_refused == !fault.empty());
+    return fault;
+  };
+  CHECK(fault_of({5.0, -4.0, 3.0, -2.0, 1.0, 1.0}).empty());  // at rest
+  CHECK_THAT(fault_of({5.0, 4.0, 3.0, 2.0}), Catch::Contains("number 2 lies between its neighbours"));
+  CHECK_THAT(fault_of({5.0, 4.0, 4.2, 3.1, 3.0, 3.3}), Catch::Contains("number 4 lies between its neighbours"));
+}

@@ -2,9 +2,12 @@
 #include <matio.h>
 
 #include <catch2/catch.hpp>
+#include <fstream>
+#include <iterator>
 #include <limits>
 #include <memory>
 #include <random>
+#include <string>
 #include <vector>
 
 #include "core/diagnostics.hpp"
@@ -167,6 +170,33 @@ TEST_CASE("MATLAB labels are texts of any encoding, char arrays and cell arrays"
   bytes.add_cells("sweep", {"a", ""}).add("x", ramp(20)).add("dt", {0.01});
   CHECK(mentions(refusal([&] { (void)read_record(bytes.path()); }),
                  "variable 'sweep' holds no text that can be read"));
+}
+
+TEST_CASE("MATLAB labels may be stored as signed numbers") {
+  // The type of the content is in the word eight bytes before it.
+  const auto retyped = [](Matlab& file, const std::string& content, char type) {
+    const std::string path = file.path();
+    std::ifstream in(path, std::ios::binary);
+    std::string bytes{std::istreambuf_iterator<char>(in), {}};
+    constexpr std::size_t tag = 8;
+    const std::size_t at = bytes.find(content);
+    REQUIRE(at != std::string::npos);
+    bytes[at - tag] = type;
+    std::ofstream(path, std::ios::binary) << bytes;
+    return read_record(path).record.histories.at(0).sweep;
+  };
+  constexpr char int8 = 1;
+  constexpr char int16 = 3;
+  Matlab bytes("signed.mat", MAT_FT_MAT5);
+  bytes.add_chars<char>("sweep", MAT_T_UINT8, {'u', 'p', '-', '1', '2', '3', '4', '5'});
+  CHECK(retyped(bytes.add("x", ramp(20)).add("dt", {0.01}), "up-12345", int8) == "up-12345");
+  Matlab units("signed16.mat", MAT_FT_MAT5);
+  units.add_chars<char16_t>("sweep", MAT_T_UINT16, {'u', 'p', '-', '1', u'\xf6'});
+  using namespace std::string_literals;
+  CHECK(retyped(units.add("x", ramp(20)).add("dt", {0.01}), "u\0p\0-\0"s, int16) == "up-1\xc3\xb6");
+  Matlab cells("signed_cells.mat", MAT_FT_MAT5);
+  cells.add_cells("sweep", {"up-12345"});
+  CHECK(retyped(cells.add("x", ramp(20)).add("dt", {0.01}), "up-12345", int8) == "up-12345");
 }
 
 TEST_CASE("The unit in the name of a MATLAB variable of the caller's choice is used") {
