@@ -39,6 +39,7 @@ struct Prediction {
   bool is_wrong = false;
   std::string text;
   std::vector<PredictionBand> bands;  ///< of the first sampled signal
+  std::vector<std::string> warnings;  ///< stated noises that even the same laws, fitted to the record, contradict
   Fit fit;                            ///< of the record's own parameters, with the rig held fixed
 };
 

@@ -135,16 +135,21 @@ int contradicts_stated(const FittedSignal& signal) {
 
 namespace {
 
-std::string said_of_stated(const FittedSignal& fitted, const std::string& who) {
-  const std::string ratio = core::format_number(std::sqrt(fitted.chi2_per_freedom), 2);
-  const std::string test = " times the stated noise (chi-square " +
-                           core::format_number(fitted.chi2_per_freedom, 2) + " per degree of freedom): ";
-  if (contradicts_stated(fitted) < 0)
-    return who + " are " + ratio + test +
-           "the stated noise is too large; the intervals use it and are too wide by up to the same factor";
-  return who + " are " + ratio + test +
-         "the stated noise is too small, or the law is not that of the rig; the intervals are widened in proportion to "
-         "the residuals";
+std::string said_of_stated(const FittedSignal& fitted, const Signal& signal, const std::string& who) {
+  const double ratio = std::sqrt(fitted.chi2_per_freedom);
+  const auto with_unit = [&](double value) { return core::format_number(value, 2) + " " + signal.unit; };
+  return who + " are " + core::format_number(ratio, 2) + " times the stated noise (they scatter by " +
+         with_unit(ratio * fitted.noise) + ", and " + with_unit(fitted.noise) + " is stated; chi-square " +
+         core::format_number(fitted.chi2_per_freedom, 2) + " per degree of freedom): the stated noise is too " +
+         (contradicts_stated(fitted) < 0 ? "large" : "small, or the law is not that of the rig");
+}
+
+const Signal& signal_of(const Experiments& experiments, const FittedSignal& fitted) {
+  return experiments[fitted.rows.experiment]->signals[fitted.rows.signal];
+}
+
+std::string residuals_of(const Experiments& experiments, const FittedSignal& fitted) {
+  return experiments[fitted.rows.experiment]->label + ": the residuals of " + signal_of(experiments, fitted).name;
 }
 
 /// White residuals far above the noise of their signal come from somewhere else; the fit takes them for its noise.
@@ -157,12 +162,23 @@ std::string said_of_noise(const FittedSignal& fitted, const std::string& who) {
 
 }  // namespace
 
+std::vector<std::string> contradictions_of_stated(const Experiments& experiments, const Fit& fit) {
+  std::vector<std::string> texts;
+  for (const FittedSignal& fitted : fit.signals)
+    if (contradicts_stated(fitted) != 0)
+      texts.push_back(said_of_stated(fitted, signal_of(experiments, fitted), residuals_of(experiments, fitted)));
+  return texts;
+}
+
 void warn_of_residuals(const Experiments& experiments, bool robust, Fit& fit) {
   for (const FittedSignal& fitted : fit.signals) {
-    const Experiment& experiment = *experiments[fitted.rows.experiment];
-    const Signal& signal = experiment.signals[fitted.rows.signal];
-    const std::string who = experiment.label + ": the residuals of " + signal.name;
-    if (contradicts_stated(fitted) != 0) fit.warnings.push_back(said_of_stated(fitted, who));
+    const Signal& signal = signal_of(experiments, fitted);
+    const std::string who = residuals_of(experiments, fitted);
+    if (contradicts_stated(fitted) != 0)
+      fit.warnings.push_back(said_of_stated(fitted, signal, who) +
+                             (contradicts_stated(fitted) < 0
+                                  ? "; the intervals use it and are too wide by up to the same factor"
+                                  : "; the intervals are widened in proportion to the residuals"));
     // For readings that are not samples, `said_of_stated` has already reported residuals above the stated noise.
     constexpr double far = 3.0;
     if (is_noise(fitted.p_value) && contradicts_stated(fitted) == 0 && signal.is_sampled && !robust &&

@@ -46,6 +46,9 @@ void compare_with_stated(double deviation, double freedom, FittedSignal& signal)
 /// Whether the residuals contradict the stated noise. > 0: they are larger; < 0: they are smaller; 0: no.
 [[nodiscard]] int contradicts_stated(const FittedSignal& signal);
 
+/// A sentence for each signal whose residuals contradict its stated noise.
+[[nodiscard]] std::vector<std::string> contradictions_of_stated(const Experiments& experiments, const Fit& fit);
+
 /// Adds warnings to `fit`: signals whose residuals are not noise, and stated noises that are wrong. Also signals
 /// whose residuals look like noise, but far above that of the sensor; not in a `robust` fit, where outliers do
 /// that.

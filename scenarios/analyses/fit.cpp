@@ -201,6 +201,7 @@ Answer FitQuestion::run(const RunContext& /*context*/) const {
     const identify::Prediction prediction = identify::predict_records(
         best.rig, candidates_[order.front()].parameters, shared_uncertainty(best), validation_, options_);
     answer.result["validation"] = validation_json(prediction);
+    std::ranges::copy(prediction.warnings, std::back_inserter(answer.warnings));
     if (prediction.outcome.ok()) add_curves(prediction.fit, validation_, "prediction", answer);
     answer.result["verdict"] = prediction.text;
   }

@@ -232,6 +232,7 @@ Answer PredictQuestion::run(const RunContext& /*context*/) const {
   }
   Answer answer;
   answer.warnings = warnings_;
+  std::ranges::move(prediction.warnings, std::back_inserter(answer.warnings));
   answer.result["validation"] = validation_json(prediction);
   answer.result["verdict"] = prediction.text;
   add_curves(prediction.fit, data_, "prediction", answer);

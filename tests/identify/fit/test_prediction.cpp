@@ -13,20 +13,21 @@ using namespace dualdamp;
 
 namespace {
 
-identify::Experiments experiments_of(const identify::Record& record) {
+identify::Experiments experiments_of(const identify::Record& record, double sigma = 0.0) {
   std::string fault;
-  identify::Experiments experiments = identify::experiments_of(record, {.name = "record"}, fault);
+  identify::Experiments experiments = identify::experiments_of(record, {.name = "record", .sigma_x = sigma}, fault);
   REQUIRE(fault.empty());
   return experiments;
 }
 
-/// Fits `law` to a record of the true rig, and predicts another one at less than its amplitude.
-identify::Prediction prediction_by(const std::string& law, std::vector<std::string> names) {
+/// Fits `law` to a record of the true rig, and predicts another one at less than its amplitude, with this stated
+/// noise.
+identify::Prediction prediction_by(const std::string& law, std::vector<std::string> names, double sigma = 0.0) {
   const identify::Rig truth = test::rig_with(test::law_case_of("stribeck"));
   const identify::Experiments first = experiments_of(test::history_of(truth, {.noise_x = 2e-5}, 31));
   identify::Rig quieter = truth;
   quieter.known.excitation.amplitude *= 0.6;
-  const identify::Experiments second = experiments_of(test::history_of(quieter, {.noise_x = 2e-5}, 32));
+  const identify::Experiments second = experiments_of(test::history_of(quieter, {.noise_x = 2e-5}, 32), sigma);
   identify::Rig rig = truth;
   if (law != "stribeck") rig.laws = {{friction::find_law(law), {{"kinetic", 1.2}}}};
   std::vector<identify::FitParameter> parameters = test::sought_in(rig, names, 1.2);
@@ -73,6 +74,19 @@ TEST_CASE("prediction: the right law comes within 10 % of what it can reach", "[
   double sum = 0.0;
   for (const identify::PredictionBand& band : right.bands) sum += band.error * band.error;
   CHECK(std::sqrt(sum) == Approx(right.error).epsilon(0.02));
+}
+
+TEST_CASE("prediction: a stated noise that is far from the residuals is told with both", "[identify][fit]") {
+  const std::vector<std::string> names = {"kinetic", "static", "stribeck_velocity"};
+  CHECK(prediction_by("stribeck", names, 2e-5).warnings.empty());
+  for (const double sigma : {2e-6, 2e-4}) {
+    CAPTURE(sigma);
+    const identify::Prediction found = prediction_by("stribeck", names, sigma);
+    REQUIRE(found.warnings.size() == 1);
+    CHECK_THAT(found.warnings.front(),
+               Catch::StartsWith("record: the residuals of x are ") && Catch::Contains("they scatter by 2e-05 m") &&
+                   Catch::Contains(sigma < 2e-5 ? "and 2e-06 m is stated" : "and 0.0002 m"));
+  }
 }
 
 TEST_CASE("prediction: an own fit that ends beside the prediction proves nothing against the law",
