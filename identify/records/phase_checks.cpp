@@ -40,10 +40,14 @@ std::vector<Cause> wrong_units(const std::vector<Pair>& pairs) {
           {"they would in radians", "their unit: --unit phase=rad", altered(pairs, 1.0 / degree)}};
 }
 
-std::vector<Cause> wrong_signs(const std::vector<Pair>& pairs) {
-  return {{"the phase has the wrong sign", "--scale phase=-1", altered(pairs, -1.0)},
-          {"x or Y (x or y) has the wrong sign", "--scale x=-1", altered(pairs, 1.0, std::numbers::pi)},
-          {"x and Y (x and y) are swapped", "--column x=..., --column Y=...", altered(pairs, -1.0, 0.0, true)}};
+/// Of histories the phase is no column, whose sign could be wrong.
+std::vector<Cause> wrong_signs(const std::vector<Pair>& pairs, bool from_histories) {
+  std::vector<Cause> list;
+  if (!from_histories) list.push_back({"the phase has the wrong sign", "--scale phase=-1", altered(pairs, -1.0)});
+  list.push_back({"x or Y (x or y) has the wrong sign", "--scale x=-1", altered(pairs, 1.0, std::numbers::pi)});
+  list.push_back(
+      {"x and Y (x and y) are swapped", "--column x=..., --column Y=...", altered(pairs, -1.0, 0.0, true)});
+  return list;
 }
 
 bool fits(const std::vector<Pair>& pairs, const KnownConstants& constants) {
@@ -126,7 +130,7 @@ std::optional<PhaseFault> phase_fault(const std::vector<Pair>& pairs, const Know
   Causes causes;
   if (!from_histories) causes.add_fitting(wrong_units(pairs), constants);
   if (balance.takes_work()) {
-    causes.add_fitting(wrong_signs(pairs), constants);
+    causes.add_fitting(wrong_signs(pairs, from_histories), constants);
     return work_fault(balance, causes);
   }
   if (causes.texts.empty()) return std::nullopt;

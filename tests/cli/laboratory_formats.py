@@ -262,7 +262,7 @@ REFUSED = [
     ("phase_in_radians_called_deg.csv", table("Y [mm],x [mm],phase [deg]", [(*row, 1.5708) for row in MM]), [], "they would in radians"),
     ("frequency_without_unit.csv", table("Y [mm],x [mm],frequency", [(*row, 6.17) for row in MM]), [], "Hz and rad/s differ by 2 pi"),
     ("swapped_pairs.csv", table("x [mm],Y [mm]", MM), [], "x and Y seem to be swapped"),
-    ("swapped_histories.csv", driven(swap=True), ["--frequency", "6 Hz"], "are swapped, or one of them has the wrong sign"),
+    ("swapped_histories.csv", driven(swap=True), ["--frequency", "6 Hz"], "out of the motion: x and Y (x and y) are swapped\n"),
     ("a_by_1000.csv", driven(1e3), ["--frequency", "6 Hz"], "column a is about 1000 times too large for column x"),
     ("a_in_g.csv", driven(1 / 9.80665), ["--frequency", "6 Hz"], "column a is about 9.807 times too small for column x"),
     ("clipped.csv", clipped(), [], "x is clipped"),

@@ -143,6 +143,18 @@ TEST_CASE("Of the causes of a wrong phase all that fit are named, and no others"
   CHECK_FALSE(mentions(reversed, "the phase has the wrong sign"));
 }
 
+TEST_CASE("The phase of a history has no sign of its own to be wrong") {
+  const KnownConstants above{1.0, 1000.0, 1.5 * std::sqrt(1000.0)};
+  Record record;
+  record.pairs.emplace();
+  record.pairs->pairs.push_back({1e-3, 0.75e-3, "", 1});
+  record.pairs->pairs[0].phase = -std::acos(-1.25 * 0.75);
+  const auto said = [&] { return core::format(gross_faults(record, above, {}, "data.csv").at(0)); };
+  CHECK(mentions(said(), "the phase has the wrong sign"));
+  record.histories.emplace_back();
+  CHECK_FALSE(mentions(said(), "the phase has the wrong sign"));
+}
+
 TEST_CASE("A phase that a wrong stiffness makes is not called one of another unit alone") {
   // The lag of 113 degrees of a rig beyond its resonance; the stiffness is 20 % too high. Read as radians, 113
   // fits.
