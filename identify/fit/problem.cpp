@@ -206,8 +206,20 @@ bool FitProblem::outputs(const Eigen::VectorXd& q, Eigen::VectorXd& result) cons
   });
 }
 
+/// A jump of the acceleration within a step of a difference passes over a reading on one side of it only. Such a
+/// difference would count as much knowledge of the parameter, and is the larger, the shorter the step is.
+void FitProblem::mend_jumps(const Eigen::VectorXd& below, const Eigen::VectorXd& above,
+                            Eigen::VectorXd& slope) const {
+  for (const SignalRows& rows : signals_) {
+    if (signal(rows).name != "a") continue;
+    for (Eigen::Index r = rows.begin; r < rows.end; ++r)
+      if (std::abs(above[r] - below[r]) > std::abs(slope[r]))
+        slope[r] = std::abs(above[r]) < std::abs(below[r]) ? above[r] : below[r];
+  }
+}
+
 bool FitProblem::column(const Eigen::VectorXd& q, const Eigen::VectorXd& middle, const All& neighbours,
-                        Eigen::Index i, double step, Eigen::VectorXd& slope) const {
+                        Eigen::Index i, double step, bool seeks, Eigen::VectorXd& slope) const {
   const Coordinate& c = coordinates_[static_cast<std::size_t>(i)];
   const FitParameter& parameter = parameters_[static_cast<std::size_t>(i)];
   const double h = step * (c.logarithmic ? 1.0 : std::max(1.0, std::abs(q[i])));
@@ -234,6 +246,8 @@ bool FitProblem::column(const Eigen::VectorXd& q, const Eigen::VectorXd& middle,
   }
   if (!(at[1] > at[0])) return false;
   slope = (outputs[1] - outputs[0]) / (at[1] - at[0]);
+  if (at[0] < q[i] && q[i] < at[1] && !seeks)
+    mend_jumps((middle - outputs[0]) / (q[i] - at[0]), (outputs[1] - middle) / (at[1] - q[i]), slope);
   return slope.allFinite();
 }
 
@@ -256,9 +270,9 @@ bool FitProblem::derivatives(const Eigen::VectorXd& q, Eigen::VectorXd& result, 
     constexpr double farthest = 0.1;
     constexpr double farther = 10.0;
     double step = accuracy_.step;
-    bool has_slope = column(q, result, neighbours, i, step, slope);
+    bool has_slope = column(q, result, neighbours, i, step, seeks, slope);
     while (seeks && has_slope && slope.squaredNorm() == 0.0 && (step *= farther) < 1.01 * farthest)
-      has_slope = column(q, result, neighbours, i, step, slope);
+      has_slope = column(q, result, neighbours, i, step, seeks, slope);
     if (has_slope)
       jacobian.col(i) = slope;
     else

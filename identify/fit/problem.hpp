@@ -79,7 +79,8 @@ class FitProblem {
   /// Predicted readings, not divided by the noise. False: the rig has no such motion, or a law refuses the values.
   [[nodiscard]] bool outputs(const Eigen::VectorXd& q, Eigen::VectorXd& result) const;
   /// Outputs and their derivatives by the coordinates. `seeks`: a coordinate without an effect near `q` gets a
-  /// difference over a wider step, so that a search can leave the place.
+  /// difference over a wider step, so that a search can leave the place. Else jumps of an acceleration within a
+  /// step are left out.
   [[nodiscard]] bool derivatives(const Eigen::VectorXd& q, Eigen::VectorXd& result, Eigen::MatrixXd& jacobian,
                                  bool seeks = false) const;
 
@@ -99,7 +100,8 @@ class FitProblem {
   /// One column of the derivatives, by differences over `step`. False: there is no motion on either side.
   using All = std::vector<std::unique_ptr<Neighbours>>;
   [[nodiscard]] bool column(const Eigen::VectorXd& q, const Eigen::VectorXd& middle, const All& neighbours,
-                            Eigen::Index i, double step, Eigen::VectorXd& slope) const;
+                            Eigen::Index i, double step, bool seeks, Eigen::VectorXd& slope) const;
+  void mend_jumps(const Eigen::VectorXd& below, const Eigen::VectorXd& above, Eigen::VectorXd& slope) const;
   [[nodiscard]] std::optional<sim::Model> model_at(const Eigen::VectorXd& values) const;
   FitProblem(const FitProblem& whole, Experiments parts);
   void number_rows();

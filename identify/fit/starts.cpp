@@ -110,6 +110,7 @@ double crossing_frequency(const Signal& signal) {
 DataScale scale_of(const Rig& rig, const std::vector<std::unique_ptr<Experiment>>& experiments) {
   double length = 0.0;
   double speed = 0.0;
+  double acceleration = 0.0;
   double force = 0.0;
   double omega = rig.known.excitation.frequency;
   for (const auto& experiment : experiments) {
@@ -124,11 +125,13 @@ DataScale scale_of(const Rig& rig, const std::vector<std::unique_ptr<Experiment>
                                       ? *std::ranges::max_element(signal.measured)
                                       : largest_swing(signal.measured));
       if (signal.unit == "m/s") speed = std::max(speed, largest_swing(signal.measured));
+      if (signal.unit == "m/s^2") acceleration = std::max(acceleration, largest_swing(signal.measured));
       if (signal.unit == "N") force = std::max(force, largest_swing(signal.measured));
     }
   }
   const sim::Oscillator& o = rig.known.oscillator;
   if (!is_known(omega)) omega = is_known(o.mass) && is_known(o.stiffness) ? std::sqrt(o.stiffness / o.mass) : 1.0;
+  if (length == 0.0 && speed == 0.0) length = acceleration / (omega * omega);
   if (length == 0.0) length = speed > 0.0 ? speed / omega : 1.0;
   if (speed == 0.0) speed = length * omega;
   // The force of a loop: neither the spring nor the mass takes much more, unless they cancel each other.

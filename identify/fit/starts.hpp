@@ -2,8 +2,9 @@
 /// Starts of a fit: sizes of parameters without a stated value, from the data and the unit of the parameter.
 ///
 /// The data give a force, a length, a speed and a time. A loop gives length and speed of its motion, and its force
-/// bounds mass and stiffness. The size of a parameter in N/m is then force over length, times a typical ratio of
-/// friction to spring. The size may be wrong by a factor, because the starts spread over two decades around it.
+/// bounds mass and stiffness. An acceleration a alone, of frequency w, gives the length a/w^2. The size of a
+/// parameter in N/m is then force over length, times a typical ratio of friction to spring. The size may be wrong
+/// by a factor, because the starts spread over two decades around it.
 
 #include <Eigen/Core>
 #include <vector>
