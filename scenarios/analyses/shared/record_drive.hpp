@@ -15,8 +15,8 @@ namespace dualdamp::scenarios {
 void refuse_other_drives(const std::vector<DataItem>& items, const std::string& key, const sim::Model& model,
                          double drive_start, const std::vector<std::string>& free, std::vector<SetupFault>& faults);
 
-/// Makes the motion y of the base, which the only data file holds, the excitation of the scenario. A loop and a file
-/// of several tests have none.
+/// Makes the motion y of the base, which the only data file holds, the excitation of the scenario. A loop and a
+/// file of several tests have none.
 void take_recorded_drive(CheckedFile& file);
 
 }  // namespace dualdamp::scenarios
