@@ -161,7 +161,7 @@ scenarios::Scenario prediction_by(const Json& document, const PredictCommand& co
   options.data_anywhere = true;
   options.set = {{"analysis=" + prediction_of(result, command), "DATA"}};
   const auto rig = result.at("rig").get<std::string>();
-  add_drive(command, rig.find("type: base_harmonic") == std::string::npos, options);
+  add_drive(command, rig.find("\n  type: base_harmonic") == std::string::npos, options);
   scenarios::Scenario prediction = scenarios::parse_scenario(rig, command.result, options);
   prediction.file = command.data.front();
   return prediction;

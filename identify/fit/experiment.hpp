@@ -78,7 +78,8 @@ class Experiment {
   std::vector<Own> own_free;         ///< parameters that are sought unless they are known
   std::vector<Own> own_of_place;     ///< also sought unless they are known, if a force depends on the position
   std::vector<Own> own_others;       ///< parameters that may be sought as well
-  /// Units of `sim::Engine::work` that all predictions have taken so far, those of parts of the record included.
+  /// Work of all predictions so far, those of parts of the record included: in units of `sim::Engine::work`, of
+  /// steady states without the answers of smooth laws; of a loop, in steps of its law.
   std::shared_ptr<std::atomic<long>> work = std::make_shared<std::atomic<long>>(0);
 
   /// Input amplitude [m or N] and frequency [rad/s] of each steady state; empty for other kinds.

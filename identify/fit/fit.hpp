@@ -16,8 +16,8 @@
 /// parameters along which the data allow a change of 100 % are described in words. Laws are compared by AICc
 /// (burnham2002) with the number of samples that count as independent.
 ///
-/// A search that takes more work than `FitOptions::most_work` ends without a result, and says so; the profiles then
-/// only end without theirs.
+/// A search that takes more work than `FitOptions::most_work` ends without a result, and says so. Profiles
+/// have the same limit of their own; beyond it the fit has none.
 ///
 /// Source: ljung1999, burnham2002, newey1987, huber1964. Errors: `outcome`. Cost: that of a motion, times 40 for
 /// the starts and times two for each parameter and step.

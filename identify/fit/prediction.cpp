@@ -210,7 +210,6 @@ Prediction predict_records(const Rig& rig, const std::vector<FitParameter>& para
   const Fit attainable = fit_rig(rig, all, experiments, quick);
   if (!attainable.outcome.ok()) {
     found.text = "the record alone does not determine the rig: " + attainable.outcome.reason;
-    found.warnings = contradictions_of_stated(experiments, found.fit);
     return found;
   }
   // If the search ended at a worse place than the prediction, the prediction itself is the best fit.

@@ -207,7 +207,8 @@ bool FitProblem::outputs(const Eigen::VectorXd& q, Eigen::VectorXd& result) cons
 }
 
 /// A jump of the acceleration within a step of a difference passes over a reading on one side of it only. Such a
-/// difference would count as much knowledge of the parameter, and is the larger, the shorter the step is.
+/// difference would count as information about the parameter that the record does not hold, and is the larger, the
+/// shorter the step is.
 void FitProblem::mend_jumps(const Eigen::VectorXd& below, const Eigen::VectorXd& above,
                             Eigen::VectorXd& slope) const {
   for (const SignalRows& rows : signals_) {

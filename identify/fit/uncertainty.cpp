@@ -31,8 +31,9 @@ class Uncertainty {
       const bool low = end.q[i] <= c.low + near * std::max(1.0, std::abs(c.low));
       const bool high = end.q[i] >= c.high - near * std::max(1.0, std::abs(c.high));
       fit.parameters[static_cast<std::size_t>(i)].at_bound = low || high;
-      // At the end of a logarithmic range, most parameters have no effect any more: a factor e changes the readings
-      // by less than their noise. One with an effect widens the intervals of the others.
+      // At the end of a logarithmic range, most parameters have no effect any more: up to the largest value of the
+      // search they change the readings by less than their noise. One with an effect widens the intervals of the
+      // others.
       const double effect = rows_.col(i).norm();
       if (!(c.logarithmic && (low || high)) || effect * unit(i) >= 1.0) free_.push_back(i);
       if (c.logarithmic && effect >= 1.0) warn_of_end(i, low, high);
@@ -308,7 +309,7 @@ class Uncertainty {
     } else if (end_.profile && ends && fitted.std > 0.0 && bends(fitted, quantiles_[static_cast<std::size_t>(i)])) {
       fitted.interval95 = fitted.profile95;
       fitted.reason = "the sum of squares is no parabola: the interval is that of the profile";
-    } else if (end_.profile && !ends && fitted.std > 0.0) {
+    } else if (end_.profile && !end_.problem.is_exhausted() && !ends && fitted.std > 0.0) {
       fitted.reason = "the profile does not end: the interval by the covariance holds near the estimate only";
     }
   }

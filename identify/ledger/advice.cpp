@@ -78,7 +78,7 @@ std::string no_freedom(const Estimate& estimate) {
   const std::size_t count = estimate.used.size();
   const bool reads_few = method != nullptr && method->needs != RecordKind::history && count <= most_unknowns;
   if (!reads_few || count == 0 || estimate.interval95 || estimate.laws) return {};
-  return ", from " + std::to_string(count) + " readings that leave no freedom for an interval or a test";
+  return ", from " + std::to_string(count) + " readings that leave no freedom for an interval";
 }
 
 }  // namespace dualdamp::identify

@@ -10,7 +10,7 @@ namespace dualdamp::identify {
 /// For every departure that was found.
 [[nodiscard]] std::string what_would_help(const Ledger& ledger);
 
-/// ", from 4 readings that leave no freedom for an interval or a test": as many pairs or extremes as unknowns,
+/// ", from 4 readings that leave no freedom for an interval": as many pairs or extremes as unknowns,
 /// which are fitted exactly; empty otherwise.
 [[nodiscard]] std::string no_freedom(const Estimate& estimate);
 

@@ -140,7 +140,8 @@ class Writer {
     const auto add = [&](const char* what, double wanted, double stated, const char* unit) {
       constexpr double same = 1e-6;
       if (!(std::abs(wanted - stated) > same * std::abs(stated))) return;
-      constexpr int digits = 4;
+      int digits = 4;
+      while (core::format_number(wanted, digits) == core::format_number(stated, digits)) ++digits;
       const std::string in_unit = " " + stated_.unit(unit);
       texts.push_back(what + core::format_number(wanted, digits) + in_unit + " instead of " +
                       core::format_number(stated, digits) + in_unit);

@@ -36,8 +36,8 @@ std::vector<Pair> altered(std::vector<Pair> pairs, double factor, double turn = 
 }
 
 std::vector<Cause> wrong_units(const std::vector<Pair>& pairs) {
-  return {{"they may be degrees", "their unit: --unit phase=deg", altered(pairs, degree)},
-          {"they would in radians", "their unit: --unit phase=rad", altered(pairs, 1.0 / degree)}};
+  return {{"the phases may be degrees", "their unit: --unit phase=deg", altered(pairs, degree)},
+          {"the phases may be radians", "their unit: --unit phase=rad", altered(pairs, 1.0 / degree)}};
 }
 
 /// Of histories the phase is no column, whose sign could be wrong.
@@ -124,7 +124,8 @@ std::optional<PhaseFault> phase_fault(const std::vector<Pair>& pairs, const Know
   const std::string range = "the phases, up to " + brief(largest) + " rad";
   constexpr double most = 4.0 * std::numbers::pi;
   if (largest > most && !from_histories)
-    return PhaseFault{range + ", are no lags in radians; they may be degrees", "their unit: --unit phase=deg"};
+    return PhaseFault{range + ", are no lags in radians; the phases may be degrees",
+                      "their unit: --unit phase=deg"};
   constexpr double bad = 0.4;
   if (!balance.takes_work() && !(upper_median(balance.cosines) > bad)) return std::nullopt;
   Causes causes;

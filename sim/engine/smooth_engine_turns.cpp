@@ -107,8 +107,8 @@ std::string SmoothEngine::too_fast() const {
   const double slower = swings / many_swings;
   return "a second vibration at " + core::format_number(rate, 3) +
          " rad/s, which hardly anything damps, swings too often to be followed; it can be up to " +
-         core::format_number(rate / slower, 3) + " rad/s (an attached mass " +
-         core::format_number(slower * slower, 2) + " times as heavy), or with a damping ratio of " +
+         core::format_number(rate / slower, 3) + " rad/s (its mass " + core::format_number(slower * slower, 2) +
+         " times as heavy, or its stiffness as many times smaller), or with a damping ratio of " +
          core::format_number(soon_gone, 2) + " or more";
 }
 

@@ -73,7 +73,8 @@ class Growth {
 ///
 /// It decides at 32, 64, ... forcing periods by the two doublings before. A factor r in [0.2, 0.7] followed by one
 /// that is not smaller than 0.85 r is no r^2. The closure has to fall in each period of the last doubling, or the
-/// motion winds or beats, and the amplitude must not grow. Sums of decays can look like this for a while: the
+/// motion winds or beats, and the amplitude must neither grow nor decay: that of a vibration under quadratic drag
+/// decays like a power of time too. Sums of decays can look like this for a while: the
 /// caller looks for an orbit first, which Newton's method finds in such a case.
 class Creep {
  public:
@@ -87,8 +88,9 @@ class Creep {
     factor_ = last_ > 0.0 ? closure / last_ : 0.0;
     constexpr double as_before = 0.85;
     constexpr double growing = 1.05;
-    goes_on_ = period_ >= earliest && falls_ && amplitude < growing * amplitude_ && is_in_band(before) &&
-               is_in_band(factor_) && factor_ >= as_before * before;
+    goes_on_ = period_ >= earliest && falls_ && amplitude < growing * amplitude_ &&
+               amplitude_ < growing * amplitude && is_in_band(before) && is_in_band(factor_) &&
+               factor_ >= as_before * before;
     last_ = closure;
     amplitude_ = amplitude;
     falls_ = true;

@@ -115,6 +115,13 @@ class Prediction(case.Case):
         self.assertIn("nothing drives the model", self.run_program("fit", "coulomb", record, *CONSTANTS, "--set", "excitation={type: none}", status=3).stderr)
         forced = self.write("forced.csv", record.read_text().replace("y [m]", "force [N]"))
         self.assertIn("or --loop for a friction loop", self.run_program("fit", "coulomb", forced, *CONSTANTS, status=3).stderr)
+        both = self.write("both.csv", "t [s],x [m],y [m],force [N]\n" + "".join(",".join((*row, row[2])) + "\n" for row in rows))
+        self.assertIn("or leave out y", self.run_program("fit", "coulomb", both, *CONSTANTS, status=3).stderr)
+        # Of a file with a gap the longest stretch is used, and the drive begins with the file.
+        torn = "".join(",".join(row) + "\n" for i, row in enumerate(rows) if not 40 <= i < 60)
+        self.assertIn("only the rows from t = 0.305 s on are used", self.run_program("fit", "coulomb", self.write("torn.csv", "t [s],x [m],y [m]\n" + torn), *CONSTANTS, status=3).stderr)
+        tests = self.write("tests.csv", "t [s],x [m],y [m],sweep\n" + "".join(",".join((*row, label)) + "\n" for label in "ab" for row in rows))
+        self.assertIn("each of its 2 tests holds a drive of its own", self.run_program("fit", "coulomb", tests, *CONSTANTS, status=3).stderr)
         again = self.write("again.csv", record.read_text().replace("0.0,", "0.0001,", 1))
         self.assertIn("the file holds y", self.run_program("fit", "coulomb", record, again, *CONSTANTS, status=3).stderr)
 

@@ -17,6 +17,7 @@
 #include "identify/records/derived_records.hpp"
 #include "identify/records/sensor_zero.hpp"
 #include "identify/statistics/noise_level.hpp"
+#include "scenarios/analyses/shared/record_drive.hpp"
 #include "scenarios/format/law_values.hpp"
 #include "scenarios/format/values.hpp"
 #include "sim/sampled_signal.hpp"
@@ -166,24 +167,6 @@ std::string laws_text(const identify::Rig& rig) {
 }
 
 namespace {
-
-/// A drive that the file holds and the model lacks; empty if there is none.
-std::string idle_drive(const DataItem& item, const sim::Model& model) {
-  if (item.is_loop() || model.excitation.type != sim::ExcitationType::none) return {};
-  const auto moves = [](const std::vector<double>& signal) {
-    return !signal.empty() && std::ranges::min(signal) < std::ranges::max(signal);
-  };
-  const auto drive = [&](const char* type, const char* column, const std::string& what) {
-    return item.file + ": the file holds " + what + ", and nothing drives the model: 'excitation: {type: " + type +
-           ", file: " + item.file + ", column: " + column +
-           ", interpolation: cubic}', on the command line --set excitation='{...}'";
-  };
-  for (const identify::History& history : item.data.record.histories) {
-    if (moves(history.y)) return drive("measured_base", "y", "y, the motion of the base");
-    if (moves(history.force)) return drive("measured_force", "force", "force") + "; or --loop for a friction loop";
-  }
-  return {};
-}
 
 /// Whether some item holds the signal whose noise is stated.
 bool holds(const std::vector<DataItem>& items, std::string_view signal) {

@@ -110,12 +110,31 @@ void refuse_other_drives(const std::vector<DataItem>& items, const std::string& 
   }
 }
 
+std::string idle_drive(const DataItem& item, const sim::Model& model) {
+  if (item.is_loop() || model.excitation.type != sim::ExcitationType::none) return {};
+  const std::vector<History>& histories = item.data.record.histories;
+  const auto drive = [&](const char* type, const char* column, const std::string& what) {
+    return item.file + ": the file holds " + what + ", and nothing drives the model: 'excitation: {type: " + type +
+           ", file: " + item.file + ", column: " + column +
+           ", interpolation: cubic}', on the command line --set excitation='{...}'";
+  };
+  const bool has_y = std::ranges::any_of(histories, [](const History& h) { return moves(h.y); });
+  const bool has_force = std::ranges::any_of(histories, [](const History& h) { return moves(h.force); });
+  if ((has_y || has_force) && histories.size() > 1)
+    return item.file + ": each of its " + std::to_string(histories.size()) + " tests holds a drive of its own, " +
+           (has_y ? "y" : "force") + ", and a fit has one: keep one test in the file";
+  if (has_y)
+    return drive("measured_base", "y", "y, the motion of the base") + (has_force ? "; or leave out y" : "");
+  if (has_force) return drive("measured_force", "force", "force") + "; or --loop for a friction loop";
+  return {};
+}
+
 void take_recorded_drive(CheckedFile& file) {
   const std::vector<DataItem> items = items_of(file.values().at("analysis"), file.files, "data");
   if (items.size() != 1 || !items.front().is_motion()) return;
   const DataItem& item = items.front();
   const std::vector<History>& histories = item.data.record.histories;
-  if (histories.size() != 1 || !moves(histories.front().y)) return;
+  if (histories.size() != 1 || !moves(histories.front().y) || moves(histories.front().force)) return;
   Json drive = {{"type", "measured_base"}, {"file", item.file}, {"interpolation", "cubic"},
                 {"repeat", false},         {"detrend", "none"}, {"offset", 0.0}};
   const auto take = [&](const char* key, const char* list, const char* column) {
@@ -131,6 +150,13 @@ void take_recorded_drive(CheckedFile& file) {
     if (item.keys.is_object() && item.keys.contains(key)) drive[key] = item.keys.at(key);
   file.values()["excitation"] = std::move(drive);
   read_drive(file);
+  const History& history = histories.front();
+  if (file.drive != nullptr && std::abs(history.start - file.drive_start) * history.sample_rate > 0.5)
+    file.complain(
+        "analysis.data",
+        item.file + ": only the rows from t = " + seconds(history.start) +
+            " on are used, because the times have gaps, and y drives from t = " + seconds(file.drive_start) + " on",
+        "a file that holds this part alone");
 }
 
 }  // namespace dualdamp::scenarios

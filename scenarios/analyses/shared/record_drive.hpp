@@ -15,8 +15,11 @@ namespace dualdamp::scenarios {
 void refuse_other_drives(const std::vector<DataItem>& items, const std::string& key, const sim::Model& model,
                          double drive_start, const std::vector<std::string>& free, std::vector<SetupFault>& faults);
 
-/// Makes the motion y of the base, which the only data file holds, the excitation of the scenario. A loop and a
-/// file of several tests have none.
+/// What to do about a drive that the file holds and the model lacks; empty if there is none.
+[[nodiscard]] std::string idle_drive(const DataItem& item, const sim::Model& model);
+
+/// Makes the motion y of the base the excitation of the scenario, if the data are one file that holds it. A loop, a
+/// file of several tests, and one that also holds a force have none.
 void take_recorded_drive(CheckedFile& file);
 
 }  // namespace dualdamp::scenarios

@@ -104,8 +104,8 @@ TEST_CASE("Amplitudes off by 1000, degrees for radians, and readings that do not
   CHECK(mentions(
       changed([&](Pair& p) { p.mean_square_speed = 1e6 * 0.5 * std::pow(rig.constants.frequency * p.x, 2); }),
       "column mean_square_speed is about 1000 times too large"));
-  CHECK(mentions(changed([](Pair& p) { p.phase *= 180.0 / pi; }), "they may be degrees"));
-  CHECK(mentions(changed([](Pair& p) { p.phase *= pi / 180.0; }), "they would in radians"));
+  CHECK(mentions(changed([](Pair& p) { p.phase *= 180.0 / pi; }), "the phases may be degrees"));
+  CHECK(mentions(changed([](Pair& p) { p.phase *= pi / 180.0; }), "the phases may be radians"));
 }
 
 TEST_CASE("Degrees read as radians are called degrees, though their sines are those of a wrong sign") {
@@ -117,7 +117,7 @@ TEST_CASE("Degrees read as radians are called degrees, though their sines are th
     pair.phase = phase;
     record.pairs.push_back(pair);
   }
-  CHECK(mentions(faults_in(record, constants), "they may be degrees"));
+  CHECK(mentions(faults_in(record, constants), "the phases may be degrees"));
 }
 
 TEST_CASE("Of the causes of a wrong phase all that fit are named, and no others") {
@@ -167,7 +167,7 @@ TEST_CASE("A phase that a wrong stiffness makes is not called one of another uni
     record.pairs->pairs.push_back(pair);
   }
   const std::string said = faults_in(*record.pairs, constants);
-  CHECK(mentions(said, "they would in radians"));
+  CHECK(mentions(said, "the phases may be radians"));
   CHECK(mentions(said, "the mass, the stiffness or the frequency is wrong"));
   // From a history the phase was computed, and has no other unit.
   record.histories.emplace_back();

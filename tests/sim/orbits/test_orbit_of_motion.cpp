@@ -306,14 +306,17 @@ TEST_CASE("a closure that falls by a constant factor is no creep, one that falls
   sim::Creep creep;
   sim::Creep growing;
   sim::Creep winding;
+  sim::Creep decaying;
   for (int n = 1; n <= 32; ++n) {
     creep.observe(1.0 / n, 1.0);
     growing.observe(1.0 / n, n);
+    decaying.observe(1.0 / n, 1.0 / n);
     winding.observe((n % 2 == 0 ? 1.0 : 0.5) / n, 1.0);
   }
   CHECK(creep.goes_on());
   CHECK(!growing.goes_on());
   CHECK(!winding.goes_on());
+  CHECK(!decaying.goes_on());
 }
 
 TEST_CASE("motions that cannot part are not called aperiodic") {
