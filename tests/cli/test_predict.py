@@ -119,7 +119,7 @@ class Prediction(case.Case):
         self.assertIn("or leave out y", self.run_program("fit", "coulomb", both, *CONSTANTS, status=3).stderr)
         # Of a file with a gap the longest stretch is used, and the drive begins with the file.
         torn = "".join(",".join(row) + "\n" for i, row in enumerate(rows) if not 40 <= i < 60)
-        self.assertIn("only the rows from t = 0.305 s on are used", self.run_program("fit", "coulomb", self.write("torn.csv", "t [s],x [m],y [m]\n" + torn), *CONSTANTS, status=3).stderr)
+        self.assertIn("only the rows from t = 0.3 s on are used", self.run_program("fit", "coulomb", self.write("torn.csv", "t [s],x [m],y [m]\n" + torn), *CONSTANTS, status=3).stderr)
         tests = self.write("tests.csv", "t [s],x [m],y [m],sweep\n" + "".join(",".join((*row, label)) + "\n" for label in "ab" for row in rows))
         self.assertIn("each of its 2 tests holds a drive of its own", self.run_program("fit", "coulomb", tests, *CONSTANTS, status=3).stderr)
         again = self.write("again.csv", record.read_text().replace("0.0,", "0.0001,", 1))
