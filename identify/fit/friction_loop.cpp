@@ -146,20 +146,38 @@ class FrictionLoop final : public Experiment {
     return least + of_sample * static_cast<long>(law_v_.size());
   }
 
-  /// Moves the law from sample i - 1 to sample i. The velocity is a straight line, which may cross zero once.
+  /// Half the second derivative of the velocity between samples i - 1 and i, from two samples to each side. None
+  /// where the velocity would cross zero and come back: the samples show no reversal there.
+  [[nodiscard]] double bend(std::size_t i) const {
+    if (i < 2 || i + 1 >= law_v_.size()) return 0.0;
+    const double from = law_v_[i - 1];
+    const double to = law_v_[i];
+    const double bend = 0.25 * rate_ * rate_ * (law_v_[i - 2] - from - to + law_v_[i + 1]);
+    const double most = 0.25 * std::abs(bend) / (rate_ * rate_);
+    return from * to > 0.0 && most >= std::min(std::abs(from), std::abs(to)) ? 0.0 : bend;
+  }
+
+  /// Moves the law from sample i - 1 to sample i. The velocity is a parabola, which may cross zero once.
   void move(sim::LawHost& host, std::size_t i, double offset) const {
     const Instant from = instant(i - 1, offset);
     const Instant to = instant(i, offset);
     const double h = to.t - from.t;
+    const double curve = bend(i);
+    const double slope = (to.v - from.v) / h - curve * h;
+    const auto moved = [v = from.v, slope, curve](double s) {
+      return s * (v + s * (slope / 2.0 + s * curve / 3.0));
+    };
     // Difference of the measured step from the step with this velocity.
-    const double left = to.x - from.x - 0.5 * h * (from.v + to.v);
-    const sim::Path path = [from, to, h, left](double t) {
+    const double left = to.x - from.x - moved(h);
+    const sim::Path path = [from, h, left, slope, curve, moved](double t) {
       const double s = t - from.t;
-      return Instant{t, from.x + s * (from.v + 0.5 * s / h * (to.v - from.v)) + s / h * left,
-                     from.v + s / h * (to.v - from.v)};
+      return Instant{t, from.x + moved(s) + s / h * left, from.v + s * (slope + s * curve)};
     };
     if (from.v * to.v < 0.0) {
-      host.move_along(from.t + h * from.v / (from.v - to.v), path);
+      // The root of the parabola between the samples, without cancellation.
+      const double root = std::sqrt(std::max(0.0, slope * slope - 4.0 * curve * from.v));
+      const double turn = 2.0 * from.v / (-slope + std::copysign(root, from.v));
+      host.move_along(from.t + std::clamp(turn, 0.0, h), path);
       host.change_direction(direction_of(to.v));
     } else if (from.v == 0.0 && to.v != 0.0) {
       host.change_direction(direction_of(to.v));

@@ -224,3 +224,26 @@ TEST_CASE("loop: a spring that is nearly zero leaves the mass of one sine open",
   CHECK(std::isnan(found_in(fit, "mass").std));
   CHECK(std::isnan(found_in(fit, "stiffness").std));
 }
+
+TEST_CASE("loop: bristles follow the motion between the samples", "[identify][fit]") {
+  // A straight line of velocity between samples would move them by a thousandth less.
+  const identify::Rig rig = test::loop_alone(test::rig_with(test::law_case_of("dahl")));
+  const auto forces = [&](double rate) {
+    identify::Record record;
+    record.histories.push_back(loop_of_rig({.rate = rate}, 1));
+    std::string fault;
+    const identify::Experiments experiments =
+        identify::experiments_of(record, {.name = "loop", .loop = true}, fault);
+    REQUIRE(fault.empty());
+    Eigen::VectorXd force;
+    REQUIRE(experiments.front()->predict(*identify::model_of(rig), {}, force));
+    return force;
+  };
+  constexpr Eigen::Index finer = 40;
+  const Eigen::VectorXd coarse = forces(500.0);
+  const Eigen::VectorXd fine = forces(500.0 * finer);
+  double largest = 0.0;
+  for (Eigen::Index i = 0; i < coarse.size(); ++i)
+    largest = std::max(largest, std::abs(coarse[i] - fine[i * finer]));
+  CHECK(largest < 2e-4);
+}
