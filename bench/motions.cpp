@@ -5,6 +5,7 @@
 
 #include "bench/random_response.hpp"
 #include "bench/rigs.hpp"
+#include "identify/statistics/median.hpp"
 
 namespace dualdamp::bench {
 
@@ -31,8 +32,8 @@ MotionMaker::MotionMaker(const StressTest& question, const TrueRig& rig, const E
 
 Reference MotionMaker::reference() const {
   sim::Model model = undisturbed(rig_.truth);
-  model.excitation.amplitude = middle_of(range_.amplitudes);
-  model.excitation.frequency = middle_of(range_.frequencies_or(rig_.frequency));
+  model.excitation.amplitude = identify::upper_median(range_.amplitudes);
+  model.excitation.frequency = identify::upper_median(range_.frequencies_or(rig_.frequency));
   const sim::SteadyState middle = sim::steady_state(model, options_);
   Reference reference{
       {.amplitude = middle.amplitude, .frequency = model.excitation.frequency, .Y = model.excitation.amplitude},

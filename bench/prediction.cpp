@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "identify/statistics/median.hpp"
 #include "sim/analytic/den_hartog.hpp"
 #include "sim/orbits/steady_state.hpp"
 
@@ -34,8 +35,8 @@ UnmeasuredTests unmeasured_tests(const ExcitationRange& range, const TrueRig& ri
   constexpr double further = 1.5;
   constexpr double below = 0.9;
   const std::vector<double> frequencies = range.frequencies_or(rig.frequency);
-  return {{{further * std::ranges::max(range.amplitudes), middle_of(frequencies)},
-           {middle_of(range.amplitudes), below * std::ranges::min(frequencies)}}};
+  return {{{further * std::ranges::max(range.amplitudes), identify::upper_median(frequencies)},
+           {identify::upper_median(range.amplitudes), below * std::ranges::min(frequencies)}}};
 }
 
 double prediction_error(const CaseAnswer& answer, const Truth& believed, const UnmeasuredTests& tests,

@@ -11,6 +11,7 @@
 #include "bench/score/score_tables.hpp"
 #include "bench/truth.hpp"
 #include "core/numbers.hpp"
+#include "identify/statistics/median.hpp"
 #include "scenarios/format/common_keys.hpp"
 #include "scenarios/format/values.hpp"
 #include "scenarios/measurements/method_choice.hpp"
@@ -204,7 +205,7 @@ std::optional<double> least_moving_amplitude(const CheckedFile& file, const Json
   if (analysis.contains("rigs") && analysis.at("rigs").contains("friction_ratio")) {
     const Json& ratio = analysis.at("rigs").at("friction_ratio");
     if (!levels.contains("amplitudes") || !ratio.contains("from") || !ratio.contains("to")) return std::nullopt;
-    return middle_of(grid_values(levels.at("amplitudes"))) *
+    return identify::upper_median(grid_values(levels.at("amplitudes"))) *
            std::min(number(ratio.at("from")), number(ratio.at("to")));
   }
   const Json& friction = system.at("friction");
@@ -367,7 +368,7 @@ StressTest stress_test_of(const CheckedValues& values) {
         {range.at("name").get<std::string>(), grid_values(range.at("amplitudes")),
          range.contains("frequencies") ? grid_values(range.at("frequencies")) : std::vector<double>{},
          range.at("sweeps").get<int>()});
-  result.rigs = rigs_of(values, middle_of(result.ranges.front().amplitudes));
+  result.rigs = rigs_of(values, identify::upper_median(result.ranges.front().amplitudes));
   if (section.contains("sensors"))
     for (const Json& set : section.at("sensors"))
       result.sensors.push_back({set.at("name").get<std::string>(), sensors_of(set)});
@@ -388,12 +389,6 @@ std::unique_ptr<const Question> ask_stress_test(CheckedValues&& values) {
 }
 
 }  // namespace
-
-double middle_of(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::ranges::nth_element(values, middle);
-  return *middle;
-}
 
 const StressTest* stress_test_of(const Question& question) {
   const auto* const asked = dynamic_cast<const StressTestQuestion*>(&question);

@@ -33,9 +33,6 @@ struct ExcitationRange {
   }
 };
 
-/// The value in the middle of a list in any order, the upper one of two. The list is not empty.
-[[nodiscard]] double middle_of(std::vector<double> values);
-
 struct SensorSet {
   std::string name;
   identify::Sensors sensors;

@@ -6,6 +6,7 @@
 
 #include "bench/score/aggregate.hpp"
 #include "bench/score/spread.hpp"
+#include "identify/statistics/median.hpp"
 #include "sim/parallel.hpp"
 
 namespace dualdamp::bench {
@@ -15,7 +16,7 @@ namespace {
 constexpr double significant = 2.0;  // standard errors
 
 double percentile_50(std::vector<double> values) {
-  return values.empty() ? not_stated : middle_of(std::move(values));
+  return values.empty() ? not_stated : identify::upper_median(std::move(values));
 }
 
 /// Error statistics of one method in one cell.

@@ -78,9 +78,7 @@ class Uncertainty {
   /// A change of 100 % of a parameter, in coordinates.
   [[nodiscard]] double whole(Eigen::Index i) const {
     const Coordinate& c = end_.problem.coordinates()[static_cast<std::size_t>(i)];
-    if (c.logarithmic) return 1.0;
-    constexpr double least = 0.1;
-    return std::max(std::abs(end_.q[i]), least);
+    return c.logarithmic ? 1.0 : std::max(std::abs(end_.q[i]), small);
   }
 
   /// The change of a parameter, in coordinates, in which its part of a direction is judged: 100 %, or more if the
@@ -98,8 +96,7 @@ class Uncertainty {
   /// A parameter that is so small that its own value is no measure of it.
   [[nodiscard]] bool is_near_zero(Eigen::Index i) const {
     const Coordinate& c = end_.problem.coordinates()[static_cast<std::size_t>(i)];
-    constexpr double least = 0.1;
-    return (c.logarithmic ? std::exp(end_.q[i]) : std::abs(end_.q[i])) < least;
+    return (c.logarithmic ? std::exp(end_.q[i]) : std::abs(end_.q[i])) < small;
   }
 
   void measure_variance() {
@@ -377,6 +374,9 @@ class Uncertainty {
       fit_.undetermined.col(static_cast<Eigen::Index>(j)) = slope_ * units().cwiseProduct(direction);
     }
   }
+
+  /// A value below this part of its size is near zero.
+  static constexpr double small = 0.1;
 
   /// Of a direction of length 1, and of the strongest effect.
   static constexpr double rounding = 1e-4;

@@ -1,6 +1,6 @@
 #pragma once
 /// The median as one of the values: the upper one of the middle two, where Boost's median is their mean. For steps
-/// of a time axis or numbers of samples.
+/// of a time axis, numbers of samples, or levels of a test in any order.
 
 #include <vector>
 

@@ -19,9 +19,6 @@ namespace {
 
 constexpr int max_jumps = 32;
 constexpr double tolerance = 1e-12;
-// Explicit steps end here, as those of the smooth engine.
-constexpr double stiff = 1.0;
-constexpr int stiff_enough = 15;
 constexpr int max_events = 1000;  ///< within one call of move_along
 
 /// The states of a law over their scales, followed by work and heat.
@@ -185,7 +182,7 @@ void LawHost::go(double end, const Path& path) {
 void LawHost::integrate(double end, const Path& path) {
   const StatesOnPath field(law_, memory_, direction_, path);
   auto stepper = make_explicit_stepper();
-  int stiff_steps = 0;
+  StiffSteps stiff_steps;
   std::vector<double> y = field.scaled(memory_);
   std::vector<double> next(y.size());
   std::vector<double> error(y.size());
@@ -206,10 +203,10 @@ void LawHost::integrate(double end, const Path& path) {
     if (excess <= 1.0) {
       t = is_last ? end : t + h;
       y.swap(next);
-      stiff_steps = stepper->stiffness() > stiff ? stiff_steps + 1 : std::max(0, stiff_steps - 1);
-      if (stiff_steps > stiff_enough) {
+      stiff_steps.add(stepper->stiffness());
+      if (stiff_steps.are_many()) {
         stepper = make_implicit_stepper();
-        stiff_steps = 0;
+        stiff_steps = {};
       }
     } else if (h < 1e-12 * (end - now_.t)) {
       return give_up("its states are not finite, or cannot be integrated");

@@ -21,12 +21,6 @@ constexpr double largest_growth = 5.0;
 constexpr double largest_cut = 0.1;
 constexpr double safety = 0.9;
 
-/// So many explicit steps with h |lambda| (Hairer's test) beyond this make a stiff problem. It is far below 6, the
-/// boundary of stability: under friction that turns over sharply explicit steps are short long before they meet it.
-/// An implicit step costs about as much as an explicit one.
-constexpr double stiff = 1.0;
-constexpr int stiff_enough = 15;
-
 /// Friction that acts within this part of the longest step is not even tried by explicit steps.
 constexpr double part_of_longest = 1e-3;
 
@@ -239,14 +233,13 @@ bool SmoothEngine::begins_stiff() {
 /// Counts steps that stability limits. The dense output of the present step is needed still: the change comes with
 /// the next one.
 void SmoothEngine::notice_stiffness() {
-  if (is_implicit_) return;
-  stiff_steps_ = stepper_->stiffness() > stiff ? stiff_steps_ + 1 : std::max(0, stiff_steps_ - 1);
+  if (!is_implicit_) stiff_steps_.add(stepper_->stiffness());
 }
 
 /// One accepted step from X_ to end_, at most `left` long; taken_ says how long.
 bool SmoothEngine::advance(double left) {
   const bool hold_off = h_ == 0.0 && !is_implicit_ && begins_stiff();
-  if ((hold_off || stiff_steps_ > stiff_enough) && use_implicit_steps()) h_ = 0.0;
+  if ((hold_off || stiff_steps_.are_many()) && use_implicit_steps()) h_ = 0.0;
   if (h_ == 0.0) h_ = first_step();
   allow();
   const double longest = longest_step();

@@ -160,7 +160,7 @@ class SmoothEngine final : public Engine {
   Flow judge_;  ///< of the instant of an event
   std::unique_ptr<Stepper> stepper_;
   bool is_implicit_ = false;
-  int stiff_steps_ = 0;
+  StiffSteps stiff_steps_;
   double reach_ = 0.0;       ///< longest delay of a law [s]
   double x_scale_ = 0.0;     ///< m
   bool is_laid_ = false;     ///< flow_ and watches_ are those of the present interval

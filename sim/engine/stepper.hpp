@@ -10,6 +10,7 @@
 /// `step`, and smoothly on x; earlier steps only save time. (The implicit method solves its equations to a
 /// thousandth of `allowed`, or to round-off if that is larger.)
 
+#include <algorithm>
 #include <cstddef>
 #include <memory>
 #include <span>
@@ -48,6 +49,24 @@ class Stepper {
   /// h |lambda| of the fastest motion in the last step that returned true. If it stays above 6, stability limits
   /// the steps of DOP853 instead of accuracy (Hairer's test). 0: the method has no such limit.
   [[nodiscard]] virtual double stiffness() const = 0;
+};
+
+/// Counts steps by their `stiffness`. Many explicit steps beyond 1 make a stiff problem: that is far below 6, the
+/// boundary of stability, but under friction that turns over sharply explicit steps are short long before they meet
+/// it. An implicit step costs about as much as an explicit one.
+class StiffSteps {
+ public:
+  void add(double stiffness) {
+    constexpr double stiff = 1.0;
+    count_ = stiffness > stiff ? count_ + 1 : std::max(0, count_ - 1);
+  }
+  [[nodiscard]] bool are_many() const {
+    constexpr int many = 15;
+    return count_ > many;
+  }
+
+ private:
+  int count_ = 0;
 };
 
 [[nodiscard]] std::unique_ptr<Stepper> make_explicit_stepper();
