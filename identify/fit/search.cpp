@@ -59,6 +59,7 @@ class Search {
     }
     least.tolerance = tolerance;
     least.most_iterations = most_iterations;
+    least.slopes_along_steps = true;
     least.evaluate = [&](const Eigen::VectorXd& q, Eigen::VectorXd& residuals, Eigen::MatrixXd* jacobian) {
       Eigen::VectorXd outputs;
       if (jacobian == nullptr ? !problem_.outputs(q, outputs) : !problem_.derivatives(q, outputs, *jacobian, true))

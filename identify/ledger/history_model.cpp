@@ -299,7 +299,7 @@ class Histories {
 
   struct Motion {
     Eigen::VectorXd x, v;
-    SampledOscillator::Derivatives derivatives;
+    SampledOscillator::Derivatives derivatives{.with_steps = true};
   };
 
   [[nodiscard]] SensorRows rows_of(std::size_t t, const Place& at, const Numbers& wanted, const Motion& motion) {

@@ -88,6 +88,20 @@ const std::array<double, nodes>& places() {
   return points;
 }
 
+using AtNodes = Eigen::Array<double, nodes, 1>;
+
+/// Their powers: row i holds those of place i.
+template <int powers>
+const Eigen::Array<double, nodes, powers>& powers_of_places() {
+  static const Eigen::Array<double, nodes, powers> all = [] {
+    Eigen::Array<double, nodes, powers> table;
+    for (int i = 0; i < nodes; ++i)
+      for (int j = 0; j < powers; ++j) table(i, j) = std::pow(places()[static_cast<std::size_t>(i)], j);
+    return table;
+  }();
+  return all;
+}
+
 /// Parts of an interval that are searched for a change of sign, by the values at their ends.
 constexpr int parts = 4;
 
@@ -117,13 +131,13 @@ bool SampledOscillator::run(const Parameters& parameters, const std::vector<By>&
   acting_.clear();
   for (std::size_t j = 0; j < p_.further.size(); ++j)
     if (p_.further[j] != 0.0) acting_.push_back({&forces[j], p_.further[j]});
-  tangents_.clear();
+  tangents_ = {};
   if (derivatives != nullptr) {
-    start_tangents(by, forces);
+    start_tangents(by, forces, derivatives->with_steps);
     derivatives->x.resize(static_cast<Eigen::Index>(count_), static_cast<Eigen::Index>(by.size() + forces.size()));
     derivatives->v.resizeLike(derivatives->x);
     derivatives->steps.clear();
-    derivatives->steps.reserve(count_);
+    if (derivatives->with_steps) derivatives->steps.reserve(count_);
   }
   x.resize(static_cast<Eigen::Index>(count_));
   if (v != nullptr) v->resize(x.size());
@@ -134,57 +148,25 @@ bool SampledOscillator::run(const Parameters& parameters, const std::vector<By>&
   // A mass that moves at the start has slid far before the record began.
   constexpr double far = 1e3;
   reversal_ = direction_ == 0 ? x_ : x_ + far;
-  const auto store = [&](std::size_t i) {
-    const auto row = static_cast<Eigen::Index>(i);
-    x[row] = x_;
-    if (v != nullptr) (*v)[row] = v_ * rate_;
-    if (derivatives == nullptr) return;
-    for (Eigen::Index j = 0; j < derivatives->x.cols(); ++j) {
-      derivatives->x(row, j) = tangents_[static_cast<std::size_t>(j)].x;
-      derivatives->v(row, j) = tangents_[static_cast<std::size_t>(j)].v * rate_;
-    }
-    store_step(*derivatives);
-  };
   for (std::size_t i = 0; i + 1 < count_; ++i) {
     core::stop_if_cancelled();
-    store(i);
+    store(i, x, derivatives, v);
     if (!walk_interval(i)) return false;
   }
-  store(count_ - 1);
+  store(count_ - 1, x, derivatives, v);
   return x.allFinite();
 }
 
-void SampledOscillator::start_tangents(const std::vector<By>& by, const std::vector<Force>& forces) {
-  for (const By what : by) {
-    Tangent tangent;
-    tangent.by = what;
-    tangent.x = what == By::position ? 1.0 : 0.0;
-    tangent.v = what == By::velocity ? 1.0 / rate_ : 0.0;
-    tangents_.push_back(tangent);
-  }
-  static const Force one = [](const Instant& /*at*/) { return -1.0; };
-  const auto add = [this](const Force& force) {
-    Tangent tangent;
-    tangent.by = By::force;
-    tangent.force = &force;
-    tangents_.push_back(tangent);
-  };
-  for (const Force& force : forces) add(force);
-  // The last three begin anew at each sample: a disturbance of x, one of v, a force.
-  tangents_.insert(tangents_.end(), 2, Tangent{.by = By::position});
-  add(one);
-}
-
-/// Stores the last three tangents as they are one sample after their start, and starts them again.
-void SampledOscillator::store_step(Derivatives& derivatives) {
-  Tangent* const last = &tangents_[tangents_.size() - 3];
-  Step step;
-  for (Eigen::Index j = 0; j < 2; ++j) step.carried.col(j) << last[j].x, last[j].v * rate_;
-  step.pushed << last[2].x, last[2].v * rate_;
-  derivatives.steps.push_back(step);
-  last[0].x = 1.0;
-  last[1].v = direction_ == 0 ? 0.0 : 1.0 / rate_;  // a mass that sticks has no velocity to disturb
-  last[0].v = last[1].x = last[2].x = last[2].v = 0.0;
+/// Stores the present state as that of a sample.
+void SampledOscillator::store(std::size_t sample, Eigen::VectorXd& x, Derivatives* derivatives,
+                              Eigen::VectorXd* v) {
+  const auto row = static_cast<Eigen::Index>(sample);
+  x[row] = x_;
+  if (v != nullptr) (*v)[row] = v_ * rate_;
+  if (derivatives == nullptr) return;
+  derivatives->x.row(row) = tangents_.x.head(derivatives->x.cols()).transpose();
+  derivatives->v.row(row) = tangents_.v.head(derivatives->v.cols()).transpose() * rate_;
+  if (derivatives->with_steps) store_step(derivatives->steps);
 }
 
 /// From one sample to the next, through the events between them.
@@ -213,7 +195,7 @@ SampledOscillator::Balance SampledOscillator::balance(double at) const {
   here.y = value_at(y_[interval_], nodes, at);
   here.drive = value_at(drive_, nodes, at);
   here.way = std::abs(x_ - reversal_);
-  here.course = (static_cast<double>(interval_) + at) / static_cast<double>(count_ - 1);
+  here.course = course(at);
   Instant back = here;
   here.direction = 1.0;
   back.direction = -1.0;
@@ -258,7 +240,7 @@ double SampledOscillator::slip(double begin, double end) {
   const Balance here = balance(at);
   const double force = here.pull - here.limit * direction_;
   const double after = direction_ == 0 ? 0.0 : force / inertia_;
-  for (Tangent& tangent : tangents_) tangent.v = before != 0.0 ? tangent.v * after / before : 0.0;
+  tangents_.v *= before != 0.0 ? after / before : 0.0;
   return at;
 }
 
@@ -285,6 +267,10 @@ void SampledOscillator::settle(double at) {
   direction_ = static_cast<int>(sim::direction_after_slip(here.pull, here.limit, 0.0, sticks));
 }
 
+double SampledOscillator::course(double at) const {
+  return (static_cast<double>(interval_) + at) / static_cast<double>(count_ - 1);
+}
+
 SampledOscillator::Instant SampledOscillator::instant(double u) const {
   Instant instant;
   instant.x = value_at(series_, terms_, u);
@@ -293,35 +279,55 @@ SampledOscillator::Instant SampledOscillator::instant(double u) const {
   instant.y = value_at(y_here_, nodes, u);
   instant.drive = value_at(drive_here_, nodes, u);
   instant.way = std::abs(instant.x - reversal_);
-  instant.course = (static_cast<double>(interval_) + begin_ + u) / static_cast<double>(count_ - 1);
+  instant.course = course(begin_ + u);
   return instant;
 }
 
 /// Computes the motion at eight points of the rest of the interval, the same points for all forces.
 void SampledOscillator::look_along() {
+  const auto& powers = powers_of_places<most_terms>();
   const double length = 1.0 - begin_;
-  for (std::size_t i = 0; i < nodes; ++i) along_[i] = instant(places()[i] * length);
+  const auto along = [&](const auto& series, int terms) -> AtNodes {
+    AtNodes sum = AtNodes::Zero();
+    double scale = 1.0;
+    for (int j = 0; j < terms; ++j, scale *= length)
+      sum += powers.col(j) * (series[static_cast<std::size_t>(j)] * scale);
+    return sum;
+  };
+  Series slopes{};
+  for (int j = 1; j < terms_; ++j)
+    slopes[static_cast<std::size_t>(j - 1)] = j * rate_ * series_[static_cast<std::size_t>(j)];
+  const AtNodes x = along(series_, terms_);
+  const AtNodes v = along(slopes, terms_ - 1);
+  const AtNodes y = along(y_here_, nodes);
+  const AtNodes drive = along(drive_here_, nodes);
+  for (int i = 0; i < nodes; ++i) {
+    Instant& at = along_[static_cast<std::size_t>(i)];
+    at.x = x[i];
+    at.v = v[i];
+    at.direction = direction_;
+    at.y = y[i];
+    at.drive = drive[i];
+    at.way = std::abs(x[i] - reversal_);
+    at.course = course(begin_ + powers(i, 1) * length);
+  }
 }
 
 /// A force along the motion, as a polynomial through these points. It is smooth, because the direction is constant.
 SampledOscillator::Drive SampledOscillator::push(const Force& force) const {
-  static const Eigen::Matrix<double, nodes, nodes> to_powers = [] {
-    Eigen::Matrix<double, nodes, nodes> powers;
-    for (int r = 0; r < nodes; ++r)
-      for (int c = 0; c < nodes; ++c) powers(r, c) = std::pow(places()[static_cast<std::size_t>(r)], c);
-    return Eigen::Matrix<double, nodes, nodes>(powers.inverse());
-  }();
-  const double length = 1.0 - begin_;
-  Eigen::Matrix<double, nodes, 1> values;
-  for (int i = 0; i < nodes; ++i) values[i] = force(along_[static_cast<std::size_t>(i)]);
-  const Eigen::Matrix<double, nodes, 1> coefficients = to_powers * values;
+  static const Eigen::Matrix<double, nodes, nodes> to_powers = powers_of_places<nodes>().matrix().inverse();
+  const double per_length = 1.0 / (1.0 - begin_);
+  AtNodes coefficients = AtNodes::Zero();
+  for (int i = 0; i < nodes; ++i)
+    coefficients += to_powers.col(i).array() * force(along_[static_cast<std::size_t>(i)]);
   Drive series{};
   double power = 1.0;
-  for (int i = 0; i < nodes; ++i, power /= length) series[static_cast<std::size_t>(i)] = coefficients[i] * power;
+  for (int i = 0; i < nodes; ++i, power *= per_length)
+    series[static_cast<std::size_t>(i)] = coefficients[i] * power;
   return series;
 }
 
-/// Taylor series of the motion from `begin` within the interval, and of its derivatives.
+/// Taylor series of the motion from `begin` within the interval.
 void SampledOscillator::expand(double begin) {
   const Drive drive = shifted(drive_, begin);
   y_here_ = shifted(y_[interval_], begin);
@@ -340,9 +346,6 @@ void SampledOscillator::expand(double begin) {
     }
     expand_motion(left);
   }
-  if (!tangents_.empty()) linearise();
-  if (std::ranges::any_of(tangents_, [](const Tangent& tangent) { return tangent.by == By::force; })) look_along();
-  for (Tangent& tangent : tangents_) expand(tangent);
 }
 
 void SampledOscillator::expand_motion(const Drive& drive) {
@@ -354,69 +357,11 @@ void SampledOscillator::expand_motion(const Drive& drive) {
   }
 }
 
-/// Stiffness and damping in the rest of the interval, with the slopes of the acting forces at its middle.
-void SampledOscillator::linearise() {
-  local_stiffness_ = p_.k;
-  local_damping_ = damping_;
-  if (acting_.empty()) return;
-  const Instant middle = instant(0.5 * (1.0 - begin_));
-  constexpr double share = 1e-6;
-  const double dx = share * std::abs(middle.x - middle.y) + 1e-3 * share * fastest_;
-  const double dv = share * fastest_ * rate_;
-  for (const auto& [force, g] : acting_) {
-    const auto slope = [&](double in_x, double in_v, double step) {
-      const auto moved = [&](double sign) {
-        Instant at = middle;
-        at.x += sign * in_x;
-        at.v += sign * in_v;
-        at.way = std::abs(at.x - reversal_);
-        return (*force)(at);
-      };
-      return step > 0.0 ? (moved(1.0) - moved(-1.0)) / (2.0 * step) : 0.0;
-    };
-    local_stiffness_ += g * slope(dx, 0.0, dx);
-    local_damping_ += g * rate_ * slope(0.0, dv, dv);
-  }
-}
-
-void SampledOscillator::expand(Tangent& tangent) const {
-  const Drive pushed = tangent.by == By::force ? push(*tangent.force) : Drive{};
-  const auto forcing = [&](int j) {
-    const auto i = static_cast<std::size_t>(j);
-    switch (tangent.by) {
-      case By::mass:
-        return -rate_ * rate_ * (j + 1) * (j + 2) * series_[i + 2];
-      case By::damping:
-        return -rate_ * (j + 1) * series_[i + 1];
-      case By::stiffness:
-        return (j < nodes ? y_here_[i] : 0.0) - series_[i];
-      case By::friction:
-        return j == 0 ? -static_cast<double>(direction_) : 0.0;
-      case By::force:
-        return j < nodes ? -pushed[i] : 0.0;
-      case By::position:
-      case By::velocity:
-        return 0.0;
-    }
-    return 0.0;
-  };
-  Series& s = tangent.series;
-  s[0] = tangent.x;
-  s[1] = tangent.v;
-  for (int j = 0; j + 2 < terms_; ++j) {
-    const auto i = static_cast<std::size_t>(j);
-    s[i + 2] = (forcing(j) - local_damping_ * (j + 1) * s[i + 1] - local_stiffness_ * s[i]) * integration_[i];
-  }
-}
-
 void SampledOscillator::move_to(double u) {
+  if (!tangents_.by.empty()) move_tangents(u);  // first: they need the motion as it is at the start
   x_ = value_at(series_, terms_, u);
   v_ = slope_at(series_, terms_, u);
   fastest_ = std::max(fastest_, std::abs(v_));
-  for (Tangent& tangent : tangents_) {
-    tangent.x = value_at(tangent.series, terms_, u);
-    tangent.v = slope_at(tangent.series, terms_, u);
-  }
 }
 
 }  // namespace dualdamp::identify

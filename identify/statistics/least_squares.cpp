@@ -62,14 +62,18 @@ ceres::Solver::Summary solve(const LeastSquaresProblem& problem, const std::vect
   }
   if (!held.empty()) ceres_problem.SetManifold(parameters.data(), new ceres::SubsetManifold(size, held));
 
+  constexpr double rounding = 1e-14;  // of the sum of squares, relative
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::DENSE_QR;
   options.logging_type = ceres::SILENT;
   options.num_threads = 1;
   options.max_num_iterations = most_iterations;
-  options.function_tolerance = problem.tolerance;
+  options.function_tolerance = std::max(problem.tolerance, rounding);
   options.gradient_tolerance = 0.0;
   options.parameter_tolerance = 1e-15;
+  // Within bounds the solver searches along each step, by default at twenty points where rounding alone is left.
+  options.max_num_line_search_step_size_iterations = 4;
+  options.line_search_interpolation_type = problem.slopes_along_steps ? ceres::CUBIC : ceres::QUADRATIC;
   StopIfCancelled stop;
   options.callbacks.push_back(&stop);
   ceres::Solver::Summary summary;
