@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <numeric>
 #include <optional>
 #include <set>
 #include <vector>
@@ -52,6 +53,9 @@ struct Rows {
   double log_variances = 0.0;     ///< half the log of the determinant of V
 };
 
+/// Relaxations that are fitted beside the friction, by their numbers.
+using Taken = std::vector<std::size_t>;
+
 class SteadyStates {
  public:
   SteadyStates(std::vector<SteadyPoint> points, bool with_phases) : points_(std::move(points)) {
@@ -89,7 +93,8 @@ class SteadyStates {
   }
 
   /// Linearised at the parameters and at the true amplitudes of the last call; then updates these amplitudes.
-  Rows linearise(const Parameters& at, const Deviations& deviations) {
+  /// Columns of relaxations that are not wanted are zero.
+  Rows linearise(const Parameters& at, const Deviations& deviations, const Taken& wanted) {
     Rows rows;
     const Eigen::Index count = amplitudes() + phases();
     rows.residuals.resize(count);
@@ -99,7 +104,7 @@ class SteadyStates {
     Eigen::Index phase_row = amplitudes();
     for (std::size_t i = 0; i < points_.size(); ++i) {
       const bool has_phase = with_phases_ && !std::isnan(points_[i].phase);
-      add_state(i, at, deviations, has_phase ? phase_row++ : -1, rows);
+      add_state(i, at, deviations, has_phase ? phase_row++ : -1, wanted, rows);
     }
     return rows;
   }
@@ -154,7 +159,7 @@ class SteadyStates {
   }
 
   void add_state(std::size_t i, const Parameters& at, const Deviations& deviations, Eigen::Index phase_row,
-                 Rows& rows) {
+                 const Taken& wanted, Rows& rows) {
     const SteadyPoint& point = points_[i];
     double& xi = true_x_[i];
     const bool has_phase = phase_row >= 0;
@@ -188,8 +193,10 @@ class SteadyStates {
                [](Parameters& p, double h) { p.friction.zeta += h; }),
         rows.base.col(0));
     put(column(point, at, xi, small, [](Parameters& p, double h) { p.friction.x_f += h; }), rows.base.col(1));
-    for (Eigen::Index j = 0; j < at.g.size(); ++j)
+    for (const std::size_t number : wanted) {
+      const auto j = static_cast<Eigen::Index>(number);
       put(column(point, at, xi, small, [j](Parameters& p, double h) { p.g[j] += h; }), rows.relaxed.col(j));
+    }
     const Asked solved = factor.solve(residual);
     xi = std::max(point.x + x_variance * by_x.dot(solved), 1e-3 * point.x);
   }
@@ -210,9 +217,6 @@ struct AmplitudeFit {
   Rows rows;
   double deviance = std::numeric_limits<double>::infinity();  ///< -2 log-likelihood
 };
-
-/// Relaxations that are fitted beside the friction, by their numbers.
-using Taken = std::vector<std::size_t>;
 
 /// Columns of the smooth curve that separates the noise of a channel.
 Eigen::Index smooth_columns(const SteadyStates& states) { return states.frequencies() > 1 ? 6 : 3; }
@@ -257,7 +261,7 @@ AmplitudeFit fit_with(SteadyStates states, const PlainFriction& begin, const Tak
   fit.deviations = {ratio > 1e3 ? 0.0 : 1e-3, ratio > 1e3 ? 1e-3 : 1e-3 * ratio, 1e-2};
   constexpr int iterations = 14;
   for (int i = 0; i < iterations; ++i) {
-    fit.rows = states.linearise(fit.at, fit.deviations);
+    fit.rows = states.linearise(fit.at, fit.deviations, taken);
     const Eigen::MatrixXd columns = free_columns(fit.rows.base, fit.rows.relaxed, taken);
     const Eigen::VectorXd step = pivoted_least_squares(columns, fit.rows.residuals);
     if (!step.allFinite()) return fit;
@@ -270,7 +274,9 @@ AmplitudeFit fit_with(SteadyStates states, const PlainFriction& begin, const Tak
     if (states.phases() > 0) fit.deviations.phase *= scale_of(states, left, states.amplitudes(), states.phases());
     limit(fit.deviations, states.largest());
   }
-  fit.rows = states.linearise(fit.at, fit.deviations);
+  Taken all(static_cast<std::size_t>(fit.at.g.size()));
+  std::iota(all.begin(), all.end(), 0);
+  fit.rows = states.linearise(fit.at, fit.deviations, all);
   const Eigen::MatrixXd columns = free_columns(fit.rows.base, fit.rows.relaxed, taken);
   const double left =
       (fit.rows.residuals - columns * pivoted_least_squares(columns, fit.rows.residuals)).squaredNorm();
