@@ -195,7 +195,7 @@ def friction_law(kind):
     """
     table = _LawTable(kind)
     core.add_law(c.addressof(table.table), table.origin, table.source)
-    _KEPT.append(table)
+    _keep(table)
     _tables.tables.cache_clear()
     vars(_tables.laws).pop(kind.__name__, None)
     return kind
@@ -240,8 +240,12 @@ def include_directory():
     return str(Path(__file__).with_name("include"))
 
 
-# Tables and functions that the libraries call. A law that was replaced is kept, since it may still be in use.
-_KEPT: list[_LawTable] = []
+def _keep(table):
+    """Keeps a table and its functions for good. A law that was replaced may still be in use, and results that are alive when the interpreter
+    ends call `destroy` in its last collection of garbage, in which modules and what only they hold are freed too."""
+    c.pythonapi.Py_IncRef(c.py_object(table))
+
+
 # The exception that ended the last call of a law.
 last_error: BaseException | None = None
 

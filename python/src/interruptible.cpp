@@ -1,6 +1,11 @@
 #include "python/src/interruptible.hpp"
 
+#include <pthread.h>
 #include <signal.h>
+
+#include <atomic>
+#include <chrono>
+#include <thread>
 
 namespace dualdamp::python {
 
@@ -12,6 +17,22 @@ namespace {
 struct sigaction before;
 bool is_watching = false;
 volatile sig_atomic_t was_pressed = 0;
+
+/// Computations that do not hold the interpreter's lock.
+std::atomic<int> computations = 0;
+bool is_ending = false;  // read and written with the interpreter's lock
+
+/// Called while the interpreter and its other threads still work. A function of the user that hangs is not awaited.
+void end_computations() {
+  constexpr auto longest = std::chrono::seconds(2);
+  constexpr auto pause = std::chrono::milliseconds(1);
+  is_ending = true;
+  const py::gil_scoped_release release;
+  core::request_cancellation();
+  const auto start = std::chrono::steady_clock::now();
+  while (computations > 0 && std::chrono::steady_clock::now() - start < longest) std::this_thread::sleep_for(pause);
+  core::clear_cancellation();  // functions that are called at exit may compute
+}
 
 extern "C" void cancel_and_pass_on(int number) {
   was_pressed = 1;
@@ -46,6 +67,10 @@ InterruptWatch::~InterruptWatch() {
 }
 
 void InterruptWatch::raise() const {
+  if (is_ended()) {
+    PyErr_SetNone(PyExc_SystemExit);
+    throw py::error_already_set();
+  }
   if (PyErr_CheckSignals() == 0) PyErr_SetNone(PyExc_KeyboardInterrupt);
   throw py::error_already_set();
 }
@@ -53,6 +78,16 @@ void InterruptWatch::raise() const {
 void InterruptWatch::raise_if_pressed() const {
   if (is_set_ && was_pressed != 0) raise();
 }
+
+Unlocked::Counted::Counted() { ++computations; }
+Unlocked::Counted::~Counted() { --computations; }
+
+void end_computations_at_exit() {
+  ::pthread_atfork(nullptr, nullptr, [] { computations = 0; });  // a child has no other threads
+  py::module_::import("atexit").attr("register")(py::cpp_function(&end_computations));
+}
+
+bool is_ended() { return is_ending && !is_main_thread(); }
 
 void ProgressCall::operator()(std::size_t done, std::size_t all) {
   const py::gil_scoped_acquire lock;

@@ -7,6 +7,10 @@
 /// (`core/cancellation.hpp`) and is passed on to Python's own handler. The call ends with KeyboardInterrupt, or
 /// with the exception of that handler. Only the main thread watches for Ctrl-C, but a cancellation also ends the
 /// computations of other threads.
+///
+/// When the interpreter ends, daemon threads may still compute. A thread that asks for the interpreter's lock after
+/// that is ended by Python in the middle of C++ code, which aborts the process. So they are cancelled before, and
+/// end with SystemExit.
 
 #include <pybind11/pybind11.h>
 
@@ -37,6 +41,24 @@ class InterruptWatch {
   bool is_set_ = false;
 };
 
+/// Work without the interpreter's lock. The end of the interpreter waits for it.
+class Unlocked {
+ private:
+  struct Counted {
+    Counted();
+    ~Counted();
+    Counted(const Counted&) = delete;
+    Counted& operator=(const Counted&) = delete;
+  };
+  Counted counted_;  // until the lock is held again
+  pybind11::gil_scoped_release release_;
+};
+
+/// Lets the computations of other threads end before the interpreter does.
+void end_computations_at_exit();
+/// Whether this thread is one of those.
+[[nodiscard]] bool is_ended();
+
 /// A function of the user that is called with the progress of a computation.
 class ProgressCall {
  public:
@@ -57,13 +79,14 @@ class ProgressCall {
 
 template <typename Work>
 auto unlocked(Work& work) {
-  const pybind11::gil_scoped_release release;
+  const Unlocked unlocked;
   return work();
 }
 
 template <typename Work>
 auto interruptible(Work work, const ProgressCall* progress = nullptr) {
   const InterruptWatch watch;
+  if (is_ended()) watch.raise();
   try {
     auto result = unlocked(work);
     // A run that is nearly finished does not check for a cancellation any more.

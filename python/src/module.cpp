@@ -4,6 +4,7 @@
 #include "core/provenance.hpp"
 #include "friction_models/plugin.hpp"
 #include "friction_models/registry.hpp"
+#include "python/src/interruptible.hpp"
 #include "python/src/parts.hpp"
 
 PYBIND11_MODULE(_core, module) {
@@ -26,6 +27,7 @@ PYBIND11_MODULE(_core, module) {
       },
       pybind11::arg("table"), pybind11::arg("origin"), pybind11::arg("source"));
   module.def("remove_law", &friction::remove_added_law, pybind11::arg("name"));
+  python::end_computations_at_exit();
   python::add_errors(module);
   python::add_runs(module);
   python::add_tables(module);

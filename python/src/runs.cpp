@@ -208,8 +208,8 @@ void add_run_class(py::module_& module) {
                                return verification ? verification->reason : std::string();
                              })
       .def("tables", &tables_of)
-      .def("document", &document, py::call_guard<py::gil_scoped_release>())
-      .def("save", &save, py::arg("directory"), py::call_guard<py::gil_scoped_release>());
+      .def("document", &document, py::call_guard<Unlocked>())
+      .def("save", &save, py::arg("directory"), py::call_guard<Unlocked>());
 }
 
 }  // namespace
