@@ -42,7 +42,7 @@ class _Part:
         return type(self) is type(other) and self._values == other._values
 
     def __hash__(self):
-        return hash((type(self), repr(self._values)))
+        return hash((type(self), _hashable(self._values)))
 
     def __reduce__(self):
         return _restored, (type(self), self._values)
@@ -52,6 +52,15 @@ class _Part:
 
     def __deepcopy__(self, memo):
         return self
+
+
+def _hashable(value):
+    """Equal for plain values that are equal: dicts with the same keys in another order, 1 and 1.0."""
+    if isinstance(value, dict):
+        return frozenset((key, _hashable(item)) for key, item in value.items())
+    if isinstance(value, list):
+        return tuple(map(_hashable, value))
+    return value
 
 
 def _restored(kind, values):

@@ -141,6 +141,20 @@ def test_what_is_said_of_each_record(rig):
     assert found.scenario.analysis.validate[0].units == {"x": "mm"}
 
 
+def test_equal_parts_have_equal_hashes():
+    """Also with other types of numbers, and with the keys in another order."""
+    systems = [
+        dd.System(mass=1, stiffness=100, damping=0, friction=dd.law("coulomb", kinetic=2)),
+        dd.System(mass=1.0, stiffness=np.float64(100), damping=0.0, friction=dd.law("coulomb", kinetic=2.0)),
+        dd.System(friction={"kinetic": 2, "law": "coulomb"}, damping=0, stiffness=100, mass=1),
+    ]
+    drives = [dd.excitation("base_table", times=[0, 1], values=[0, 1]), dd.excitation("base_table", values=(0.0, 1.0), times=(0.0, 1.0))]
+    for parts in (systems, drives):
+        assert all(part == parts[0] for part in parts)
+        assert len(set(parts)) == 1
+    assert len({*systems, systems[0].replace(mass=2)}) == 2
+
+
 def test_parts_do_not_change():
     friction = {"law": "coulomb", "kinetic": "2 N"}
     rig = dd.System(mass=1, stiffness=100, damping=4, friction=friction)
