@@ -6,7 +6,7 @@ import numpy as np
 
 from ._analyses import function
 from ._arguments import refuse_masked, thread_count
-from ._errors import NumericalFailure
+from ._errors import Diagnostic, InvalidScenario, NumericalFailure
 from ._library import core
 from ._run import close, reporter
 
@@ -109,7 +109,7 @@ def steady_state(
     damper_to : {"ground", "base"}, optional
         Other end of the damper; default: ground. Only without a system; a system has this key itself.
     threads : int, optional
-        Largest number of threads; 0: all cores.
+        Largest number of threads; 0: all cores; for a system as in `run`.
     progress : callable or True, optional
         As in `run`; called if there are more than some hundred thousand oscillators.
     **keys
@@ -171,11 +171,54 @@ def steady_state(
     report = reporter(progress)
     try:
         states = SteadyStates(*core.steady_states(Y is not None, damper_to == "base", thread_count(threads), values, report))
+    except InvalidScenario:
+        _refuse_bad(given)
+        raise  # a product of good values left the range of double precision
     finally:
         close(report)
     if states._outcome.__class__ is int and states._outcome != 0:
         raise NumericalFailure(f"there is no steady state: {states.outcome}")
     return states
+
+
+# What each argument may be, for messages after the libraries refused a batch: unit, and the least value with whether it is excluded.
+_RANGES = {
+    "mass": ("kg", 0.0, True),
+    "stiffness": ("N/m", 0.0, True),
+    "damping": ("N.s/m", -np.inf, True),
+    "zeta": ("", -np.inf, True),
+    "F0": ("N", 0.0, False),
+    "static": ("N", None, False),
+    "Y": ("m", 0.0, False),
+    "force": ("N", 0.0, False),
+    "omega": ("rad/s", 0.0, True),
+}
+
+
+def _refuse_bad(given):
+    """Raises InvalidScenario with each argument that has a value out of range, and the index of the first such value."""
+    problems = []
+    for name, (unit, low, is_open) in _RANGES.items():
+        if given[name] is None:
+            continue
+        values, low = np.broadcast_arrays(given[name], given["F0"] if low is None else low)
+        is_good = np.isfinite(values) & ((values > low) if is_open else (values >= low))
+        bad = np.argwhere(~is_good & ~np.isnan(low))
+        if len(bad) > 0:
+            problems.append(_bad_value(name, tuple(bad[0]), given[name], values, low, f" {unit}".rstrip(), is_open))
+    if problems:
+        text = "\n".join(f"error: {one.message}\n  allowed: {one.allowed}\n  found: {one.found}" for one in problems)
+        raise InvalidScenario(text, problems)
+
+
+def _bad_value(name, place, value, values, low, unit, is_open):
+    """`place`: in the shape of `values`, to which the value of the argument was broadcast."""
+    shape = np.shape(value)
+    index = [0 if length == 1 else i for i, length in zip(place[len(place) - len(shape) :], shape)]
+    least = float(low[place])
+    where = f"{name}[{', '.join(map(str, index))}]" if index else name
+    allowed = "any finite value" if least == -np.inf else f"{'>' if is_open else '>='} {least:g}{unit}"
+    return Diagnostic(f"{where!r} is out of range", allowed=allowed, found=f"{float(values[place]):g}{unit}")
 
 
 def _numbers(name, value):

@@ -71,13 +71,13 @@ def test_no_steady_state():
 
 
 def test_wrong_values():
-    with pytest.raises(dd.InvalidScenario, match="system.mass"):
+    with pytest.raises(dd.InvalidScenario, match="'mass.1.' is out of range\n  allowed: > 0 kg\n  found: -1 kg"):
         dd.steady_state(mass=[1, -1], stiffness=100, damping=0, F0=2, Y=0.1)
-    with pytest.raises(dd.InvalidScenario, match="system.friction.static"):
+    with pytest.raises(dd.InvalidScenario, match="'static' is out of range\n  allowed: >= 2 N"):
         dd.steady_state(**RIG, F0=2, static=1, Y=0.1)
     for name in ("mass", "stiffness"):
         for value in (-1, 0, [1, -1], [0.0, 1.0]):
-            with pytest.raises(dd.InvalidScenario, match=f"system.{name}"):
+            with pytest.raises(dd.InvalidScenario, match=f"^error: '{name}"):
                 dd.steady_state(**{"mass": 1, "stiffness": 100, name: value}, zeta=0.2, F0=2, Y=0.1)
     for value in ("1 mm", ["1 mm", "2 mm"], 1j, True):
         with pytest.raises(TypeError, match="Y is a number or an array of numbers, in SI"):
@@ -93,6 +93,27 @@ def test_wrong_values():
             dd.steady_state(**RIG, **wrong)
     with pytest.raises(TypeError, match="takes a system or Y, not both"):
         dd.steady_state(dd.System(**RIG), Y=0.1)
+
+
+def test_a_bad_value_is_named_with_its_index():
+    Y = np.full(10_000, 0.1)
+    Y[7777] = -1
+    for name, value, words in [
+        ("Y", Y, "'Y[7777]' is out of range\n  allowed: >= 0 m\n  found: -1 m"),
+        ("zeta", [0.1, np.nan], "'zeta[1]' is out of range\n  allowed: any finite value\n  found: nan"),
+        ("zeta", np.nan, "'zeta' is out of range\n  allowed: any finite value\n  found: nan"),
+        ("omega", [[1.0], [0.0]], "'omega[1, 0]' is out of range\n  allowed: > 0 rad/s\n  found: 0 rad/s"),
+        ("F0", [1, 3, 0], "'static' is out of range\n  allowed: >= 3 N\n  found: 2 N"),
+        ("static", [3, 0.5], "'static[1]' is out of range\n  allowed: >= 1 N\n  found: 0.5 N"),
+    ]:
+        with pytest.raises(dd.InvalidScenario) as caught:
+            dd.steady_state(**{"mass": 1, "stiffness": 100, "zeta": 0.2, "F0": 1, "static": 2, "Y": 0.1, "omega": 1, name: value})
+        assert str(caught.value) == "error: " + words
+        assert [problem.message for problem in caught.value.diagnostics] == [words.split("\n")[0]]
+    with pytest.raises(dd.InvalidScenario, match="'mass.0.'.*\n.*\n.*\n.*'F0.2.'"):
+        dd.steady_state(mass=[-1, 1, 1], stiffness=100, zeta=0.2, F0=[1, 1, np.nan], Y=0.1)
+    with pytest.raises(dd.InvalidScenario, match="system.damping"):
+        dd.steady_state(mass=1, stiffness=1e300, zeta=1e308, F0=1, Y=0.1)
 
 
 def test_data_frame():
