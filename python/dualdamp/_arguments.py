@@ -25,8 +25,17 @@ def path_text(value, name="a path"):
     return text
 
 
+def is_unicode(text):
+    """Whether a text can be encoded: it has no lone surrogate."""
+    try:
+        text.encode()
+    except UnicodeEncodeError:
+        return False
+    return True
+
+
 def thread_count(threads):
-    """The number of threads as an int; 0: all cores. Raises TypeError or ValueError."""
+    """The number of threads as an int; 0: not stated. Raises TypeError or ValueError."""
     try:
         count = operator.index(threads)
     except TypeError:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 import tempfile
 from collections.abc import Mapping
@@ -10,7 +11,7 @@ from pathlib import Path
 
 import numpy as np
 
-from ._arguments import path_text, thread_count
+from ._arguments import is_unicode, path_text, thread_count
 from ._errors import InvalidScenario
 from ._identification import identify, in_memory
 from ._library import core
@@ -106,8 +107,7 @@ def benchmark(scenario, methods, *, changes=None, seed=None, out=None, threads=0
     >>> [(row.method, round(row.interval_score, 2)) for row in scored.result.ranking]
     [('resonance_least_squares', 1.2), ('den_hartog_fit', 1.59), ('resonance_two_point', 2.0), ('line', 2.35)]
     """
-    if not all(isinstance(name, str) and name for name in methods):
-        raise TypeError("methods need names: texts that are not empty")
+    _check_names(methods, scenario, changes)
     with tempfile.TemporaryDirectory() as folder:
         stress_export(scenario, folder, changes=changes, seed=seed, threads=threads)
         answers = {name: _answers(name, method, folder) for name, method in methods.items()}
@@ -144,7 +144,7 @@ def stress_export(scenario, directory, *, changes=None, seed=None, threads=0, ov
         The files cannot be written, or the directory holds an earlier export.
     """
     seed = "" if seed is None else str(seed)
-    return core.export_cases(source_of(scenario, changes), path_text(directory), seed, thread_count(threads), bool(overwrite))
+    return core.export_cases(source_of(scenario, changes), os.fsencode(path_text(directory)), seed, thread_count(threads), bool(overwrite))
 
 
 def cases(directory):
@@ -191,6 +191,7 @@ def stress_score(scenario, key, answers, *, changes=None, out=None, threads=0, p
     InvalidScenario
         The key is that of another stress test, or answers are invalid; the message has their places.
     """
+    _check_names(answers, scenario, changes)
     with tempfile.TemporaryDirectory() as folder:
         files = []
         for i, (name, columns) in enumerate(answers.items()):
@@ -200,8 +201,19 @@ def stress_score(scenario, key, answers, *, changes=None, out=None, threads=0, p
                 path = Path(folder) / str(i) / (name if name.isidentifier() else "answers")
                 path.parent.mkdir()
                 path.write_text(in_memory(columns))
-            files.append((name, os.fspath(path)))
-        return run_source(source_of(scenario, changes), out=out, threads=threads, resume=True, progress=progress, key=os.fspath(key), answers=files)
+            files.append((name, os.fsencode(path)))
+        return run_source(source_of(scenario, changes), out=out, threads=threads, resume=True, progress=progress, key=os.fsencode(key), answers=files)
+
+
+def _check_names(names, scenario, changes):
+    """Refuses names that are none, and those of methods of the program in this scenario, before long computations."""
+    for name in names:
+        if not (isinstance(name, str) and name and is_unicode(name)):
+            raise TypeError(f"methods need names: texts that are not empty, not {name!r}")
+    asked = json.loads(core.resolved(source_of(scenario, changes)))["analysis"].get("methods") or ()
+    for name in names:
+        if name in asked:
+            raise InvalidScenario(f"two entries have the same name: {name!r} is a method of the program in this scenario; use another name")
 
 
 def _table(path):

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from ._arguments import path_text, refuse_masked, refuse_twice
+from ._arguments import is_unicode, path_text, refuse_masked, refuse_twice
 from ._library import core
 from ._run import run_source, source_of
 
@@ -98,7 +98,7 @@ def next(  # noqa: A001, of the package it is dualdamp.next, as the command is
     out, threads
         As in `run`.
     **options
-        Further keys of the analysis ``design``: ``sigma_x="20 um"``, ``candidates=[...]``, ....
+        Further keys of the analysis ``design``: ``sigma_x="20 um"``, ``largest_severity=0.2``, ....
 
     Returns
     -------
@@ -152,7 +152,7 @@ def _columns_of(data):
         pairs = list(data.items())
     else:
         raise TypeError(f"data are a path, a DataFrame, a structured array or a dict of columns, not {type(data).__name__}")
-    columns = [(_head(str(name)), _cells(name, values)) for name, values in pairs]
+    columns = [(_field("the name of a column", str(name)), _cells(name, values)) for name, values in pairs]
     lengths = {len(cells) for _, cells in columns}
     if len(lengths) > 1:
         raise ValueError("the columns differ in length: " + ", ".join(f"{head} {len(cells)}" for head, cells in columns))
@@ -166,9 +166,13 @@ def _cells(name, values):
         raise ValueError(f"the column {name!r} has {cells.ndim} dimensions; a column has one")
     if cells.dtype.kind in "fiub":
         return cells.astype(np.float64)
-    return [_head(str(cell)) for cell in cells]
+    return [_field(f"row {i} of the column {name!r}", str(cell)) for i, cell in enumerate(cells)]
 
 
-def _head(text):
-    """A text as a field of a CSV file, quoted where needed."""
-    return '"' + text.replace('"', '""') + '"' if any(c in text for c in ',"\n#') else text
+def _field(what, text):
+    """A text as a field of a CSV file, quoted where needed. A field of a file of data has one line of characters."""
+    if "\n" in text:
+        raise ValueError(f"{what} has a line break: {text!r}")
+    if not is_unicode(text):
+        raise ValueError(f"{what} has a lone surrogate: {text!r}")
+    return '"' + text.replace('"', '""') + '"' if any(c in text for c in ',"#') else text

@@ -112,7 +112,7 @@ def load_plugin(path):
     InvalidScenario
         The file is no such library.
     """
-    core.load_plugin(path_text(path))
+    core.load_plugin(fsencode(path_text(path)))
 
 
 def source_of(scenario, changes=None, data=None):

@@ -120,11 +120,18 @@ def test_refusals(tmp_path):
         dd.benchmark(SMALL, {"": lambda case: None})
     with pytest.raises(dd.InvalidScenario, match="asks for no stress test"):
         dd.benchmark("scenarios/examples/coulomb.yaml", {})
-    with pytest.raises(dd.InvalidScenario, match="two entries have the same name"):
-        dd.benchmark(SMALL, {INSIDE: lambda case: None})
+    with pytest.raises(TypeError, match="methods need names"):
+        dd.benchmark(SMALL, {"\ud800": lambda case: None})
+    called = []
+    with pytest.raises(dd.InvalidScenario, match=f"^two entries have the same name: '{INSIDE}' is a method of the program"):
+        dd.benchmark(SMALL, {"mine": called.append, INSIDE: called.append})
+    assert not called
     dd.stress_export(SMALL, tmp_path, seed=7)
     with pytest.raises(dd.InvalidScenario, match="that of another stress test"):
         dd.stress_score(SMALL, tmp_path / "key.json", {}, changes={"analysis.seeds": 5})
+    for name in (INSIDE, "mine"):  # names of files need not be UTF-8
+        with pytest.raises(dd.InvalidScenario, match="two entries" if name == INSIDE else "cannot be opened"):
+            dd.stress_score(SMALL, tmp_path / "key.json", {name: tmp_path / "\udc80"})
     with pytest.raises(dd.InvalidScenario, match="analysis.seed"):
         dd.stress_export(SMALL, tmp_path, seed=-1)
 

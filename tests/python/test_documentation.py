@@ -3,6 +3,7 @@
 import doctest
 import inspect
 import keyword
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -74,6 +75,13 @@ def test_analyses_have_all_their_keys():
         keys = {key["name"] for key in _tables.entry("analyses", name)["keys"]}
         names_of_keys = {key + "_" if keyword.iskeyword(key) else key for key in keys}
         assert names_of_keys < set(inspect.signature(getattr(dd, name)).parameters)
+
+
+@pytest.mark.parametrize("name, analysis", [("identify", "identify"), ("next", "design"), ("fit", "fit")])
+def test_docstrings_name_options_that_exist(name, analysis):
+    text = inspect.getdoc(getattr(dd, name)).split("**options")[1].split("Returns")[0]
+    named = re.findall(r"``(\w+)", text.split("analysis ``")[1].split("``", 1)[1])
+    assert len(named) >= 2 and set(named) <= {key["name"] for key in _tables.entry("analyses", analysis)["keys"]}
 
 
 def test_everything_is_where_the_package_says():

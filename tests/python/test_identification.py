@@ -77,6 +77,18 @@ def test_wrong_arguments():
         dd.identify(FILE, mass=1.042, stiffness=1568, frequency=6.17)
 
 
+def test_texts_that_no_file_of_data_holds():
+    data = {"Y": [0.1, 0.2], "x": [0.1, 0.2]}
+    for name, cells, words in [
+        ("sweep", ["up", "up\nand down"], "row 1 of the column 'sweep' has a line break: 'up.nand down'"),
+        ("sweep", ["\ud800", "up"], "row 0 of the column 'sweep' has a lone surrogate"),
+        ("force\n", [1, 2], "the name of a column has a line break"),
+        ("\ud800", [1, 2], "the name of a column has a lone surrogate"),
+    ]:
+        with pytest.raises(ValueError, match=words):
+            dd.identify({**data, name: cells}, **RIG)
+
+
 def test_no_answer_is_said():
     """A bent line: there is a result, and no answer."""
     Y = np.linspace(0.03, 0.12, 12)
