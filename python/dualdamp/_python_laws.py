@@ -8,15 +8,15 @@ from __future__ import annotations
 
 import ctypes as c
 import inspect
-import math
+import operator
 import os
 import subprocess
 import tempfile
+import threading
 import traceback
-from dataclasses import dataclass
 from pathlib import Path
 
-from . import _tables
+from . import _law_parts, _tables
 from ._library import core
 
 _ABI = 1
@@ -89,47 +89,10 @@ class _Table(c.Structure):
     ]
 
 
-@dataclass(frozen=True)
-class Parameter:
-    """A parameter of a law that is written in Python. `parameter` makes one."""
-
-    unit: str
-    meaning: str
-    low: float = -math.inf
-    high: float = math.inf
-    low_is_open: bool = False
-    default: float | None = None
-    is_limit: bool = False
-
-    def _row(self, name):
-        default = 0.0 if self.default is None else self.default
-        texts = [text.encode() for text in (name, self.unit, self.meaning)]
-        return _Parameter(*texts, self.low, self.high, self.low_is_open, False, self.default is not None, default, self.is_limit)
-
-
-def parameter(unit, meaning, *, above=None, at_least=None, at_most=None, default=None, is_limit=False):
-    """A parameter of a law that is written in Python.
-
-    Parameters
-    ----------
-    unit : str
-        SI unit; ``"1"`` for a number without unit.
-    meaning : str
-        The meaning, in one line.
-    above, at_least, at_most : float, optional
-        Range of the values.
-    default : float, optional
-        Default value; without one, the parameter is required.
-    is_limit : bool, optional
-        Whether the parameter is a force limit or multiplies the whole force. Modifiers act on it if the law calls
-        ``now.limit(value)``.
-
-    Returns
-    -------
-    Parameter
-    """
-    low = -math.inf if above is None and at_least is None else above if above is not None else at_least
-    return Parameter(unit, meaning, low, math.inf if at_most is None else at_most, above is not None, default, is_limit)
+def _row(name, value):
+    default = 0.0 if value.default is None else value.default
+    texts = [text.encode() for text in (name, value.unit, value.meaning)]
+    return _Parameter(*texts, value.low, value.high, value.low_is_open, False, value.default is not None, default, value.is_limit)
 
 
 def friction_law(kind):
@@ -193,6 +156,7 @@ def friction_law(kind):
     >>> dd.law("smooth_coulomb", level="2 N", speed="1 mm/s")
     law('smooth_coulomb', level='2 N', speed='1 mm/s')
     """
+    _law_parts.check(kind)
     table = _LawTable(kind)
     core.add_law(c.addressof(table.table), table.origin, table.source)
     _keep(table)
@@ -246,8 +210,40 @@ def _keep(table):
     c.pythonapi.Py_IncRef(c.py_object(table))
 
 
-# The exception that ended the last call of a law.
-last_error: BaseException | None = None
+class Watch:
+    """Keeps the last exception of a law in the runs of one thread, while it is entered.
+
+    The libraries learn only that a function failed, and several threads may run scenarios. So an exception belongs to the run of the thread
+    in which it was raised; in a thread of the libraries, to the run that made the law, or to the only run. An exception that may belong to
+    another run is the cause of none.
+    """
+
+    _of_thread = threading.local()
+    _entered: list[Watch] = []
+
+    def __init__(self):
+        self.error = None
+
+    def __enter__(self):
+        self._outer, self._of_thread.watch = Watch.here(), self
+        self._entered.append(self)
+        return self
+
+    def __exit__(self, *_):
+        self._of_thread.watch = self._outer
+        self._entered.remove(self)
+
+    @classmethod
+    def here(cls):
+        """The watch of this thread, or None."""
+        return getattr(cls._of_thread, "watch", None)
+
+    @classmethod
+    def keep(cls, error, maker):
+        """Keeps an exception of a law that was made under the watch `maker`, or under none."""
+        watch = cls.here() or maker or (cls._entered[0] if len(cls._entered) == 1 else None)
+        if watch is not None:
+            watch.error = error
 
 
 class _LawTable:
@@ -256,16 +252,17 @@ class _LawTable:
     def __init__(self, kind):
         self._kind = kind
         self._laws = {}
-        self._states = int(getattr(kind, "states", 0))
+        self._makers = {}  # the watch under which each law was made
+        self._states = operator.index(getattr(kind, "states", 0))
         parameters = getattr(kind, "parameters", {})
         self._names = list(parameters)
-        self._rows = (_Parameter * max(len(parameters), 1))(*(value._row(name) for name, value in parameters.items()))
+        self._rows = (_Parameter * max(len(parameters), 1))(*(_row(name, value) for name, value in parameters.items()))
         self._functions = {name: _FUNCTIONS[name](getattr(self, "_" + name)) for name in self._present()}
+        self.origin = _law_parts.file_of(kind)
         try:
             self.source = inspect.getsource(kind)
-            self.origin = inspect.getsourcefile(kind) or "Python"
         except (OSError, TypeError):
-            self.source, self.origin = repr(kind), "Python"
+            self.source = repr(kind)
         self.table = self._filled()
 
     def _present(self):
@@ -278,11 +275,10 @@ class _LawTable:
 
     def _filled(self):
         kind = self._kind
-        summary = (inspect.getdoc(kind) or "").split("\n")[0].rstrip(".")
         texts = {
             "name": kind.__name__,
             "version": str(getattr(kind, "version", "1")),
-            "summary": summary,
+            "summary": _law_parts.summary_of(kind),
             "equation": getattr(kind, "equation", ""),
             "remembers": f"{self._states} states" if self._states > 0 else None,
             "caution": getattr(kind, "caution", None),
@@ -310,18 +306,19 @@ class _LawTable:
             return _REFUSED
         # The libraries know the object by its address, which is never 0.
         self._laws[id(made)] = made
+        self._makers[id(made)] = Watch.here()
         law[0] = id(made)
         return 0
 
     def _destroy(self, law):
         self._laws.pop(law, None)
+        self._makers.pop(law, None)
 
-    def _guarded(self, work):
+    def _guarded(self, law, work):
         try:
             work()
         except BaseException as error:  # noqa: BLE001 - no exception may cross the border; KeyboardInterrupt is raised behind it
-            global last_error
-            last_error = error
+            Watch.keep(error, self._makers.get(law))
             return _REFUSED
         return 0
 
@@ -333,7 +330,7 @@ class _LawTable:
             force[0], found = self._laws[law].respond(now[0], states[: self._states])
             self._fill(rates, found, "rates")
 
-        return self._guarded(work)
+        return self._guarded(law, work)
 
     def _fill(self, place, values, what):
         if len(values) != self._states:
@@ -342,10 +339,10 @@ class _LawTable:
             place[i] = value
 
     def _scales(self, law, scales):
-        return self._guarded(lambda: self._fill(scales, self._laws[law].scales(), "scales"))
+        return self._guarded(law, lambda: self._fill(scales, self._laws[law].scales(), "scales"))
 
     def _start(self, law, now, mode, states):
-        return self._guarded(lambda: self._fill(states, self._laws[law].start(now[0]), "states"))
+        return self._guarded(law, lambda: self._fill(states, self._laws[law].start(now[0]), "states"))
 
     def _with_states(self, function, now, states):
         return function(now[0], states[: self._states]) if self._states > 0 else function(now[0])
@@ -354,10 +351,10 @@ class _LawTable:
         def work():
             limit[0] = self._with_states(self._laws[law].static_limit, now, states)
 
-        return self._guarded(work)
+        return self._guarded(law, work)
 
     def _dissipation(self, law, mode, states, now, power):
         def work():
             power[0] = self._with_states(self._laws[law].dissipation, now, states)
 
-        return self._guarded(work)
+        return self._guarded(law, work)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import sys
 import warnings
 from collections.abc import Mapping
+from contextlib import nullcontext
 from os import PathLike, fsencode
 
 from ._arguments import path_text, thread_count
@@ -141,10 +142,9 @@ def run_source(source, *, out=None, threads=0, resume=False, overwrite=False, pr
         raise TypeError("resume goes on with what is in the directory `out`, and none is given")
     directory = b"" if out is None else fsencode(path_text(out, "out"))
     laws = sys.modules.get(__package__ + "._python_laws")  # the module is loaded only if a law is written in Python
-    if laws is not None:
-        laws.last_error = None
     try:
-        done = core.run(source, directory, thread_count(threads), bool(resume), bool(overwrite), report, key, list(answers))
+        with laws.Watch() if laws is not None else nullcontext() as watch:
+            done = core.run(source, directory, thread_count(threads), bool(resume), bool(overwrite), report, key, list(answers))
     finally:
         close(report)
     result = Result(done)
@@ -152,7 +152,7 @@ def run_source(source, *, out=None, threads=0, resume=False, overwrite=False, pr
         for message in done.save(directory):
             warnings.warn(message, stacklevel=3)
     if done.numbers == "null":
-        raise NumericalFailure(done.failure, result) from (laws and laws.last_error)
+        raise NumericalFailure(done.failure, result) from (watch and watch.error)
     if result.status == 1:
         raise CheckFailed(_failed_checks(result), result)
     if result.status != 0:

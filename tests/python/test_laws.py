@@ -3,6 +3,7 @@
 import math
 import shutil
 import subprocess
+import threading
 
 import dualdamp as dd
 import pytest
@@ -123,15 +124,80 @@ def test_values_are_checked():
         dd.law("python_dahl", limit=1, stiffness=1, bias=2)
 
 
-def test_a_class_that_is_no_law():
-    class nothing:
-        pass
+def force(self, now):
+    return 0.0
 
-    with pytest.raises(dd.InvalidScenario, match="plugin refused: the table has no summary"):
-        dd.friction_law(nothing)
 
+def respond(self, now, states):
+    return 0.0, [0.0]
+
+
+def law_class(name="whole", doc="A law.", **parts):
+    return type(name, (), {"__doc__": doc, "equation": "F = 0", **parts})
+
+
+LEVEL = dd.parameter("N", "a level")
+
+
+@pytest.mark.parametrize(
+    "parts, words",
+    [
+        ({}, "the class has no function force\\(self, now\\), which a law without states needs"),
+        ({"force": 3}, "'force' is no function: 3"),
+        ({"states": 1, "respond": respond}, "the class has no function scales\\(self\\)"),
+        ({"states": 1, "scales": force}, "the class has no function respond\\(self, now, states\\)"),
+        ({"states": 1, "force": force}, "no function scales.*\n.*no function respond"),
+        ({"states": 1.5, "force": force}, "'states' is no number of states: 1.5"),
+        ({"states": -1, "force": force}, "'states' is no number of states: -1"),
+        ({"force": force, "static_limit": 2.0}, "'static_limit' is no function: 2.0"),
+        ({"force": force, "doc": None}, "the class has no docstring"),
+        ({"force": force, "equation": None}, "the class has no 'equation'"),
+        ({"force": force, "equation": 3}, "the 'equation' of the class is no text: 3"),
+        ({"force": force, "equation": "F = \ud800"}, "the 'equation' of the class is not one line of printable ASCII"),
+        ({"force": force, "sources": 3}, "the 'sources' of the class is no text: 3"),
+        ({"force": force, "caution": "a\0b"}, "the 'caution' of the class is not one line of printable ASCII"),
+        ({"force": force, "parameters": ["level"]}, "'parameters' is no dict of name and dualdamp.parameter"),
+        ({"force": force, "parameters": {"level": "N"}}, "the parameter 'level' is no dualdamp.parameter\\(...\\): 'N'"),
+        ({"force": force, "parameters": {3: LEVEL}}, "the name of a parameter is no key of a scenario: 3"),
+        ({"force": force, "parameters": {"level": dd.parameter("N", "a\0b")}}, "the meaning of the parameter 'level' is not one line"),
+        ({"force": force, "parameters": {"level": dd.parameter("", "a level")}}, "the parameter 'level' has no unit"),
+        ({"force": force, "parameters": {"level": LEVEL}}, "__init__ does not take the values of 'parameters'"),
+    ],
+)
+def test_a_class_that_lacks_a_part_of_a_law_is_refused(parts, words):
+    with pytest.raises(dd.InvalidScenario, match="error: law 'whole' refused: .*" + words) as caught:
+        dd.friction_law(law_class(**parts))
+    assert len(caught.value.diagnostics) == str(caught.value).count("error: ") and "whole" not in dd.laws
+
+
+def test_only_a_class_is_a_law():
+    with pytest.raises(TypeError, match="a friction law is a class, not 3"):
+        dd.friction_law(3)
+
+
+def test_parameters_of_laws_are_checked():
+    for numbers in ({"above": 1, "at_least": 3}, {"above": 0, "at_least": 0}):
+        with pytest.raises(TypeError, match="a parameter has one lower limit"):
+            dd.parameter("N", "a level", **numbers)
+    for unit, meaning, more, words in [
+        (3, "a level", {}, "the unit of a parameter is a text, not 3"),
+        ("N", None, {}, "the meaning of a parameter is a text, not None"),
+        ("N", "a level", {"at_least": "1"}, "the lower limit of a parameter is a number, not '1'"),
+        ("N", "a level", {"at_most": "1"}, "the upper limit of a parameter is a number, not '1'"),
+        ("N", "a level", {"default": True}, "the default of a parameter is a number, not True"),
+    ]:
+        with pytest.raises(TypeError, match=words):
+            dd.parameter(unit, meaning, **more)
+    with pytest.raises(dd.InvalidScenario, match="has an empty range"):
+        dd.friction_law(law_class(force=force, __init__=lambda self, level: None, parameters={"level": dd.parameter("N", "a level", above=1, at_most=0)}))
+
+
+def test_a_class_whose_name_is_no_name_of_a_law():
     class Capital:
         """A law."""
+
+        equation = "F = 0"
+        force = force
 
     with pytest.raises(dd.InvalidScenario, match="the law's name is no key of a scenario"):
         dd.friction_law(Capital)
@@ -140,6 +206,7 @@ def test_a_class_that_is_no_law():
         """A law."""
 
         equation = "F = 0"
+        force = force
 
     with pytest.raises(dd.InvalidScenario, match="there is a law 'coulomb' already"):
         dd.friction_law(coulomb)
@@ -176,6 +243,53 @@ def test_an_exception_of_the_law_is_the_cause(drive):
     with pytest.raises(dd.NumericalFailure, match="law 'failing' of a plugin: respond\\(\\) returned status 1") as caught:
         dd.System(**RIG, friction=dd.law("failing")).steady_state(drive)
     assert isinstance(caught.value.__cause__, ValueError)
+
+
+def failing_class(name, error):
+    def force(self, now):
+        raise error(name)
+
+    return dd.friction_law(law_class(name, force=force))
+
+
+def test_the_cause_is_that_of_the_own_thread(drive):
+    """Two threads run two laws that fail, each with another exception."""
+    errors = {"fail_first": KeyError, "fail_second": LookupError}
+    causes = {name: [] for name in errors}
+
+    def work(name):
+        system = dd.System(**RIG, friction=dd.law(name))
+        for _ in range(150):
+            try:
+                system.steady_state(drive)
+            except dd.NumericalFailure as failure:
+                causes[name].append(type(failure.__cause__))
+
+    for name, error in errors.items():
+        failing_class(name, error)
+    threads = [threading.Thread(target=work, args=(name,)) for name in errors]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert causes == {name: [error] * 150 for name, error in errors.items()}
+
+
+def test_a_run_inside_a_call_of_another_keeps_the_cause_of_each(drive):
+    failing_class("fail_inside", KeyError)
+    inside = dd.System(**RIG, friction=dd.law("fail_inside"))
+    causes = []
+
+    def force(self, now):
+        with pytest.raises(dd.NumericalFailure) as caught:
+            inside.steady_state(drive)
+        causes.append(type(caught.value.__cause__))
+        raise LookupError
+
+    dd.friction_law(law_class("fail_outside", force=force))
+    with pytest.raises(dd.NumericalFailure) as caught:
+        dd.System(**RIG, friction=dd.law("fail_outside")).steady_state(drive)
+    assert causes == [KeyError] and type(caught.value.__cause__) is LookupError
 
 
 C_LAW = """
