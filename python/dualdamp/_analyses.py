@@ -18,7 +18,7 @@ _COMMON = [
     {"name": "numerics", "values": "mapping", "required": False, "meaning": "tolerance, solver and verification, as in a scenario file"},
     {"name": "title", "values": "str", "required": False, "meaning": "a title in one line"},
     {"name": "out", "values": "path", "required": False, "meaning": "directory for the files that the program writes"},
-    {"name": "threads", "values": "int", "required": False, "meaning": "largest number of threads; default: all cores"},
+    {"name": "threads", "values": "int", "required": False, "meaning": "largest number of threads; default: all cores, or one for a friction law written in Python"},
     {"name": "progress", "values": "callable or True", "required": False, "meaning": "as in `run`"},
 ]
 _EXAMPLES = {

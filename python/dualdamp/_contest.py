@@ -127,7 +127,7 @@ def stress_export(scenario, directory, *, changes=None, seed=None, threads=0, ov
     seed : int, optional
         Seed of all noise. Default: a hidden one, drawn at random.
     threads : int, optional
-        Largest number of threads; 0: all cores.
+        Largest number of threads; 0: all cores, or one if a friction law of the scenario is written in Python.
     overwrite : bool, optional
         Remove the files of an earlier export in this directory; without it they are refused.
 

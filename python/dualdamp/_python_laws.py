@@ -119,7 +119,8 @@ def friction_law(kind):
           heat [W], for a law that stores energy;
         * optional: ``is_odd``, ``is_passive`` (default: True), ``version``, ``sources``, ``caution``.
 
-        Its functions must be pure: several threads call them, and the same arguments must give the same results.
+        Its functions must be pure: the same arguments must give the same results, and several threads may call them. A run calls them
+        in one thread, unless ``threads`` is stated: threads that take the interpreter's lock in turn take longer.
 
     Returns
     -------

@@ -28,7 +28,7 @@ def run(scenario, changes=None, *, out=None, threads=0, resume=False, overwrite=
     out : path, optional
         Directory for the files that the program writes: result.json, a CSV file for each table, report.html.
     threads : int, optional
-        Largest number of threads; 0: all cores.
+        Largest number of threads; 0: all cores, or one if a friction law of the scenario is written in Python.
     resume, overwrite : bool, optional
         For a stress test or a sweep whose earlier run with the same `out` was interrupted: `resume` computes the missing cases,
         `overwrite` discards the finished ones. If finished cases exist and neither is True, the run is refused.

@@ -90,19 +90,32 @@ struct Run {
   std::shared_ptr<const scenarios::RunResult> result;
 };
 
+/// If the number is not stated, one for laws written in Python: threads would wait for the interpreter's lock, and
+/// take longer than one.
+int threads_for(const scenarios::Scenario& scenario, int stated) {
+  return stated == 0 && names_a_law_of_python(scenario.resolved) ? 1 : stated;
+}
+
+/// Runs on a limited number of threads. Runs of other threads of Python keep theirs.
+scenarios::RunResult run_limited(const scenarios::Scenario& scenario, const scenarios::RunOptions& options) {
+  if (options.threads == 0) return scenarios::run(scenario, options);
+  scenarios::RunResult result;
+  const auto work = [&](std::size_t, std::size_t) { result = scenarios::run(scenario, options); };
+  sim::in_parts(1, 1, options.threads, work);
+  return result;
+}
+
 scenarios::RunResult compute(const scenarios::Scenario& scenario, const Settings& settings, ProgressCall& told) {
   const bool is_campaign = dynamic_cast<const scenarios::Campaign*>(scenario.question.get()) != nullptr;
   if (!is_campaign && settings.found != scenarios::FoundCases::refuse)
     throw py::type_error("resume and overwrite are for a stress test or a sweep, and this is none");
   scenarios::RunOptions options{
-      .directory = settings.directory, .threads = settings.threads, .found = settings.found};
+      .directory = settings.directory, .threads = threads_for(scenario, settings.threads), .found = settings.found};
   if (told.is_wanted())
     options.progress = [&](const scenarios::Progress& progress) { told(progress.done, progress.all); };
   std::optional<TemporaryDirectory> temporary;
   if (options.directory.empty() && is_campaign) options.directory = temporary.emplace().path();
-  std::optional<sim::ThreadLimit> limit;
-  if (settings.threads > 0) limit.emplace(settings.threads);
-  return scenarios::run(scenario, options);
+  return run_limited(scenario, options);
 }
 
 Run run(const Source& source, const Settings& settings, std::optional<ProgressCall::Function> progress) {
@@ -124,7 +137,7 @@ std::size_t export_cases(const Source& source, const std::string& directory, con
   return interruptible([&] {
     const scenarios::Scenario scenario =
         bench::contest_scenario(loader(source), seed.empty() ? bench::hidden_seed() : seed, "seed");
-    scenarios::RunOptions options{.directory = directory, .threads = threads};
+    scenarios::RunOptions options{.directory = directory, .threads = threads_for(scenario, threads)};
     if (overwrite) options.found = scenarios::FoundCases::overwrite;
     return bench::export_cases(*bench::stress_test_of(*scenario.question), scenarios::context_of(scenario, options),
                                directory);

@@ -292,6 +292,23 @@ def test_a_run_inside_a_call_of_another_keeps_the_cause_of_each(drive):
     assert causes == [KeyError] and type(caught.value.__cause__) is LookupError
 
 
+def test_a_law_of_python_is_called_in_one_thread_if_the_number_is_not_stated(drive):
+    callers = set()
+
+    def force(self, now):
+        callers.add(threading.get_native_id())
+        return 2.0 * math.tanh(now.v / 0.05)
+
+    dd.friction_law(law_class("who_calls", force=force))
+    system = dd.System(**RIG, friction=dd.law("who_calls"))
+    curve = {"excitation": {"type": "base_harmonic", "frequency": "natural"}, "analysis": {"type": "xy_curve", "amplitudes": [0.1, 0.15, 0.2, 0.25]}}
+    dd.run({"system": system, **curve})
+    dd.run({"system": {**RIG, "friction": {"law": "coulomb", "kinetic": 2}}, **curve}, {"system.friction": {"law": "who_calls"}})
+    simulation = {"initial": {"position": 0.1}, "analysis": {"type": "simulate", "duration": 0.2}}
+    dd.run({"system": system, **simulation, "sweep": {"system.mass": [1, 2, 3, 4]}})
+    assert callers == {threading.get_native_id()}
+
+
 C_LAW = """
 #include <math.h>
 #include <stdlib.h>
