@@ -29,7 +29,7 @@ function found = dualdamp_identify(data, varargin)
   for name = {'mass', 'stiffness', 'frequency'}
     value = options.(name{1});
     if ~isempty(value)
-      call = [call, {['--', name{1}], dualdamp_text(value)}]; %#ok<AGROW>
+      call = [call, {['--', name{1}], dualdamp_text(name{1}, value)}]; %#ok<AGROW>
     end
   end
   if ischar(options.methods), options.methods = {options.methods}; end

@@ -58,4 +58,25 @@ refused(@() dualdamp_run(scenario, 'program', '/nowhere/dualdamp'), 'dualdamp:pr
 refused(@() dualdamp_run(scenario, 'chagnes', {}), 'dualdamp:usage', 'there are: changes');
 refused(@() dualdamp_identify(struct('Y', [1, 2], 'x', 1), rig{:}), 'dualdamp:usage', 'differ in length');
 refused(@() dualdamp_identify(struct('Y', data.Y, 'x', data.x + 1i), rig{:}), 'dualdamp:usage', 'column x holds no real numbers');
+
+% Complex numbers lose their imaginary part on the way, and several numbers would be read as one: 12 for [1, 2].
+curve = scenario;
+curve.excitation = struct('type', 'base_harmonic', 'frequency', '10 rad/s');
+curve.analysis = struct('type', 'xy_curve', 'amplitudes', [0.1, 0.2 + 2i]);
+refused(@() dualdamp_run(curve), 'dualdamp:usage', 'scenario.analysis.amplitudes holds no real numbers');
+curve.analysis.amplitudes = {0.1, 0.2i};
+refused(@() dualdamp_run(curve), 'dualdamp:usage', 'scenario.analysis.amplitudes{2} holds no real numbers');
+bad = scenario;
+bad.system.mass = 1 + 0.5i;
+refused(@() dualdamp_run(bad), 'dualdamp:usage', 'scenario.system.mass holds no real numbers');
+bad = scenario;
+bad.system.friction = struct('law', 'coulomb', 'kinetic', {1, 1i});
+refused(@() dualdamp_run(bad), 'dualdamp:usage', 'scenario.system.friction{2}.kinetic holds no real numbers');
+for wrong = {1 + 1i, [1, 2]}
+  refused(@() dualdamp_identify(data, 'mass', wrong{1}), 'dualdamp:usage', 'mass is one real number');
+end
+two = scenario;
+two.system.friction = struct('law', 'coulomb', 'kinetic', {1, 1}, 'static', []);
+both = dualdamp_run(two);
+assert(both.result.amplitude, found.result.amplitude, -1e-9);
 disp('all tests of matlab/ passed');
