@@ -22,6 +22,19 @@ volatile sig_atomic_t was_pressed = 0;
 std::atomic<int> computations = 0;
 bool is_ending = false;  // read and written with the interpreter's lock
 
+bool is_main_thread() {
+  static const auto main_thread =
+      py::module_::import("threading").attr("main_thread")().attr("ident").cast<unsigned long>();
+  return PyThread_get_thread_ident() == main_thread;
+}
+
+/// Functions that are called at exit, in the main thread, may compute.
+void end_thread_if_ending() {
+  if (!is_ending || is_main_thread()) return;
+  PyErr_SetNone(PyExc_SystemExit);
+  throw py::error_already_set();
+}
+
 /// Called while the interpreter and its other threads still work. A function of the user that hangs is not awaited.
 void end_computations() {
   constexpr auto longest = std::chrono::seconds(2);
@@ -31,19 +44,13 @@ void end_computations() {
   core::request_cancellation();
   const auto start = std::chrono::steady_clock::now();
   while (computations > 0 && std::chrono::steady_clock::now() - start < longest) std::this_thread::sleep_for(pause);
-  core::clear_cancellation();  // functions that are called at exit may compute
+  core::clear_cancellation();
 }
 
 extern "C" void cancel_and_pass_on(int number) {
   was_pressed = 1;
   core::request_cancellation();
   before.sa_handler(number);
-}
-
-bool is_main_thread() {
-  static const auto main_thread =
-      py::module_::import("threading").attr("main_thread")().attr("ident").cast<unsigned long>();
-  return PyThread_get_thread_ident() == main_thread;
 }
 
 }  // namespace
@@ -67,10 +74,7 @@ InterruptWatch::~InterruptWatch() {
 }
 
 void InterruptWatch::raise() const {
-  if (is_ended()) {
-    PyErr_SetNone(PyExc_SystemExit);
-    throw py::error_already_set();
-  }
+  end_thread_if_ending();
   if (PyErr_CheckSignals() == 0) PyErr_SetNone(PyExc_KeyboardInterrupt);
   throw py::error_already_set();
 }
@@ -79,15 +83,16 @@ void InterruptWatch::raise_if_pressed() const {
   if (is_set_ && was_pressed != 0) raise();
 }
 
-Unlocked::Counted::Counted() { ++computations; }
+Unlocked::Counted::Counted() {
+  end_thread_if_ending();
+  ++computations;
+}
 Unlocked::Counted::~Counted() { --computations; }
 
 void end_computations_at_exit() {
   ::pthread_atfork(nullptr, nullptr, [] { computations = 0; });  // a child has no other threads
   py::module_::import("atexit").attr("register")(py::cpp_function(&end_computations));
 }
-
-bool is_ended() { return is_ending && !is_main_thread(); }
 
 void ProgressCall::operator()(std::size_t done, std::size_t all) {
   const py::gil_scoped_acquire lock;

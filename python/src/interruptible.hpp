@@ -41,7 +41,8 @@ class InterruptWatch {
   bool is_set_ = false;
 };
 
-/// Work without the interpreter's lock. The end of the interpreter waits for it.
+/// Work without the interpreter's lock. The end of the interpreter waits for it, and then no thread may begin
+/// another one.
 class Unlocked {
  private:
   struct Counted {
@@ -56,8 +57,6 @@ class Unlocked {
 
 /// Lets the computations of other threads end before the interpreter does.
 void end_computations_at_exit();
-/// Whether this thread is one of those.
-[[nodiscard]] bool is_ended();
 
 /// A function of the user that is called with the progress of a computation.
 class ProgressCall {
@@ -86,7 +85,6 @@ auto unlocked(Work& work) {
 template <typename Work>
 auto interruptible(Work work, const ProgressCall* progress = nullptr) {
   const InterruptWatch watch;
-  if (is_ended()) watch.raise();
   try {
     auto result = unlocked(work);
     // A run that is nearly finished does not check for a cancellation any more.
