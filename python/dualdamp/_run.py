@@ -8,6 +8,7 @@ from collections.abc import Mapping
 from contextlib import nullcontext
 from os import PathLike, fsencode
 
+from . import _tables
 from ._arguments import path_text, thread_count
 from ._errors import CheckFailed, IncompleteResult, NumericalFailure
 from ._library import core
@@ -114,6 +115,7 @@ def load_plugin(path):
         The file is no such library.
     """
     core.load_plugin(fsencode(path_text(path)))
+    _tables.tables.cache_clear()
 
 
 def source_of(scenario, changes=None, data=None):

@@ -1,8 +1,10 @@
 #include <algorithm>
 #include <cstdint>
-#include <set>
+#include <map>
+#include <optional>
 #include <string>
 
+#include "core/diagnostics.hpp"
 #include "core/provenance.hpp"
 #include "friction_models/plugin.hpp"
 #include "friction_models/registry.hpp"
@@ -14,31 +16,49 @@ namespace py = pybind11;
 
 namespace {
 
-/// Changes only when the list of laws changes (friction_models/registry.hpp).
-std::set<std::string>& names() {
-  static std::set<std::string> laws;
+struct Added {
+  const dualdamp_law_table* table = nullptr;  ///< that the caller keeps for good (dualdamp/_python_laws.py)
+  std::string origin;
+  std::string sha256;
+};
+
+/// The laws written in Python, by name. They change only when the list of laws does (friction_models/registry.hpp).
+std::map<std::string, Added>& added() {
+  static std::map<std::string, Added> laws;
   return laws;
 }
 
 void remove_law(const std::string& name) {
   friction::remove_added_law(name);
-  names().erase(name);
+  added().erase(name);
 }
 
-/// `address`: of a table that the caller keeps (dualdamp/_python_laws.py).
+void add(const Added& law) {
+  friction::add_plugin(*law.table, law.origin, law.sha256);
+  added().insert_or_assign(law.table->name, law);
+}
+
+/// `address`: of the table. A law that is refused does not replace an earlier one.
 void add_law(std::uintptr_t address, const std::string& origin, const std::string& source) {
-  const auto* const table =
-      reinterpret_cast<const dualdamp_law_table*>(address);  // NOLINT(performance-no-int-to-ptr)
-  remove_law(table->name == nullptr ? "" : table->name);
-  friction::add_plugin(*table, origin, core::sha256(source));
-  names().insert(table->name);
+  const Added law = {reinterpret_cast<const dualdamp_law_table*>(address),  // NOLINT(performance-no-int-to-ptr)
+                     origin, core::sha256(source)};
+  const std::string name = law.table->name;
+  const auto found = added().find(name);
+  const std::optional<Added> earlier = found == added().end() ? std::nullopt : std::optional(found->second);
+  remove_law(name);
+  try {
+    add(law);
+  } catch (const core::InputError&) {
+    if (earlier) add(*earlier);
+    throw;
+  }
 }
 
 }  // namespace
 
 bool names_a_law_of_python(std::string_view resolved) {
   return std::ranges::any_of(
-      names(), [&](const std::string& name) { return resolved.find('"' + name + '"') != std::string_view::npos; });
+      added(), [&](const auto& law) { return resolved.find('"' + law.first + '"') != std::string_view::npos; });
 }
 
 void add_laws(py::module_& module) {

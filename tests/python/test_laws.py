@@ -230,6 +230,14 @@ def test_a_law_is_replaced_by_the_next_of_its_name(drive):
     assert define(4.0) == pytest.approx(0.125, rel=1e-9)
 
 
+def test_a_refused_law_does_not_replace_an_earlier_one(drive):
+    dd.friction_law(law_class("lasting", force=lambda self, now: 4.0 * now.v))
+    level = {"level": dd.parameter("furlong", "a level", default=1.0)}
+    with pytest.raises(dd.InvalidScenario, match="a unit that is not known, or not SI"):
+        dd.friction_law(law_class("lasting", force=force, parameters=level, __init__=lambda self, level: None))
+    assert dd.System(**RIG, friction=dd.law("lasting")).steady_state(drive).amplitude == pytest.approx(0.125, rel=1e-9)
+
+
 def test_an_exception_of_the_law_is_the_cause(drive):
     @dd.friction_law
     class failing:
@@ -360,3 +368,13 @@ def test_a_law_in_c(drive):
     assert results[0].amplitude == pytest.approx(results[1].amplitude, rel=1e-12)
     with pytest.raises(RuntimeError, match="error"):
         dd.compile_law("no C\nat all\n")
+
+
+def test_a_plugin_is_known_at_once_although_the_laws_were_listed_before(tmp_path):
+    compiler = shutil.which("cc") or pytest.skip("there is no C compiler")
+    (tmp_path / "law.c").write_text(C_LAW.replace("c_tanh", "loaded_tanh"))
+    subprocess.run([compiler, "-shared", "-fPIC", f"-I{dd.include_directory()}", "law.c", "-lm", "-o", "law.so"], cwd=tmp_path, check=True)
+    assert "loaded_tanh" not in dd.laws
+    dd.load_plugin(tmp_path / "law.so")
+    assert "loaded_tanh" in dd.laws
+    assert dd.law("loaded_tanh", level=1, speed=1).level == 1
