@@ -2,6 +2,7 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -75,6 +76,8 @@ class SteadyStates {
 
   [[nodiscard]] const std::vector<SteadyPoint>& points() const { return points_; }
   [[nodiscard]] const std::vector<const AmplitudeTerm*>& terms() const { return terms_; }
+  /// The true amplitude of a state at the last linearisation.
+  [[nodiscard]] double true_x(std::size_t i) const { return true_x_[i]; }
   [[nodiscard]] bool with_phases() const { return with_phases_; }
   [[nodiscard]] const Deviations& largest() const { return largest_; }
   [[nodiscard]] std::size_t frequencies() const { return frequencies_.size(); }
@@ -218,21 +221,29 @@ struct AmplitudeFit {
   double deviance = std::numeric_limits<double>::infinity();  ///< -2 log-likelihood
 };
 
-/// Columns of the smooth curve that separates the noise of a channel.
-Eigen::Index smooth_columns(const SteadyStates& states) { return states.frequencies() > 1 ? 6 : 3; }
+/// Columns of the smooth curve that separates the noise of a channel: fewer where they would leave no noise.
+Eigen::Index smooth_columns(const SteadyStates& states) {
+  if (states.frequencies() < 2) return 3;
+  return states.amplitudes() < many_states ? 4 : 6;
+}
 
 /// The noise of one channel: what a smooth curve over amplitude and frequency leaves of its residuals. A departure
-/// is smooth, so it is not taken for noise.
+/// is smooth, so it is not taken for noise. The curve is over the true amplitudes as fitted, whose errors are
+/// independent of the residuals: at one level of Y a measured amplitude is a curve over r and its own noise.
 double scale_of(const SteadyStates& states, const Eigen::VectorXd& residuals, Eigen::Index first,
                 Eigen::Index count) {
   Eigen::MatrixXd curve(count, smooth_columns(states));
   Eigen::Index row = 0;
-  for (const SteadyPoint& point : states.points()) {
-    if (row == count || (first > 0 && std::isnan(point.phase))) continue;
-    const double x = point.x;
+  for (std::size_t i = 0; i < states.points().size() && row < count; ++i) {
+    const SteadyPoint& point = states.points()[i];
+    if (first > 0 && std::isnan(point.phase)) continue;
+    const double x = states.true_x(i);
     const double r = point.r - 1.0;
-    curve.row(row).head(3) << 1.0, x, x * x;
-    if (curve.cols() > 3) curve.row(row).tail(3) << r, r * r, r * r * r;
+    const std::array<double, 6> by_both{1.0, x, r, r * r, x * x, r * r * r};
+    const std::array<double, 3> by_x{1.0, x, x * x};
+    for (Eigen::Index j = 0; j < curve.cols(); ++j)
+      curve(row, j) =
+          states.frequencies() > 1 ? by_both[static_cast<std::size_t>(j)] : by_x[static_cast<std::size_t>(j)];
     ++row;
   }
   const Eigen::VectorXd own = residuals.segment(first, count);
@@ -386,8 +397,9 @@ JointModel amplitude_model_of(const AmplitudeFit& fit, const SteadyStates& state
   model.relaxed = fit.rows.relaxed;
   leave_out_unseen(states, fit.at.friction, relaxed, model);
   model.spent = states.with_phases() ? 1.0 : 0.0;
-  const Eigen::Index channels = states.phases() > 0 ? 2 : 1;
-  model.noise_freedom = static_cast<double>(model.base.rows() - channels * smooth_columns(states));
+  for (const Eigen::Index rows : {states.amplitudes(), states.phases()})
+    if (const Eigen::Index freedom = rows - smooth_columns(states); freedom > 0)
+      model.known_noise.push_back({rows, static_cast<double>(freedom)});
   model.scale_freedom = static_cast<double>(states.amplitudes() - smooth_columns(states));
   model.refit = [states, begin = start_beside(fit.at.friction, states.points()), hidden = model.hidden, unit,
                  stated](const Taken& taken) {

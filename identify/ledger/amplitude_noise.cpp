@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <complex>
 #include <limits>
@@ -13,15 +14,20 @@ namespace dualdamp::identify {
 
 namespace {
 
-/// 1, 1/x, x at one frequency; r, r^2 and x^2 as well at several.
+/// 1, 1/x, x at one frequency; r, r^2 and x^2 as well at several. Few states at several frequencies: 1, 1/x, r,
+/// r^2, which plain friction needs whatever the constants are.
 Eigen::MatrixXd curves(const std::vector<SteadyPoint>& points) {
   const bool several = std::ranges::any_of(
       points, [&](const SteadyPoint& point) { return !is_same_frequency(point.r, points.front().r); });
-  Eigen::MatrixXd columns(static_cast<Eigen::Index>(points.size()), several ? 6 : 3);
+  const auto count = static_cast<Eigen::Index>(points.size());
+  Eigen::MatrixXd columns(count, !several ? 3 : count < many_states ? 4 : 6);
   for (Eigen::Index i = 0; i < columns.rows(); ++i) {
     const auto& [Y, x, phase, r, sweep, number] = points[static_cast<std::size_t>(i)];
-    columns.row(i).head(3) << 1.0, 1.0 / x, x;
-    if (several) columns.row(i).tail(3) << r - 1.0, (r - 1.0) * (r - 1.0), x * x;
+    const double s = r - 1.0;
+    const std::array<double, 6> all{1.0, 1.0 / x, x, s, s * s, x * x};
+    const std::array<double, 4> needed{1.0, 1.0 / x, s, s * s};
+    for (Eigen::Index j = 0; j < columns.cols(); ++j)
+      columns(i, j) = columns.cols() == 4 ? needed[static_cast<std::size_t>(j)] : all[static_cast<std::size_t>(j)];
   }
   return columns;
 }

@@ -14,6 +14,9 @@
 
 namespace dualdamp::identify {
 
+/// Fewer states at several frequencies than this take fewer columns of a smooth curve, or they have no noise left.
+inline constexpr int many_states = 8;
+
 /// Standard deviations of the three channels.
 struct Deviations {
   double x = 1.0;

@@ -33,6 +33,12 @@ struct Reading {
   double per_deviation = 0.0;  ///< change of the reading that raises the row's residual by one; 0: no reading
 };
 
+/// Noise of some rows that is known without the model, and that residuals of unit variance have.
+struct KnownNoise {
+  Eigen::Index rows = 0;
+  double freedom = 0.0;  ///< degrees of freedom behind it
+};
+
 struct JointModel {
   std::string data;           ///< "24 steady states"
   bool of_histories = false;  ///< the motion itself is simulated
@@ -52,9 +58,8 @@ struct JointModel {
   /// Relaxations without a column, which change the record in the second order only. They are not tested, but are
   /// fitted when a departure is to be explained.
   std::vector<std::size_t> hidden = {};
-  /// Degrees of freedom of a noise that is known without the model, and that residuals of unit variance have; 0:
-  /// the noise is what the model leaves.
-  double noise_freedom = 0.0;
+  /// Of each channel, whose rows follow one another; empty: the noise is what the model leaves.
+  std::vector<KnownNoise> known_noise = {};
   /// Degrees of freedom that the estimated deviations of channels take, beside those of the columns.
   double spent = 0.0;
   double deviance = unknown;   ///< twice the negative log-likelihood, to compare fits of the record; NaN: not known

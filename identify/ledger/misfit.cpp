@@ -33,14 +33,23 @@ std::optional<Misfit> misfit_of(const JointModel& model, const std::vector<std::
                                 double least_change) {
   const Eigen::MatrixXd columns = free_columns(model.base, model.relaxed, taken);
   const double freedom = static_cast<double>(columns.rows() - columns.cols()) - model.spent;
-  if (model.noise_freedom < 1.0 || freedom < 1.0) return std::nullopt;
-  const double squares =
-      (model.residuals - columns * pivoted_least_squares(columns, model.residuals)).squaredNorm();
-  const double F = squares / freedom;
-  const Misfit misfit{std::min(1.0, f_test_p_value(F, freedom, model.noise_freedom) / misfit_share), std::sqrt(F)};
+  if (model.known_noise.empty() || freedom < 1.0) return std::nullopt;
+  const Eigen::VectorXd left = model.residuals - columns * pivoted_least_squares(columns, model.residuals);
+  // Each channel is tested against its own noise: of few states the noise is known to a factor only, which one sum
+  // over both would have for the better known.
+  Misfit misfit{1.0, 0.0};
+  Eigen::Index first = 0;
+  for (const KnownNoise& noise : model.known_noise) {
+    const double own = freedom * static_cast<double>(noise.rows) / static_cast<double>(left.size());
+    const double F = left.segment(first, noise.rows).squaredNorm() / own;
+    const double tests = static_cast<double>(model.known_noise.size()) / misfit_share;
+    const double p_value = std::min(1.0, tests * f_test_p_value(F, own, noise.freedom));
+    if (p_value < misfit.p_value) misfit = {p_value, std::sqrt(F)};
+    first += noise.rows;
+  }
   if (!(misfit.p_value < family_level)) return std::nullopt;
-  const bool matters = largest_change(model, columns, std::sqrt(std::max(0.0, squares - freedom))) >= least_change;
-  return matters ? std::optional(misfit) : std::nullopt;
+  const double length = std::sqrt(std::max(0.0, left.squaredNorm() - freedom));
+  return largest_change(model, columns, length) >= least_change ? std::optional(misfit) : std::nullopt;
 }
 
 std::string misfit_size(const Misfit& misfit) {

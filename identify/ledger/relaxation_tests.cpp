@@ -207,7 +207,7 @@ std::vector<RelaxationTest> tests_beside(const JointModel& model, const Projecti
   const double deviation = std::sqrt(squares / projection.freedom);
   const Scores scores(weights_of(model, projection, deviation, least_change), projection.scale_freedom);
   const std::vector<double> largest = largest_scores(model, projection, scores);
-  const double share = model.noise_freedom >= 1.0 ? 1.0 - misfit_share : 1.0;
+  const double share = model.known_noise.empty() ? 1.0 : 1.0 - misfit_share;
   for (Eigen::Index j = 0; j < t.size(); ++j) {
     if (!std::isfinite(t[j])) continue;  // noise in the drive shakes its column beyond all numbers
     RelaxationTest test;

@@ -114,16 +114,16 @@ class Laboratory {
 
   void response() {
     const Rig& rig = result_.rig;
-    constexpr int count = 25;
+    const int count = off_.states;
     PairRecord record;
     const double width = 4.0 * rig.zeta;
     const double Y = 1.3 * least_ + 0.3 * (most_ - least_);
     const double sx = 0.005 * (Y - 4.0 / pi * rig.x_f()) / (2.0 * rig.zeta);
     for (int i = 0; i < count; ++i) {
-      const double omega = rig.omega() * (1.0 + width * (i / (count - 1.0) - 0.5));
+      const double omega = rig.omega() * (1.0 + width * (i / (count - 1.0) - 0.5 + off_.shift));
       const Steady state = steady_state(rig, Y, omega);
       Pair pair;
-      pair.Y = Y * (1.0 + off_.drive_gain) * (1.0 + 0.005 * normal());
+      pair.Y = Y * (1.0 + off_.drive_gain) * (1.0 + 0.005 * off_.drive_noise * normal());
       pair.x = state.x * (1.0 + off_.gain) + sx * normal();
       pair.omega = omega * (1.0 + off_.frequency);
       pair.phase =

@@ -39,6 +39,9 @@ struct Off {
   double clock = 0.0;        ///< step of the clock that times of extremes are rounded to [s]; 0: none
   int bits = 0;              ///< of the converter of every signal, over 1.25 times its range; 0: none
   double samples = 100.0;    ///< of histories in a natural period
+  int states = 25;           ///< of a response
+  double shift = 0.0;        ///< of the frequencies of a response, in their range
+  double drive_noise = 1.0;  ///< factor on the noise of Y
 };
 
 struct Measured {

@@ -48,6 +48,14 @@ std::vector<Row> rows() {
   const std::vector<Kind> pairs = {Kind::xy, Kind::xy_phase, Kind::response};
   const std::vector<Kind> driven = {Kind::forced, Kind::beat, Kind::ramp, Kind::random};
   add("exact", nullptr, {}, all);
+  for (const int states : {7, 9, 12}) {
+    const std::string what = "exact, " + std::to_string(states) + " states";
+    add(what, nullptr, {.states = states}, {Kind::response});
+    add(what + ", exact Y", nullptr, {.states = states, .drive_noise = 0.0}, {Kind::response});
+    add(what + " above resonance", nullptr, {.states = states, .shift = 0.5, .drive_noise = 0.0}, {Kind::response});
+  }
+  add("7 states, stiffness 2 %", nullptr, {.stiffness = 0.02, .states = 7}, {Kind::response});
+  add("9 states, stiffness 2 %", nullptr, {.stiffness = 0.02, .states = 9}, {Kind::response});
   add("stiffness 2 %", nullptr, {.stiffness = 0.02}, all);
   add("stiffness -2 %", nullptr, {.stiffness = -0.02}, pairs);
   add("cubic spring", [](Rig& rig) { rig.cubic = 0.03; }, {}, all);
