@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "core/numbers.hpp"
+#include "core/utf8.hpp"
 #include "scenarios/results/shown_units.hpp"
 
 namespace dualdamp::cli {
@@ -20,11 +21,8 @@ struct Block {
   bool is_number = false;
 };
 
-/// Width in characters, not bytes: a micro sign is one column wide.
-std::size_t width(const std::string& text) {
-  return static_cast<std::size_t>(
-      std::ranges::count_if(text, [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
-}
+/// A micro sign is one column wide.
+std::size_t width(const std::string& text) { return core::count_characters(text); }
 
 /// The first rows of a column, in the unit that the user wrote.
 Block block(const scenarios::Column& column, std::size_t rows, const scenarios::ShownUnits& units = {}) {

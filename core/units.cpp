@@ -9,6 +9,7 @@
 #include "core/dimensions.hpp"
 #include "core/numbers.hpp"
 #include "core/unit_conversion.hpp"
+#include "core/utf8.hpp"
 
 namespace dualdamp::core {
 
@@ -56,7 +57,8 @@ std::string to_ascii(std::string_view unit) {
 }
 
 std::string quoted(std::string_view text) {
-  return "'" + std::string(text.substr(0, 80)) + (text.size() > 80 ? "...'" : "'");  // some texts have a megabyte
+  constexpr std::size_t longest = 80;  // some texts have a megabyte
+  return "'" + shortened(text, longest) + "'";
 }
 
 QuantityText refused_quantity(std::string fault) { return {std::nullopt, std::move(fault), {}}; }

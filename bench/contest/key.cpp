@@ -14,6 +14,7 @@
 #include "core/diagnostics.hpp"
 #include "core/numbers.hpp"
 #include "core/random.hpp"
+#include "core/utf8.hpp"
 #include "scenarios/format/json_text.hpp"
 
 namespace dualdamp::bench {
@@ -69,7 +70,7 @@ class EntryReader {
     bool has_header = false;
     for (std::string line; std::getline(text, line);) {
       ++line_;
-      if (line.starts_with("\xEF\xBB\xBF")) line.erase(0, 3);
+      if (line.starts_with(core::byte_order_mark)) line.erase(0, core::byte_order_mark.size());
       if (trimmed(line).empty() || line.starts_with('#')) continue;
       if (!std::exchange(has_header, true)) {
         read_header(fields_of(line));

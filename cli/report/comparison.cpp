@@ -18,6 +18,7 @@
 #include "core/diagnostics.hpp"
 #include "core/numbers.hpp"
 #include "core/units.hpp"
+#include "core/utf8.hpp"
 #include "scenarios/format/si_units.hpp"
 #include "scenarios/scenario_format.hpp"
 
@@ -64,8 +65,7 @@ void flatten(const Json& json, const std::string& path, const Json& written,
     values[path] = factor ? core::format_number(value / *factor, 6) + " " + unit : json.get<std::string>();
   } else {
     constexpr std::size_t longest = 60;
-    const std::string text = json.is_string() ? json.get<std::string>() : json.dump();
-    values[path] = text.size() > longest ? text.substr(0, longest) + "..." : text;
+    values[path] = core::shortened(json.is_string() ? json.get<std::string>() : json.dump(), longest);
   }
 }
 

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "core/numbers.hpp"
+#include "core/utf8.hpp"
 
 namespace dualdamp::cli {
 
@@ -52,11 +53,7 @@ std::string escaped(std::string_view text) {
   return result;
 }
 
-/// Number of characters, not bytes.
-double text_width(std::string_view text) {
-  return letter * static_cast<double>(std::ranges::count_if(
-                      text, [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
-}
+double text_width(std::string_view text) { return letter * static_cast<double>(core::count_characters(text)); }
 
 /// Conversion of numbers to pixels.
 class Scale {

@@ -11,27 +11,11 @@
 #include <utility>
 
 #include "core/diagnostics.hpp"
+#include "core/utf8.hpp"
 
 namespace dualdamp::identify {
 
 namespace {
-
-/// Length of the UTF-8 character at the start of `text`; 0 if there is none.
-std::size_t utf8_length(std::string_view text) {
-  const auto byte = [&text](std::size_t i) { return static_cast<unsigned char>(text[i]); };
-  const unsigned char lead = byte(0);
-  if (lead < 0x80) return 1;
-  const std::size_t length = lead >= 0xF0 ? 4 : lead >= 0xE0 ? 3 : 2;
-  if (lead < 0xC2 || lead > 0xF4 || text.size() < length) return 0;
-  for (std::size_t i = 1; i < length; ++i)
-    if (byte(i) < 0x80 || byte(i) > 0xBF) return 0;
-  // Overlong forms, surrogates and code points beyond the last one.
-  if (lead == 0xE0 && byte(1) < 0xA0) return 0;
-  if (lead == 0xED && byte(1) > 0x9F) return 0;
-  if (lead == 0xF0 && byte(1) < 0x90) return 0;
-  if (lead == 0xF4 && byte(1) > 0x8F) return 0;
-  return length;
-}
 
 bool is_control(char c) {
   return (static_cast<unsigned char>(c) < 0x20 && c != '\t' && c != '\n' && c != '\r') || c == 0x7F;
@@ -41,14 +25,13 @@ bool is_control(char c) {
 std::size_t length_of_text(std::string_view text) {
   std::size_t i = 0;
   while (i < text.size()) {
-    const std::size_t length = is_control(text[i]) ? 0 : utf8_length(text.substr(i));
-    if (length == 0) break;
-    i += length;
+    const auto character = is_control(text[i]) ? std::nullopt : core::decode(text, i);
+    if (!character) break;
+    i += character->length;
   }
   return i;
 }
 
-constexpr std::string_view utf8_mark = "\xEF\xBB\xBF";
 constexpr std::string_view little_mark = "\xFF\xFE";
 constexpr std::string_view big_mark = "\xFE\xFF";
 
@@ -102,7 +85,7 @@ std::string plain_signs(std::string text) {
 /// Removes byte order marks. There may be two, if a program has put one before a text that had one.
 std::string without_mark(std::string text) {
   std::size_t end = 0;
-  while (std::string_view(text).substr(end).starts_with(utf8_mark)) end += utf8_mark.size();
+  while (std::string_view(text).substr(end).starts_with(core::byte_order_mark)) end += core::byte_order_mark.size();
   text.erase(0, end);
   return text;
 }
@@ -196,13 +179,7 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(" \t") - first + 1);
 }
 
-std::string excerpt(std::string_view text) {
-  constexpr std::size_t longest = 200;
-  if (text.size() <= longest) return std::string(text);
-  std::size_t end = longest;
-  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) --end;  // not inside a character
-  return std::string(text.substr(0, end));
-}
+std::string excerpt(std::string_view text) { return std::string(core::beginning(text, 200)); }
 
 std::string quoted(std::string_view text) { return "'" + excerpt(text) + "'"; }
 

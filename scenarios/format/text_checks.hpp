@@ -17,9 +17,6 @@ struct TextFault {
 /// Removes a byte order mark and turns CR LF into LF.
 [[nodiscard]] std::string normalised(std::string_view text);
 
-/// Characters, not bytes.
-[[nodiscard]] int count_characters(std::string_view text);
-
 /// At most one fault a line and 20 in all.
 [[nodiscard]] std::vector<TextFault> text_faults(std::string_view text);
 

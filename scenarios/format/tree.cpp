@@ -4,6 +4,7 @@
 #include <charconv>
 #include <optional>
 
+#include "core/utf8.hpp"
 #include "scenarios/format/text_checks.hpp"
 
 namespace dualdamp::scenarios {
@@ -11,13 +12,7 @@ namespace dualdamp::scenarios {
 using core::Diagnostic;
 using core::InputError;
 
-std::string shortened(std::string_view text) {
-  constexpr std::size_t limit = 60;
-  // A cut must not split a UTF-8 character.
-  std::size_t end = std::min(text.size(), limit);
-  while (end < text.size() && end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) --end;
-  return std::string(text.substr(0, end)) + (end < text.size() ? "..." : "");
-}
+std::string shortened(std::string_view text) { return core::shortened(text, 60); }
 
 Node map_of(const std::string& key, const Node& value) {
   Node map;
@@ -128,8 +123,8 @@ Place Document::place_at(int source, std::size_t offset) const {
   const Source& text = sources_[static_cast<std::size_t>(source)];
   const auto after = std::ranges::upper_bound(text.line_starts, offset);
   const std::size_t start = *(after - 1);
-  const int before = count_characters(std::string_view(text.text).substr(start, offset - start));
-  return {source, static_cast<int>(after - text.line_starts.begin()), before + 1};
+  const std::size_t before = core::count_characters(std::string_view(text.text).substr(start, offset - start));
+  return {source, static_cast<int>(after - text.line_starts.begin()), static_cast<int>(before) + 1};
 }
 
 core::SourcePlace Document::locate(Place place) const {

@@ -8,6 +8,7 @@
 #include <optional>
 #include <sstream>
 
+#include "core/utf8.hpp"
 #include "scenarios/format/text_checks.hpp"
 #include "scenarios/format/tree.hpp"
 
@@ -193,7 +194,7 @@ class TreeBuilder final : public YAML::EventHandler {
     const std::string_view between =
         std::string_view(text_).substr(last_offset_, forward ? where - last_offset_ : 0);
     if (forward && between.find('\n') == std::string_view::npos)
-      last_place_.column += count_characters(between);
+      last_place_.column += static_cast<int>(core::count_characters(between));
     else
       last_place_ = document_.place_at(source_, where);
     last_offset_ = where;

@@ -16,6 +16,7 @@
 #include <optional>
 
 #include "core/diagnostics.hpp"
+#include "core/utf8.hpp"
 #include "scenarios/results/files.hpp"
 
 namespace dualdamp::scenarios {
@@ -135,7 +136,7 @@ std::uintmax_t CaseFile::scan(int part, Lengths& lengths, Origin origin) const {
   if (!lines.next(line)) return 0;
   if (line != head_)
     refuse(path, "the cases are those of another campaign, or of another version of the program",
-           "the same scenario, options and program; or another --out", line.substr(0, 100));
+           "the same scenario, options and program; or another --out", core::shortened(line, 100));
   std::uintmax_t end = lines.end();
   while (lines.next(line)) {
     const std::optional<std::size_t> number = number_of(line);

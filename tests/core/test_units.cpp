@@ -141,3 +141,16 @@ TEST_CASE("units that name a dimension are those of SI with factor 1", "[core][u
     CHECK_FALSE(is_si(unit));
   }
 }
+
+TEST_CASE("units: a long unit is quoted up to a whole character", "[core][units]") {
+  // Every second byte of the unit begins a micro sign, so one of the two texts has one across the limit.
+  for (const std::string start : {"1 ", "1 m"}) {
+    std::string text = start;
+    for (int i = 0; i < 60; ++i) text += "\u00b5";
+    const std::string message = fault(text.c_str(), "m");
+    CAPTURE(message);
+    CHECK(message.find("\u00b5...'") != std::string::npos);
+    for (std::size_t at = 0; at < message.size(); ++at)
+      if (message[at] == '\xC2') CHECK(message[at + 1] == '\xB5');
+  }
+}
