@@ -168,7 +168,6 @@ void describe(SineFit& fit, const Basis& basis, const Trial& trial, std::size_t 
   fit.noise = std::sqrt(variance);
   fit.correlation = trial.sum_of_squares > 0.0 ? trial.lagged_product / trial.sum_of_squares : 0.0;
   fit.offset = trial.coefficients(0);
-  fit.offset_std = std::sqrt(covariance(0, 0));
   for (int k = 1; k <= basis.harmonics(); ++k) {
     const Index c = basis.cosine(k);
     const Index s = basis.sine(k);

@@ -36,7 +36,6 @@ struct SineFit {
   double omega = 0.0;      ///< rad/s
   double omega_std = 0.0;  ///< 0 if the frequency was known
   double offset = 0.0;
-  double offset_std = 0.0;
   std::vector<Harmonic> harmonics;  ///< K of them, the fundamental first
   double noise = 0.0;               ///< standard deviation of the residuals
   double correlation = 0.0;         ///< of residuals one sample apart

@@ -215,11 +215,6 @@ void add_run_class(py::module_& module) {
       .def_property_readonly("warnings", [](const Run& run) { return run.result->warnings; })
       .def_property_readonly("scenario", [](const Run& run) { return run.scenario->resolved; })
       .def_property_readonly("numbers", [](const Run& run) { return run.result->result; })
-      .def_property_readonly("verification",
-                             [](const Run& run) {
-                               const auto& verification = run.result->verification;
-                               return verification ? verification->reason : std::string();
-                             })
       .def("tables", &tables_of)
       .def("document", &document, py::call_guard<Unlocked>())
       .def("save", &save, py::arg("directory"), py::call_guard<Unlocked>());

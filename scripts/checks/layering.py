@@ -43,7 +43,7 @@ ROOMS = {
         "motion": [".", "engine"],
         # A pack that cannot finish an orbit hands it to the search, and the search tries packs first.
         "orbits": [".", "engine", "motion", "analytic", "batch"],
-        "batch": [".", "engine", "motion", "orbits"],
+        "batch": [".", "engine", "orbits"],
         "conformance": [".", "engine"],
     },
     "identify": {
@@ -58,7 +58,6 @@ ROOMS = {
         "fit": [".", "statistics", "records"],
         "ledger": [".", "statistics", "records", "models", "uncertainty", "methods"],
         "design": [".", "statistics", "methods"],
-        "any_law": [".", "statistics", "records", "models", "methods"],
     },
     "scenarios": {
         ".": ["format", "results", "measurements", "analyses"],  # loads and runs
@@ -84,7 +83,7 @@ LIBRARIES = {
     "the processor's own functions": (r"immintrin\.h", ["sim"], SOURCES),
     "SLEEF": (r"sleef\.h", ["sim"], SOURCES),
     "the thread sanitizer": (r"sanitizer/", ["sim"], SOURCES),
-    "oneTBB": (r"(tbb|oneapi)/", ["sim", *ABOVE_SIM], SOURCES),
+    "oneTBB": (r"(tbb|oneapi)/", ["sim"], SOURCES),
     "Boost.Odeint": (r"boost/numeric/odeint", ["sim", "bench"], SOURCES),
     "SUNDIALS": (r"(cvode|nvector|sundials|sunlinsol|sunmatrix|sunnonlinsol)/", ["bench"], SOURCES),
     "Boost": (r"boost/", ["core", "sim", *ABOVE_SIM], SOURCES),

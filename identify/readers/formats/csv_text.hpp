@@ -27,13 +27,6 @@ class Lines {
 
   [[nodiscard]] bool at_end() const { return start_ >= text_.size(); }
 
-  /// Removes rows at the end that hold only separators. Spreadsheets write such rows for cells that were cleared.
-  void drop_empty_rows(char separator) {
-    const std::string blanks{' ', '\t', '\r', '\n', separator};
-    const std::size_t last = std::min(text_.find_last_not_of(blanks), text_.size());
-    text_ = text_.substr(0, text_.find(end_mark_, last));
-  }
-
   SourceLine next() {
     const std::size_t end = std::min(text_.find(end_mark_, start_), text_.size());
     std::string_view line = text_.substr(start_, end - start_);
