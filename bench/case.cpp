@@ -18,7 +18,7 @@ using scenarios::Json;
 Json number_json(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
 Json interval_json(const std::optional<identify::ParameterIntervals>& intervals,
-                   std::array<double, 2> identify::ParameterIntervals::* member) {
+                   identify::Interval identify::ParameterIntervals::* member) {
   if (!intervals) return nullptr;
   return Json::array({((*intervals).*member)[0], ((*intervals).*member)[1]});
 }

@@ -11,6 +11,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/outcome.hpp"
@@ -25,9 +26,26 @@ struct ParameterSet {
   double F0 = 0.0;    ///< N
 };
 
+/// Both ends: low, high.
+using Interval = std::array<double, 2>;
+
 struct ParameterIntervals {
-  std::array<double, 2> zeta{}, c{}, x_f{}, F0{};
+  Interval zeta{}, c{}, x_f{}, F0{};
 };
+
+/// One of the reported parameters, for loops over all of them.
+struct ReportedParameter {
+  std::string_view name;
+  std::string_view unit;  ///< SI; empty for a pure number
+  double ParameterSet::* value;
+  Interval ParameterIntervals::* interval;
+};
+
+inline constexpr std::array<ReportedParameter, 4> reported_parameters = {
+    {{"zeta", "", &ParameterSet::zeta, &ParameterIntervals::zeta},
+     {"c", "N.s/m", &ParameterSet::c, &ParameterIntervals::c},
+     {"x_f", "m", &ParameterSet::x_f, &ParameterIntervals::x_f},
+     {"F0", "N", &ParameterSet::F0, &ParameterIntervals::F0}}};
 
 /// A datum that is left out, and why (for example: the mass sticks).
 struct Exclusion {
@@ -55,7 +73,7 @@ struct FurtherParameter {
   std::string unit;  ///< SI; empty for a pure number
   double value = 0.0;
   std::optional<double> std;
-  std::optional<std::array<double, 2>> interval95;
+  std::optional<Interval> interval95;
 };
 
 /// One fit of a fraction of the data (the paper's lower 4/5, 3/5, 2/5; windows of four extremes), or of all of them

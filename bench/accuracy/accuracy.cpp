@@ -163,7 +163,7 @@ std::vector<Setting> settings_for(const identify::MethodEntry& method,
 /// Compares one parameter of every estimate with its true value.
 ErrorSummary summary(const std::vector<identify::Estimate>& estimates, double truth,
                      double identify::ParameterSet::* number,
-                     std::array<double, 2> identify::ParameterIntervals::* interval) {
+                     identify::Interval identify::ParameterIntervals::* interval) {
   ErrorSummary result;
   double sum = 0.0;
   double squares = 0.0;

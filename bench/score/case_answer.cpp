@@ -24,7 +24,7 @@ double confidence_of(const CaseAnswer& answer, bool stands) {
   return stands ? p : p - 2.0;
 }
 
-ParameterMark parameter_mark(double value, const std::array<double, 2>& interval, bool stands, double truth) {
+ParameterMark parameter_mark(double value, const identify::Interval& interval, bool stands, double truth) {
   ParameterMark mark{.error = nothing, .score = nothing};
   if (std::isnan(truth)) return mark;
   if (std::isfinite(value)) mark.error = static_cast<float>(value / truth - 1.0);

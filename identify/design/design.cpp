@@ -151,7 +151,7 @@ Widths widths_of(const std::vector<Curve>& curves, double student, const Paramet
     zeta = {std::min(zeta[0], c[0]), std::max(zeta[1], c[1])};
     F0 = {std::min(F0[0], f[0]), std::max(F0[1], f[1])};
   }
-  const double both_sides = 2.0 * quantile95(std::numeric_limits<double>::infinity());
+  const double both_sides = 2.0 * normal95();
   return {std::hypot(width(zeta), both_sides * moved.c), std::hypot(width(F0), both_sides * moved.F0),
           std::hypot(mean_zeta.deviation(), moved.c), std::hypot(mean_F0.deviation(), moved.F0)};
 }

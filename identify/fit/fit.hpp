@@ -23,12 +23,12 @@
 /// the starts and times two for each parameter and step.
 
 #include <Eigen/Core>
-#include <array>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "core/outcome.hpp"
+#include "identify/estimate.hpp"
 #include "identify/fit/experiment.hpp"
 #include "identify/fit/problem.hpp"
 #include "identify/fit/rig.hpp"
@@ -48,8 +48,8 @@ struct FittedParameter {
   FitParameter parameter;
   double value = 0.0;
   double std = unknown;
-  std::array<double, 2> interval95{unknown, unknown};
-  std::array<double, 2> profile95{unknown, unknown};
+  Interval interval95{unknown, unknown};
+  Interval profile95{unknown, unknown};
   bool at_bound = false;
   std::string reason;  ///< why a number does not exist
 };

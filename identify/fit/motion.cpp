@@ -71,9 +71,8 @@ std::vector<std::size_t> beside_jumps(const std::vector<double>& signal) {
   for (std::size_t i = 1; i + 2 < signal.size(); ++i)
     excess.push_back(std::abs(1.5 * (signal[i + 1] - signal[i]) - 0.5 * (signal[i + 2] - signal[i - 1])));
   if (excess.empty()) return {};
-  constexpr double to_deviation = 1.4826;
   constexpr double beyond = 4.0;
-  const double largest = beyond * to_deviation * upper_median(excess);
+  const double largest = beyond * median_deviation(excess);
   std::vector<std::size_t> found{0};
   for (std::size_t i = 1; i + 2 < signal.size(); ++i) {
     const bool is_peak =

@@ -208,7 +208,7 @@ double Profiler::end(Eigen::Index i, const FittedParameter& fitted, double limit
   return std::abs(last - 1.0) < near ? value_at(way) : unknown;
 }
 
-std::array<double, 2> Profiler::interval(Eigen::Index i, const FittedParameter& fitted, double limit) const {
+Interval Profiler::interval(Eigen::Index i, const FittedParameter& fitted, double limit) const {
   return {end(i, fitted, limit, -1.0), end(i, fitted, limit, 1.0)};
 }
 

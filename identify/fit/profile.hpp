@@ -6,7 +6,6 @@
 /// has grown by the square of a limit. The sum may also jump over it, when a reading changes its side of an event.
 
 #include <Eigen/Core>
-#include <array>
 #include <functional>
 #include <mutex>
 #include <optional>
@@ -27,7 +26,7 @@ class Profiler {
 
   /// Values of parameter `i` at both ends; `unknown` if the sum of squares does not grow to the limit. The interval
   /// also ends at the end of the parameter's range. `limit`: of the square root of the growth.
-  [[nodiscard]] std::array<double, 2> interval(Eigen::Index i, const FittedParameter& fitted, double limit) const;
+  [[nodiscard]] Interval interval(Eigen::Index i, const FittedParameter& fitted, double limit) const;
 
   /// Coordinates with a smaller sum of squares than the estimate, if a profile found any: the search had not ended
   /// at the minimum.

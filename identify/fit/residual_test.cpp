@@ -112,8 +112,7 @@ bool is_noise(double p_value) {
 double robust_deviation(const Eigen::VectorXd& residuals) {
   std::vector<double> sizes(residuals.data(), residuals.data() + residuals.size());
   for (double& size : sizes) size = std::abs(size);
-  constexpr double to_deviation = 1.4826;
-  return to_deviation * upper_median(std::move(sizes));
+  return median_deviation(std::move(sizes));
 }
 
 void compare_with_stated(double deviation, double freedom, FittedSignal& signal) {

@@ -90,13 +90,11 @@ void correct(Estimate& estimate) {
   if (!estimate.outcome.ok() || !estimate.interval95) return;
   const MethodEntry* method = find_method(estimate.method);
   const bool always = method != nullptr && method->needs == RecordKind::history;
-  const auto move = [always](double& value, const std::array<double, 2>& interval) {
-    if (always || value < interval[0] || value > interval[1]) value = 0.5 * (interval[0] + interval[1]);
-  };
-  move(estimate.value.zeta, estimate.interval95->zeta);
-  move(estimate.value.c, estimate.interval95->c);
-  move(estimate.value.x_f, estimate.interval95->x_f);
-  move(estimate.value.F0, estimate.interval95->F0);
+  for (const ReportedParameter& parameter : reported_parameters) {
+    double& value = estimate.value.*parameter.value;
+    const auto& [low, high] = (*estimate.interval95).*parameter.interval;
+    if (always || value < low || value > high) value = 0.5 * (low + high);
+  }
 }
 
 /// The area of the intervals; infinite where there are none.
@@ -121,7 +119,7 @@ bool is_negative(const Estimate& estimate) { return estimate.value.c < 0.0 || es
 
 /// Is zeta or F0 uncertain by more than its value?
 bool is_vague(const Estimate& estimate) {
-  const auto vague = [](double value, const std::array<double, 2>& interval) {
+  const auto vague = [](double value, const Interval& interval) {
     return 0.5 * (interval[1] - interval[0]) > value;
   };
   return !estimate.interval95 || vague(estimate.value.c, estimate.interval95->c) ||
@@ -167,16 +165,14 @@ std::optional<std::size_t> preferred(const std::vector<Estimate>& estimates) {
 
 /// An answer is not negative: where the interval holds zero, zero is the nearest value that friction can have.
 void keep_physical(Estimate& estimate) {
-  const auto keep = [](double& value, std::array<double, 2>* interval) {
-    value = value < 0.0 ? 0.0 : value;
-    if (interval != nullptr) (*interval)[0] = std::max(0.0, (*interval)[0]);
-  };
   if (!is_negative(estimate)) return;
-  ParameterIntervals* at = estimate.interval95 ? &*estimate.interval95 : nullptr;
-  keep(estimate.value.zeta, at ? &at->zeta : nullptr);
-  keep(estimate.value.c, at ? &at->c : nullptr);
-  keep(estimate.value.x_f, at ? &at->x_f : nullptr);
-  keep(estimate.value.F0, at ? &at->F0 : nullptr);
+  for (const ReportedParameter& parameter : reported_parameters) {
+    double& value = estimate.value.*parameter.value;
+    value = value < 0.0 ? 0.0 : value;
+    if (!estimate.interval95) continue;
+    double& low = ((*estimate.interval95).*parameter.interval)[0];
+    low = std::max(0.0, low);
+  }
 }
 
 /// The departures of friction that the ledger can relax: a range over laws answers for them.
@@ -193,8 +189,7 @@ std::vector<const LedgerEntry*> friction_departures(const Ledger& ledger) {
 /// without it and the change have independent errors; that of the change, the larger one, follows from the test.
 /// Friction is not below zero.
 Interval reached(const Interval& interval, double plain, double change, double p_value) {
-  const double error =
-      std::abs(plain * change) * quantile95(std::numeric_limits<double>::infinity()) / normal_score(p_value);
+  const double error = std::abs(plain * change) * normal95() / normal_score(p_value);
   const double value = plain * (1.0 + change);
   return {std::min(interval[0], std::max(0.0, value - error)), std::max(interval[1], value + error)};
 }
@@ -273,7 +268,7 @@ std::string why_none(const Identification& all) {
 }
 
 std::string with_interval(double value, const std::optional<ParameterIntervals>& intervals,
-                          std::array<double, 2> ParameterIntervals::* member, const std::string& unit) {
+                          Interval ParameterIntervals::* member, const std::string& unit) {
   std::string text = number(value) + unit;
   if (intervals) {
     const auto& [low, high] = (*intervals).*member;
@@ -336,9 +331,7 @@ std::string trend_text(const std::vector<Estimate>& estimates, core::Coordinate 
          " " + core::unit_for(coordinate, "N") + ".";
 }
 
-bool overlap(const std::array<double, 2>& a, const std::array<double, 2>& b) {
-  return a[0] <= b[1] && b[0] <= a[1];
-}
+bool overlap(const Interval& a, const Interval& b) { return a[0] <= b[1] && b[0] <= a[1]; }
 
 bool disagree(const Estimate& a, const Estimate& b) {
   if (!b.usable || !a.interval95 || !b.interval95) return false;

@@ -280,7 +280,7 @@ Estimate joint_estimate(const JointModel& model, const Numbers& relaxed, std::st
   return estimate;
 }
 
-void widen(std::array<double, 2>& interval, const std::array<double, 2>& other) {
+void widen(Interval& interval, const Interval& other) {
   interval = {std::min(interval[0], other[0]), std::max(interval[1], other[1])};
 }
 
@@ -292,10 +292,8 @@ bool is_nearly_seen(const JointModel& model, const RelaxationTest& test) {
 
 void widen(Estimate& estimate, const Estimate& other) {
   if (!estimate.interval95 || !other.interval95) return;
-  widen(estimate.interval95->zeta, other.interval95->zeta);
-  widen(estimate.interval95->c, other.interval95->c);
-  widen(estimate.interval95->x_f, other.interval95->x_f);
-  widen(estimate.interval95->F0, other.interval95->F0);
+  for (const ReportedParameter& parameter : reported_parameters)
+    widen((*estimate.interval95).*parameter.interval, (*other.interval95).*parameter.interval);
 }
 
 /// Extends the intervals to cover the estimates in which a nearly seen term of friction is free.

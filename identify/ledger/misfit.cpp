@@ -59,7 +59,7 @@ std::string misfit_size(const Misfit& misfit) {
 
 std::string negative_friction(const Ledger& ledger) {
   if (!ledger.tests_histories || !ledger.joint || !ledger.joint->interval95) return {};
-  const auto clearly_negative = [](double value, const std::array<double, 2>& interval) {
+  const auto clearly_negative = [](double value, const Interval& interval) {
     return value + (interval[1] - interval[0]) < 0.0;
   };
   const bool gives_out_work = clearly_negative(ledger.joint->value.c, ledger.joint->interval95->c) ||

@@ -92,9 +92,8 @@ std::optional<std::vector<Distance>> distances(Record& measured, Record& moved, 
       list.resize(first);
       continue;
     }
-    constexpr double normal = 1.4826;
     constexpr double parameters = 2.0;
-    const double deviation = normal * upper_median(std::move(sizes)) * std::sqrt(count / (count - parameters));
+    const double deviation = median_deviation(std::move(sizes)) * std::sqrt(count / (count - parameters));
     for (std::size_t i = first; i < list.size(); ++i) {
       // Less than a millionth of a reading is rounding.
       const double least = 1e-6 * std::abs(value_of(measured, list[i].reading) / list[i].unit);
@@ -148,14 +147,11 @@ BoundedInfluence bounded_influence(const Record& record, const KnownConstants& c
 
 void widen(Estimate& estimate, double within) {
   const double factor = 1.0 / within;
-  for (const auto& [member, interval] : {std::pair{&ParameterSet::zeta, &ParameterIntervals::zeta},
-                                         {&ParameterSet::c, &ParameterIntervals::c},
-                                         {&ParameterSet::x_f, &ParameterIntervals::x_f},
-                                         {&ParameterSet::F0, &ParameterIntervals::F0}}) {
-    if (estimate.std) (*estimate.std).*member *= factor;
+  for (const ReportedParameter& parameter : reported_parameters) {
+    if (estimate.std) (*estimate.std).*parameter.value *= factor;
     if (!estimate.interval95) continue;
-    auto& [low, high] = (*estimate.interval95).*interval;
-    const double centre = std::clamp(estimate.value.*member, low, high);
+    auto& [low, high] = (*estimate.interval95).*parameter.interval;
+    const double centre = std::clamp(estimate.value.*parameter.value, low, high);
     low = centre - (centre - low) * factor;
     high = centre + (high - centre) * factor;
   }

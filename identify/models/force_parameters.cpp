@@ -28,14 +28,10 @@ void set_estimate(Estimate& estimate, const ForceParameters& force, const Eigen:
   const bool sprung = force.k > 0.0;
   const ParameterSet error{sprung ? deviation(to_zeta) : unknown, std::sqrt(covariance(1, 1)),
                            sprung ? deviation(to_x_f) : unknown, std::sqrt(covariance(3, 3))};
-  const auto around = [half_width](double middle, double std) {
-    return std::array<double, 2>{middle - half_width * std, middle + half_width * std};
-  };
   estimate.std = error;
   const ParameterSet middle =
       parameters({force.m - bias.m, force.c - bias.c, force.k - bias.k, force.F0 - bias.F0});
-  estimate.interval95 = {around(middle.zeta, error.zeta), around(middle.c, error.c), around(middle.x_f, error.x_f),
-                         around(middle.F0, error.F0)};
+  estimate.interval95 = around(middle, error, half_width);
   // Without a spring there is no zeta, and no correlation with it.
   if (!sprung) return;
   const double mixed = to_zeta.dot(covariance.col(3));
@@ -47,8 +43,7 @@ void set_estimate(Estimate& estimate, const ForceParameters& force, const Eigen:
 
 FurtherParameter further(std::string name, std::string unit, double value, double variance, double half_width) {
   const double std = std::sqrt(variance);
-  return {std::move(name), std::move(unit), value, std,
-          std::array<double, 2>{value - half_width * std, value + half_width * std}};
+  return {std::move(name), std::move(unit), value, std, around(value, half_width * std)};
 }
 
 void judge_force_signs(Estimate& estimate, double least_c, double least_F0, std::vector<std::string>& faults) {

@@ -28,12 +28,6 @@ std::vector<double> differences(const std::vector<double>& signal) {
   return list;
 }
 
-/// The standard deviation of normal noise, from the median of some differences.
-double deviation_of(std::vector<double> differences) {
-  constexpr double normal = 1.4826;
-  return normal * upper_median(std::move(differences));
-}
-
 /// The smallest step between neighbouring samples: the resolution of a rounded signal.
 double resolution_of(const std::vector<double>& signal) {
   double least = std::numeric_limits<double>::infinity();
@@ -66,11 +60,11 @@ std::vector<Spike> spikes_of(const std::vector<double>& signal) {
   constexpr double far = 8.0;
   constexpr double clearly = 1.3;
   const std::vector<double> off = differences(signal);
-  const double deviation = std::max(deviation_of(off), resolution_of(signal));
+  const double deviation = std::max(median_deviation(off), resolution_of(signal));
   std::vector<Spike> spikes;
   for (std::size_t i = neighbours; i + neighbours < signal.size(); ++i) {
     if (!(off[i] > far * deviation) || !(off[i] > clearly * std::max(off[i - 1], off[i + 1]))) continue;
-    const double noise = std::max(deviation, deviation_of(around(off, i)));
+    const double noise = std::max(deviation, median_deviation(around(off, i)));
     // The acceleration jumps where the friction changes its sign. Without noise, this bend is many deviations off,
     // but small relative to the range.
     constexpr double share = 0.03;

@@ -10,11 +10,18 @@
 
 namespace dualdamp::identify {
 
+namespace {
+
+constexpr double upper95 = 0.975;
+
+}  // namespace
+
 double quantile95(double freedom) {
-  constexpr double upper = 0.975;
-  if (std::isinf(freedom)) return boost::math::quantile(boost::math::normal(), upper);
-  return boost::math::quantile(boost::math::students_t(freedom), upper);
+  if (std::isinf(freedom)) return normal95();
+  return boost::math::quantile(boost::math::students_t(freedom), upper95);
 }
+
+double normal95() { return boost::math::quantile(boost::math::normal(), upper95); }
 
 double normal_score(double p_value) {
   const double tail = std::max(0.5 * p_value, std::numeric_limits<double>::min());

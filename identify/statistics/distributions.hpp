@@ -4,8 +4,11 @@
 namespace dualdamp::identify {
 
 /// Half width of a two-sided 95 % interval in standard errors: Student's t with `freedom` > 0 degrees of freedom,
-/// the normal value 1.96 for infinitely many.
+/// `normal95` for infinitely many.
 [[nodiscard]] double quantile95(double freedom);
+
+/// The normal value 1.96 of `quantile95`.
+[[nodiscard]] double normal95();
 
 /// The number of standard errors at which a two-sided normal test has this p-value, from 0 to 1. A p-value below
 /// the smallest double counts as that.

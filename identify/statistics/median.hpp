@@ -9,4 +9,8 @@ namespace dualdamp::identify {
 /// `values` is not empty. Cost: linear.
 [[nodiscard]] double upper_median(std::vector<double> values);
 
+/// Standard deviation of a normal variable whose magnitudes have this median, which a few outliers hardly move.
+/// `magnitudes` is not empty.
+[[nodiscard]] double median_deviation(std::vector<double> magnitudes);
+
 }  // namespace dualdamp::identify

@@ -57,9 +57,8 @@ void RobustNoiseLevel::add(const std::vector<double>& signal) {
 
 double RobustNoiseLevel::deviation() const {
   if (differences_.empty()) return 0.0;
-  constexpr double to_deviation = 1.4826;  // of a normal variable's median magnitude
-  constexpr double rare = 4.0;             // deviations: one normal variable in 16,000
-  const double largest = rare * to_deviation * upper_median(differences_);
+  constexpr double rare = 4.0;  // deviations: one normal variable in 16,000
+  const double largest = rare * median_deviation(differences_);
   double sum = 0.0;
   double count = 0.0;
   for (const double difference : differences_) {

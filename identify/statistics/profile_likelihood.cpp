@@ -104,7 +104,7 @@ struct Names {
 };
 
 void add_profile(Estimate& estimate, const Profile& profile, const Profile::Parameter& own, double other,
-                 const Names& names, const std::array<double, 2>& symmetric) {
+                 const Names& names, const Interval& symmetric) {
   std::vector<Point> points = profile.side(-1.0);
   const std::optional<double> low = profile.end(points);
   std::ranges::reverse(points);

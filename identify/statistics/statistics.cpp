@@ -1,5 +1,6 @@
 #include "identify/statistics/statistics.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -41,15 +42,26 @@ ParameterSet parameters(double zeta, double x_f, const KnownConstants& constants
           constants.stiffness * x_f};
 }
 
+Interval around(double value, double half) { return {value - half, value + half}; }
+
+ParameterIntervals around(const ParameterSet& values, const ParameterSet& errors, double half_width) {
+  ParameterIntervals intervals;
+  for (const auto& [name, unit, value, interval] : reported_parameters)
+    intervals.*interval = around(values.*value, half_width * errors.*value);
+  return intervals;
+}
+
+Interval widened(const Interval& interval, double value, double deviation) {
+  const double centre = std::clamp(value, interval[0], interval[1]);
+  const double added = normal95() * deviation;
+  return {centre - std::hypot(centre - interval[0], added), centre + std::hypot(interval[1] - centre, added)};
+}
+
 void set_uncertainty(Estimate& estimate, const Eigen::Matrix2d& covariance, double half_width,
                      const KnownConstants& constants) {
   const ParameterSet error = parameters(std::sqrt(covariance(0, 0)), std::sqrt(covariance(1, 1)), constants);
-  const auto around = [half_width](double value, double deviation) {
-    return std::array<double, 2>{value - half_width * deviation, value + half_width * deviation};
-  };
   estimate.std = error;
-  estimate.interval95 = {around(estimate.value.zeta, error.zeta), around(estimate.value.c, error.c),
-                         around(estimate.value.x_f, error.x_f), around(estimate.value.F0, error.F0)};
+  estimate.interval95 = around(estimate.value, error, half_width);
   const Eigen::DiagonalMatrix<double, 2> to_force(1.0, constants.stiffness);
   estimate.covariance = to_force * covariance * to_force;
   if (error.zeta > 0.0 && error.x_f > 0.0) estimate.correlation = covariance(0, 1) / (error.zeta * error.x_f);
@@ -73,7 +85,10 @@ void refuse(Estimate& estimate, std::string reason) {
 namespace {
 
 ParameterSet difference(const ParameterSet& a, const ParameterSet& b) {
-  return {a.zeta - b.zeta, a.c - b.c, a.x_f - b.x_f, a.F0 - b.F0};
+  ParameterSet result;
+  for (const ReportedParameter& parameter : reported_parameters)
+    result.*parameter.value = a.*parameter.value - b.*parameter.value;
+  return result;
 }
 
 }  // namespace
@@ -88,22 +103,19 @@ void allow_for_misreading(Estimate& estimate, const ParameterSet& own,
     const std::optional<ParameterSet> there = read(corrected);
     if (there) misread = difference(*there, corrected);
   }
-  const auto shift = [](std::array<double, 2>& interval, double by) {
-    if (!std::isfinite(by)) return;
-    for (double& end : interval) end -= by;
-  };
-  shift(estimate.interval95->zeta, misread.zeta);
-  shift(estimate.interval95->c, misread.c);
-  shift(estimate.interval95->x_f, misread.x_f);
-  shift(estimate.interval95->F0, misread.F0);
+  for (const ReportedParameter& parameter : reported_parameters) {
+    const double by = misread.*parameter.value;
+    if (!std::isfinite(by)) continue;
+    for (double& end : (*estimate.interval95).*parameter.interval) end -= by;
+  }
 }
 
 std::string percent(double fraction) {
   return (fraction < 0.0 ? "" : "+") + core::format_number(100.0 * fraction, 3) + " %";
 }
 
-void judge_sign(double value, double least, const std::array<double, 2>* interval, const std::string& name,
-                Estimate& estimate, std::vector<std::string>& faults) {
+void judge_sign(double value, double least, const Interval* interval, const std::string& name, Estimate& estimate,
+                std::vector<std::string>& faults) {
   const bool negative = value < -least;
   if (interval == nullptr) {
     if (negative) faults.push_back(name + " came out negative");

@@ -25,6 +25,16 @@ namespace dualdamp::identify {
 /// zeta and x_f [m] with what follows from them: c = 2 zeta sqrt(m k), F0 = k x_f.
 [[nodiscard]] ParameterSet parameters(double zeta, double x_f, const KnownConstants& constants);
 
+/// value - half to value + half.
+[[nodiscard]] Interval around(double value, double half);
+
+/// Intervals of `half_width` standard errors around the values.
+[[nodiscard]] ParameterIntervals around(const ParameterSet& values, const ParameterSet& errors, double half_width);
+
+/// A 95 % interval of `value` that also holds an independent error with this standard deviation: both sides grow by
+/// the root of the sum of squares. A value outside counts as the nearer end.
+[[nodiscard]] Interval widened(const Interval& interval, double value, double deviation);
+
 /// Sets standard errors, intervals value +- half_width std, covariance and correlation of `estimate` from the
 /// covariance of (zeta, x_f [m]).
 void set_uncertainty(Estimate& estimate, const Eigen::Matrix2d& covariance, double half_width,
@@ -49,8 +59,8 @@ void allow_for_misreading(Estimate& estimate, const ParameterSet& own,
 /// Diagnostic of one parameter that cannot be negative: it came out negative, or cannot be told from zero. A reason
 /// not to use the estimate is appended to `faults`, a lesser one to the estimate's warnings. `least`: what rounding
 /// alone makes of a parameter that is zero. `interval`: of 95 %; nullptr: there is none.
-void judge_sign(double value, double least, const std::array<double, 2>* interval, const std::string& name,
-                Estimate& estimate, std::vector<std::string>& faults);
+void judge_sign(double value, double least, const Interval* interval, const std::string& name, Estimate& estimate,
+                std::vector<std::string>& faults);
 
 /// The diagnostics of zeta and of the Coulomb friction, by x_f; `least_x_f` in m.
 void judge_signs(Estimate& estimate, double least_x_f, std::vector<std::string>& faults);

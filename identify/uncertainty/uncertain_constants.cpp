@@ -3,13 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <string_view>
 
 #include "core/numbers.hpp"
 #include "identify/methods.hpp"
-#include "identify/statistics/distributions.hpp"
+#include "identify/statistics/statistics.hpp"
 
 namespace dualdamp::identify {
 
@@ -136,27 +135,16 @@ class Variation {
   Estimate high_;
 };
 
-/// A parameter of the estimate and its interval.
-struct Member {
-  double ParameterSet::* value;
-  std::array<double, 2> ParameterIntervals::* interval;
-};
-
-constexpr std::array<Member, 4> members = {{{&ParameterSet::zeta, &ParameterIntervals::zeta},
-                                            {&ParameterSet::c, &ParameterIntervals::c},
-                                            {&ParameterSet::x_f, &ParameterIntervals::x_f},
-                                            {&ParameterSet::F0, &ParameterIntervals::F0}}};
-
 /// The value corrected for bias. A method that knows its bias corrects only its interval for it: if the bias
 /// depends on a constant, only the middle of the interval shows this. The joint model is not in the list of
 /// methods: it has no bias, and its intervals cover what is nearly seen.
-double corrected(const Estimate& estimate, const Member& member) {
+double corrected(const Estimate& estimate, const ReportedParameter& member) {
   if (!estimate.interval95 || find_method(estimate.method) == nullptr) return estimate.value.*member.value;
   const auto& [low, high] = (*estimate.interval95).*member.interval;
   return 0.5 * (low + high);
 }
 
-double difference(const Bracket& bracket, const Member& member) {
+double difference(const Bracket& bracket, const ReportedParameter& member) {
   const bool both = bracket.low->interval95.has_value() == bracket.high->interval95.has_value();
   const double change = both ? corrected(*bracket.high, member) - corrected(*bracket.low, member)
                              : bracket.high->value.*member.value - bracket.low->value.*member.value;
@@ -174,18 +162,14 @@ std::optional<double> difference(const Bracket& bracket, const std::string& name
   return (high->value - low->value) / bracket.step;
 }
 
-void widen(std::array<double, 2>& interval, double value, double change) {
-  const double centre = std::clamp(value, interval[0], interval[1]);
-  const double added = quantile95(std::numeric_limits<double>::infinity()) * change;
-  interval = {centre - std::hypot(centre - interval[0], added), centre + std::hypot(interval[1] - centre, added)};
-}
-
 void add(const Bracket& bracket, Estimate& estimate) {
   ParameterSet change;
-  for (const Member& member : members) {
+  for (const ReportedParameter& member : reported_parameters) {
     const double moved = change.*member.value = difference(bracket, member);
     if (estimate.std) (*estimate.std).*member.value = std::hypot((*estimate.std).*member.value, moved);
-    if (estimate.interval95) widen((*estimate.interval95).*member.interval, estimate.value.*member.value, moved);
+    if (!estimate.interval95) continue;
+    Interval& interval = (*estimate.interval95).*member.interval;
+    interval = widened(interval, estimate.value.*member.value, moved);
   }
   if (estimate.covariance) {
     const Eigen::Vector2d both(change.zeta, change.F0);
@@ -197,13 +181,13 @@ void add(const Bracket& bracket, Estimate& estimate) {
     const std::optional<double> moved = difference(bracket, other.name);
     if (!moved) continue;
     if (other.std) *other.std = std::hypot(*other.std, *moved);
-    if (other.interval95) widen(*other.interval95, other.value, *moved);
+    if (other.interval95) other.interval95 = widened(*other.interval95, other.value, *moved);
   }
 }
 
 /// Relative change of a parameter from one estimate to another. Zero if the value is zero; NaN if there is none, as
 /// for zeta without a spring.
-double relative_change(const Estimate& from, const Estimate& to, const Member& member) {
+double relative_change(const Estimate& from, const Estimate& to, const ReportedParameter& member) {
   const double value = corrected(from, member);
   return value == 0.0 ? 0.0 : (corrected(to, member) - value) / value;
 }
@@ -248,8 +232,8 @@ std::vector<Sensitivity> sensitivities(const Reader& read, const Estimate& state
     constant.multiply(input, higher);
     const Estimate moved = read(input.record, input.constants);
     if (!moved.outcome.ok()) continue;
-    const Sensitivity found{std::string(constant.name), relative_change(stated, moved, members.front()),
-                            relative_change(stated, moved, members.back())};
+    const Sensitivity found{std::string(constant.name), relative_change(stated, moved, reported_parameters.front()),
+                            relative_change(stated, moved, reported_parameters.back())};
     // A constant that the method does not use moves nothing.
     constexpr double nothing = 1e-5;
     if (std::abs(found.zeta_change) > nothing || std::abs(found.F0_change) > nothing) list.push_back(found);

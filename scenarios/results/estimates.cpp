@@ -13,20 +13,19 @@
 namespace dualdamp::scenarios {
 
 Json parameters_json(const identify::ParameterSet& set) {
-  return {{"zeta", finite_or_null(set.zeta)},
-          {"c", finite_or_null(set.c)},
-          {"x_f", finite_or_null(set.x_f)},
-          {"F0", finite_or_null(set.F0)}};
+  Json json = Json::object();
+  for (const identify::ReportedParameter& parameter : identify::reported_parameters)
+    json[std::string(parameter.name)] = finite_or_null(set.*parameter.value);
+  return json;
 }
 
 Json interval_json(const identify::ParameterIntervals& intervals) {
-  const auto pair = [](const std::array<double, 2>& ends) {
-    return Json::array({finite_or_null(ends[0]), finite_or_null(ends[1])});
-  };
-  return {{"zeta", pair(intervals.zeta)},
-          {"c", pair(intervals.c)},
-          {"x_f", pair(intervals.x_f)},
-          {"F0", pair(intervals.F0)}};
+  Json json = Json::object();
+  for (const identify::ReportedParameter& parameter : identify::reported_parameters) {
+    const auto& [low, high] = intervals.*parameter.interval;
+    json[std::string(parameter.name)] = Json::array({finite_or_null(low), finite_or_null(high)});
+  }
+  return json;
 }
 
 ResultFields parameter_fields(const std::string& prefix, const std::string& suffix, const std::string& what) {
@@ -151,33 +150,27 @@ Json estimate_json(const identify::Estimate& estimate, const identify::KnownCons
   return json;
 }
 
-using Member = double identify::ParameterSet::*;
-using Interval = std::array<double, 2> identify::ParameterIntervals::*;
-
 Table estimate_table(const std::vector<identify::Estimate>& estimates) {
   using identify::Estimate;
-  using identify::ParameterIntervals;
-  using identify::ParameterSet;
   Table table{
       "estimates",
       {text_column("method", estimates, &Estimate::method),
        text_column("usable", estimates, [](const Estimate& estimate) { return estimate.usable ? "yes" : "no"; })},
       true};
-  const auto add = [&](const std::string& name, const std::string& unit, Member member, Interval interval) {
+  for (const identify::ReportedParameter& parameter : identify::reported_parameters) {
     const auto cell = [&](const std::string& suffix, auto get) {
-      table.columns.push_back(column(name + suffix, unit, estimates, [&](const Estimate& estimate) {
-        return estimate.outcome.ok() ? get(estimate) : none;
-      }));
+      table.columns.push_back(
+          column(std::string(parameter.name) + suffix, std::string(parameter.unit), estimates,
+                 [&](const Estimate& estimate) { return estimate.outcome.ok() ? get(estimate) : none; }));
     };
-    cell("", [&](const Estimate& e) { return e.value.*member; });
-    cell("_std", [&](const Estimate& e) { return e.std ? (*e.std).*member : none; });
-    cell("_low", [&](const Estimate& e) { return e.interval95 ? ((*e.interval95).*interval)[0] : none; });
-    cell("_high", [&](const Estimate& e) { return e.interval95 ? ((*e.interval95).*interval)[1] : none; });
-  };
-  add("zeta", "", &ParameterSet::zeta, &ParameterIntervals::zeta);
-  add("c", "N.s/m", &ParameterSet::c, &ParameterIntervals::c);
-  add("x_f", "m", &ParameterSet::x_f, &ParameterIntervals::x_f);
-  add("F0", "N", &ParameterSet::F0, &ParameterIntervals::F0);
+    const auto end = [&](const Estimate& e, std::size_t i) {
+      return e.interval95 ? ((*e.interval95).*parameter.interval)[i] : none;
+    };
+    cell("", [&](const Estimate& e) { return e.value.*parameter.value; });
+    cell("_std", [&](const Estimate& e) { return e.std ? (*e.std).*parameter.value : none; });
+    cell("_low", [&](const Estimate& e) { return end(e, 0); });
+    cell("_high", [&](const Estimate& e) { return end(e, 1); });
+  }
   return table;
 }
 
@@ -188,7 +181,8 @@ Table readable_estimates(const std::vector<identify::Estimate>& estimates,
   const auto digits = [](double value, int count) {
     return std::isfinite(value) ? core::format_number(value, count) : std::string("-");
   };
-  const auto text = [&](Member member, Interval interval) {
+  const auto text = [&](double identify::ParameterSet::* member,
+                        identify::Interval identify::ParameterIntervals::* interval) {
     return [=](const Estimate& estimate) {
       if (!estimate.outcome.ok()) return std::string("-");
       constexpr int few = 5;

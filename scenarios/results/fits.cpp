@@ -9,7 +9,7 @@ namespace dualdamp::scenarios {
 
 namespace {
 
-Json pair_json(const std::array<double, 2>& pair) {
+Json pair_json(const identify::Interval& pair) {
   return Json::array({finite_or_null(pair[0]), finite_or_null(pair[1])});
 }
 

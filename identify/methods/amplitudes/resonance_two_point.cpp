@@ -3,7 +3,6 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "core/numbers.hpp"
 #include "identify/methods/amplitudes/resonance_line.hpp"
@@ -124,7 +123,7 @@ void add_uncertainty(const ResonanceData& data, const TwoPointSensitivity& s, co
   const Eigen::Vector4d deviation(options.sigma_x, options.sigma_x, options.sigma_Y, options.sigma_Y);
   const Eigen::Matrix<double, 2, 4> scaled = jacobian * deviation.asDiagonal();
   const Eigen::Matrix2d covariance = scaled * scaled.transpose();
-  set_uncertainty(estimate, covariance, quantile95(std::numeric_limits<double>::infinity()), data.constants);
+  set_uncertainty(estimate, covariance, normal95(), data.constants);
 }
 
 }  // namespace

@@ -174,11 +174,8 @@ void add_uncertainty(const ParallelLines& lines, const std::vector<Sweep>& sweep
   if (!(from_sweeps > 0.0)) return;
   const double slope_freedom = std::max(lines.freedom(), 1.0);
   const double half_width = quantile95(combined_freedom(from_slope, slope_freedom, from_sweeps, count - 1.0));
-  const auto around = [half_width](double value, double error) {
-    return std::array<double, 2>{value - half_width * error, value + half_width * error};
-  };
-  estimate.interval95->x_f = around(estimate.value.x_f, estimate.std->x_f);
-  estimate.interval95->F0 = around(estimate.value.F0, estimate.std->F0);
+  estimate.interval95->x_f = around(estimate.value.x_f, half_width * estimate.std->x_f);
+  estimate.interval95->F0 = around(estimate.value.F0, half_width * estimate.std->F0);
 }
 
 /// Lists the friction of each sweep, and how far these differ.

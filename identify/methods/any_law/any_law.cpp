@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <memory>
 #include <utility>
 #include <variant>
@@ -12,7 +11,6 @@
 #include "identify/methods/any_law/law_intervals.hpp"
 #include "identify/methods/any_law/steady_readings.hpp"
 #include "identify/models/force_parameters.hpp"
-#include "identify/statistics/distributions.hpp"
 #include "identify/statistics/statistics.hpp"
 
 namespace dualdamp::identify {
@@ -35,7 +33,7 @@ Readings readings_of(const Record& record, const KnownConstants& constants, cons
 }
 
 /// Sets both ends of an interval, and moves the value between them.
-void place(double& value, std::array<double, 2>& into, const Interval& hull, double scale) {
+void place(double& value, Interval& into, const Interval& hull, double scale) {
   into = {hull[0] * scale, hull[1] * scale};
   value = std::clamp(value, into[0], into[1]);
 }
@@ -148,11 +146,10 @@ double largest_of(const ConstantUncertainties& u, const KnownConstants& constant
   return largest;
 }
 
-/// Widens an interval by an independent error of standard deviation `by`. Forces and dampings are not negative.
+/// Forces and dampings are not negative.
 void widen(Interval& ends, double about, double by) {
-  const double value = std::clamp(about, ends[0], ends[1]);
-  const double extra = quantile95(std::numeric_limits<double>::infinity()) * by;
-  ends = {std::max(value - std::hypot(value - ends[0], extra), 0.0), value + std::hypot(ends[1] - value, extra)};
+  ends = widened(ends, about, by);
+  ends[0] = std::max(ends[0], 0.0);
 }
 
 }  // namespace
@@ -207,9 +204,7 @@ Estimate moved_by_constants(const Record& record, const KnownConstants& constant
     estimate.warnings.push_back("the uncertainties of the constants are not in the ranges over laws: " +
                                 estimate.outcome.reason);
   if (estimate.std)
-    for (double ParameterSet::* one :
-         {&ParameterSet::zeta, &ParameterSet::c, &ParameterSet::x_f, &ParameterSet::F0})
-      (*estimate.std).*one *= times;
+    for (const ReportedParameter& parameter : reported_parameters) (*estimate.std).*parameter.value *= times;
   return estimate;
 }
 
@@ -222,10 +217,8 @@ void widen(const ParameterSet& by, LawIntervals& laws) {
 
 void widen(const ParameterSet& by, Estimate& estimate) {
   if (!estimate.interval95 || !estimate.laws) return;
-  widen(estimate.interval95->zeta, estimate.value.zeta, by.zeta);
-  widen(estimate.interval95->c, estimate.value.c, by.c);
-  widen(estimate.interval95->x_f, estimate.value.x_f, by.x_f);
-  widen(estimate.interval95->F0, estimate.value.F0, by.F0);
+  for (const auto& [name, unit, value, interval] : reported_parameters)
+    widen((*estimate.interval95).*interval, estimate.value.*value, by.*value);
   auto laws = std::make_shared<LawIntervals>(*estimate.laws);
   widen(by, *laws);
   estimate.laws = std::move(laws);

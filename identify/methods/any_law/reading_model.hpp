@@ -41,7 +41,7 @@ struct NearbyOrbits {
 /// Whether the search can begin at this plain friction: neither F0 nor c is negative by more than its error, and
 /// not both are zero.
 [[nodiscard]] inline bool is_friction(const Estimate& plain) {
-  const auto may_be = [&](double ParameterSet::* value, std::array<double, 2> ParameterIntervals::* interval) {
+  const auto may_be = [&](double ParameterSet::* value, Interval ParameterIntervals::* interval) {
     return plain.value.*value > 0.0 || (plain.interval95 && ((*plain.interval95).*interval)[1] > 0.0);
   };
   return may_be(&ParameterSet::F0, &ParameterIntervals::F0) && may_be(&ParameterSet::c, &ParameterIntervals::c) &&

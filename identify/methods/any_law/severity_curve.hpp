@@ -2,15 +2,13 @@
 /// c and F0 under one law, over its severity: fits at some severities, interpolated between them, and the region
 /// that they span.
 
-#include <array>
 #include <vector>
 
+#include "identify/estimate.hpp"
 #include "identify/methods/any_law/law_profile.hpp"
 #include "identify/methods/any_law/reading_model.hpp"
 
 namespace dualdamp::identify {
-
-using Interval = std::array<double, 2>;
 
 /// The fit at one severity, as far as regions need it.
 struct SeverityPoint {

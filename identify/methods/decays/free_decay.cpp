@@ -269,8 +269,8 @@ void add_uncertainty(const DecayModel& model, const Solution& solution, const Fr
   const std::optional<Eigen::Matrix2d> covariance = unit_covariance(model, solution);
   if (!covariance) return;
   const Eigen::DiagonalMatrix<double, 2> to_metres(deviation, deviation * unit);
-  set_uncertainty(estimate, to_metres * *covariance * to_metres,
-                  quantile95(known ? std::numeric_limits<double>::infinity() : freedom), constants);
+  set_uncertainty(estimate, to_metres * *covariance * to_metres, known ? normal95() : quantile95(freedom),
+                  constants);
 }
 
 DecayFit decay_fit(const Solution& solution, std::size_t unknowns, double unit) {

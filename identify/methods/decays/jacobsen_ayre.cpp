@@ -2,7 +2,6 @@
 
 #include <Eigen/Core>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "identify/methods/decays/extremes.hpp"
@@ -93,8 +92,8 @@ Estimate jacobsen_ayre(const Record& record, const KnownConstants& constants, co
                                 parameters(better->zeta, better->x_f * extremes->unit, constants)});
   if (options.sigma_x > 0.0) {
     const Eigen::DiagonalMatrix<double, 2> to_metres(1.0, extremes->unit);
-    set_uncertainty(estimate, to_metres * covariance(X, options.sigma_x / extremes->unit) * to_metres,
-                    quantile95(std::numeric_limits<double>::infinity()), constants);
+    set_uncertainty(estimate, to_metres * covariance(X, options.sigma_x / extremes->unit) * to_metres, normal95(),
+                    constants);
   }
   std::vector<std::string> faults;
   judge_bias(crude, better, estimate, faults);

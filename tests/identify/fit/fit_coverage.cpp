@@ -26,7 +26,7 @@ struct Count {
   double squares = 0.0;
 
   void add(const identify::FittedParameter& fitted, double truth, bool is_named) {
-    const auto holds = [truth](const std::array<double, 2>& ends) { return ends[0] <= truth && truth <= ends[1]; };
+    const auto holds = [truth](const identify::Interval& ends) { return ends[0] <= truth && truth <= ends[1]; };
     if (is_named || fitted.at_bound || std::isnan(fitted.interval95[0])) {
       ++named;
       return;

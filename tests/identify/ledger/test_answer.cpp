@@ -16,9 +16,7 @@ Estimate estimate(const std::string& method, double zeta, double F0, double spre
   e.method = method;
   e.sound = e.usable = true;
   e.value = {zeta, 100.0 * zeta, F0 / 1000.0, F0};
-  const auto around = [spread](double value) {
-    return std::array<double, 2>{value * (1.0 - spread), value * (1.0 + spread)};
-  };
+  const auto around = [spread](double value) { return Interval{value * (1.0 - spread), value * (1.0 + spread)}; };
   e.interval95 = {around(zeta), around(100.0 * zeta), around(F0 / 1000.0), around(F0)};
   return e;
 }
@@ -269,7 +267,7 @@ TEST_CASE("No answer has negative friction") {
   const Estimate& answer = alone.estimates[*alone.answer];
   CHECK(answer.value.zeta == 0.0);
   CHECK(answer.value.c == 0.0);
-  CHECK(answer.interval95->zeta == std::array<double, 2>{0.0, 0.01});
+  CHECK(answer.interval95->zeta == Interval{0.0, 0.01});
   CHECK(answer.value.F0 == 2.0);
 }
 

@@ -130,7 +130,7 @@ bool blames_friction_alone(const Ledger& ledger) {
 bool holds_truth(const Ledger& ledger, double zeta, double F0) {
   REQUIRE(ledger.joint);
   REQUIRE(ledger.joint->interval95);
-  const auto within = [](const std::array<double, 2>& interval, double value) {
+  const auto within = [](const Interval& interval, double value) {
     return interval[0] <= value && value <= interval[1];
   };
   return within(ledger.joint->interval95->zeta, zeta) && within(ledger.joint->interval95->F0, F0);
@@ -284,7 +284,7 @@ TEST_CASE("Where a term of friction is nearly seen the intervals reach over the 
     if (!noted) continue;
     ++near;
     // The standard error of the estimate with the term free is larger than half the distance of both estimates.
-    const std::array<double, 2>& interval = ledger.joint->interval95->zeta;
+    const Interval& interval = ledger.joint->interval95->zeta;
     const double value = ledger.joint->value.zeta;
     const double sides = (interval[1] - value) / (value - interval[0]);
     CHECK(std::max(sides, 1.0 / sides) > 1.2);

@@ -73,10 +73,10 @@ void count_interval(const Estimate& found, const Rig& rig, Coverage& coverage) {
   ++coverage.outcomes;
   if (!found.sound || !found.interval95) return;
   coverage.usable += found.usable ? 1 : 0;
-  const auto holds = [](const std::array<double, 2>& interval, double truth) {
+  const auto holds = [](const Interval& interval, double truth) {
     return interval[0] <= truth && truth <= interval[1];
   };
-  const auto side = [](const std::array<double, 2>& interval, double truth, std::array<int, 2>& sides) {
+  const auto side = [](const Interval& interval, double truth, std::array<int, 2>& sides) {
     sides[0] += truth < interval[0] ? 1 : 0;
     sides[1] += truth > interval[1] ? 1 : 0;
   };

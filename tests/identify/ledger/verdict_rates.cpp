@@ -98,9 +98,7 @@ Identification identified(Measured& measured) {
   return concluded(std::move(estimates), std::move(ledger));
 }
 
-bool covers(const std::array<double, 2>& interval, double value) {
-  return interval[0] <= value && value <= interval[1];
-}
+bool covers(const Interval& interval, double value) { return interval[0] <= value && value <= interval[1]; }
 
 /// The joint model of a record; nothing where there is none.
 std::optional<JointModel> model_of(const Measured& measured) {

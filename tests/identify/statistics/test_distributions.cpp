@@ -11,6 +11,7 @@ TEST_CASE("Half widths of 95 % intervals are those of the tables") {
   CHECK(quantile95(2.0) == Approx(4.30265).epsilon(1e-5));
   CHECK(quantile95(10.0) == Approx(2.22814).epsilon(1e-5));
   CHECK(quantile95(std::numeric_limits<double>::infinity()) == Approx(1.959964).epsilon(1e-6));
+  CHECK(normal95() == quantile95(std::numeric_limits<double>::infinity()));
 }
 
 TEST_CASE("The p-values of F tests are those of the tables") {

@@ -57,7 +57,7 @@ TEST_CASE("The F test needs freedom and a term of its own") {
 }
 
 TEST_CASE("A parameter whose corrected interval lies below zero is no estimate, whatever the value is") {
-  const auto faults_of = [](double value, const std::array<double, 2>& interval) {
+  const auto faults_of = [](double value, const Interval& interval) {
     Estimate estimate;
     std::vector<std::string> faults;
     judge_sign(value, 1e-9, &interval, "the Coulomb friction", estimate, faults);
@@ -68,4 +68,16 @@ TEST_CASE("A parameter whose corrected interval lies below zero is no estimate, 
   CHECK(faults_of(-0.1, {-0.4, 0.2}) == 0);
   CHECK(faults_of(3.5, {3.0, 4.0}) == 0);
   CHECK(faults_of(0.0, {-2e-12, -1e-12}) == 0);  // rounding
+}
+
+TEST_CASE("An independent error widens both sides of an interval by the root of the sum of squares") {
+  // 3-4-5 triangles: an added half width of 4 makes sides of 3 and 7.5 to 5 and 8.5.
+  const double deviation = 4.0 / 1.9599639845400545;
+  const Interval wider = widened({-3.0, 7.5}, 0.0, deviation);
+  CHECK(wider[0] == Approx(-5.0).epsilon(1e-12));
+  CHECK(wider[1] == Approx(8.5).epsilon(1e-12));
+  // A value beyond the interval counts as its end.
+  const Interval beyond = widened({-3.0, 0.0}, 1.0, deviation);
+  CHECK(beyond[0] == Approx(-5.0).epsilon(1e-12));
+  CHECK(beyond[1] == Approx(4.0).epsilon(1e-12));
 }

@@ -50,9 +50,7 @@ Record noisy_second(std::uint64_t seed, double noise = 5e-5) {
   return record_of({noisy});
 }
 
-bool holds(const std::array<double, 2>& interval, double value) {
-  return interval[0] <= value && value <= interval[1];
-}
+bool holds(const Interval& interval, double value) { return interval[0] <= value && value <= interval[1]; }
 
 bool says(const Estimate& estimate, const std::string& words) {
   return std::ranges::any_of(estimate.warnings,

@@ -34,7 +34,7 @@ Estimate by_free_decay(const Record& record, const KnownConstants& known) {
 }
 
 /// Half width of an interval, squared.
-double square(const std::array<double, 2>& interval) {
+double square(const Interval& interval) {
   const double half = 0.5 * (interval[1] - interval[0]);
   return half * half;
 }
@@ -81,7 +81,7 @@ TEST_CASE("Intervals with stated uncertainties hold the truth as often as they s
   int with_c = 0;
   int with_F0_unstated = 0;
   const ConstantUncertainties uncertainties{.mass = 0.1 * mass, .stiffness = 0.1 * stiffness, .gain_x = 0.05};
-  const auto holds = [](const std::array<double, 2>& interval, double truth) {
+  const auto holds = [](const Interval& interval, double truth) {
     return interval[0] <= truth && truth <= interval[1] ? 1 : 0;
   };
   for (int seed = 0; seed < records; ++seed) {

@@ -14,7 +14,7 @@ namespace dualdamp::identify::testing {
 struct Followed {
   std::string advice;
   /// Width of the hull after equally spaced levels over that after the advice, of zeta and of F0.
-  std::array<double, 2> narrower{};
+  Interval narrower{};
   /// Whether plain friction is rejected: after equally spaced levels, after the advice.
   std::array<bool, 2> rejected{};
   /// Whether the hulls after the advice hold zeta and F0.

@@ -49,7 +49,7 @@ double least_length(const Curves& curves, double SeverityPoint::* value, double 
 
 }  // namespace
 
-std::optional<std::array<double, 2>> alias_bound(LawRecord kind, const LawRig& rig) {
+std::optional<Interval> alias_bound(LawRecord kind, const LawRig& rig) {
   LawRig quiet = rig;
   quiet.noise = 0.0;
   const Record record = law_record(kind, quiet, nullptr, 0.0, 1);

@@ -19,6 +19,6 @@
 namespace dualdamp::identify::testing {
 
 /// Half of the least expected length for zeta and for F0 [N], for the record of plain friction on this rig.
-[[nodiscard]] std::optional<std::array<double, 2>> alias_bound(LawRecord kind, const LawRig& rig);
+[[nodiscard]] std::optional<Interval> alias_bound(LawRecord kind, const LawRig& rig);
 
 }  // namespace dualdamp::identify::testing
