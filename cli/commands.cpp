@@ -102,7 +102,7 @@ void show_in(const std::string& units, Scenario& scenario) {
   if (!units.empty()) static_cast<void>(scenarios::ask_for_units(units, scenario.written_units));
 }
 
-/// The question as a campaign; nullptr if it is none.
+/// The question as a campaign; nullptr if it is not a campaign.
 const scenarios::Campaign* campaign_of(const Scenario& scenario) {
   return dynamic_cast<const scenarios::Campaign*>(scenario.question.get());
 }

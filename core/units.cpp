@@ -76,7 +76,7 @@ std::string similar_unit(std::string_view unit, std::string_view si_unit, Coordi
   return {};
 }
 
-/// In a unit of acceleration g is standard gravity and no gram, as on the label of an accelerometer.
+/// In a unit of acceleration, g means standard gravity, not gram, as on the label of an accelerometer.
 std::string with_gravity(std::string_view unit) {
   static constexpr std::array<std::array<std::string_view, 2>, 6> names = {{{"g", "gravity"},
                                                                             {"g_n", "gravity"},

@@ -17,8 +17,8 @@ struct Character {
   std::size_t length = 1;  ///< bytes
 };
 
-/// The character that begins at the byte `at`, which is inside the text. Nothing if the bytes are not one; overlong
-/// forms, surrogates and codes above U+10FFFF are none.
+/// The character that begins at the byte `at`, which is inside the text. Nothing if the bytes are not a character:
+/// overlong forms, surrogates and codes above U+10FFFF are refused.
 [[nodiscard]] std::optional<Character> decode(std::string_view text, std::size_t at);
 
 /// Characters, not bytes.

@@ -16,8 +16,8 @@
 ///                one guard that is not over where another guard crosses.
 /// Grazing. A guard whose value is within its rounding (`core/crossing/guard_jets.hpp`) grazes zero. A grazing is
 ///   reported and is not a crossing. A deeper dip is two crossings, of which the first is returned. If g stays
-///   within its rounding for some time, this is one grazing; if that time ends with a crossing, it is none
-///   (`core/crossing/grazing.hpp`).
+///   within its rounding for some time, this is one grazing, unless that time ends with a crossing, of which it is
+///   then a part (`core/crossing/grazing.hpp`).
 /// Range. A guard that leaves the range of double precision ends the search with SearchEnd::left_range. Elements
 ///   that are in no guard may leave it. A guard with amplitudes beyond 1e60 or below 1e-60 is searched multiplied
 ///   by a power of two; one whose amplitudes have decayed by 1e-220 has no zeros any more.

@@ -76,7 +76,7 @@ class FrictionLoop final : public Experiment {
 
  private:
   /// Differentiates or integrates the signals that were not measured. If one is a derivative, all forces are
-  /// filtered; an acceleration that no mass needs is none.
+  /// filtered. The acceleration is not counted as a derivative if no mass needs it.
   void complete(const History& history, bool has_mass) {
     const bool lacks_speed = v_.empty();
     if (x_.empty()) x_ = sharp_integral(v_, rate_);

@@ -49,8 +49,9 @@ class FitProblem {
   FitProblem(const Rig& rig, const std::vector<FitParameter>& parameters, const Experiments& experiments,
              const std::vector<double>& sizes);
 
-  /// The same with less accurate motions of fewer samples. `this` must outlive the results of this and the next
-  /// two.
+  // `this` must outlive the problems returned by roughly(), first_part() and tied().
+
+  /// The same with less accurate motions of fewer samples.
   [[nodiscard]] FitProblem roughly(const Accuracy& accuracy) const;
   /// With only the first share of each motion, 0 < share <= 1. Nothing if there is no motion.
   [[nodiscard]] std::optional<FitProblem> first_part(double share) const;

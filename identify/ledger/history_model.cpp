@@ -202,8 +202,8 @@ class Histories {
     return at;
   }
 
-  /// Where damping is below zero, a motion in which noise of the drive grows is none that the noise can be judged
-  /// by.
+  /// With negative damping the noise of the drive grows in the motion. The residuals then do not show the noise
+  /// level.
   [[nodiscard]] bool noise_grows(const ForceParameters& force) {
     const double rate = -0.5 * force.c / force.m;
     return std::ranges::any_of(fit_.tests(), [rate](const ForwardTest& test) {

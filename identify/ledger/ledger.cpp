@@ -208,8 +208,8 @@ class Writer {
   }
 
  public:
-  /// States for each assumption that holds how large a departure must be to be seen. A test that sees only huge
-  /// ones is none.
+  /// States for each assumption that holds how large a departure must be to be seen. A test that
+  /// would see only huge departures does not count as a test.
   void add_sight(Ledger& ledger) const {
     constexpr double most = 0.3;
     for (LedgerEntry& entry : ledger.entries) {

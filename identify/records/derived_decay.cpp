@@ -238,8 +238,8 @@ class DecayReader {
   }
 
   /// Where noise hides the first slope, the time of the first turning point tells whether the mass began at rest:
-  /// one half swing, `swing` long, later. An amplitude is uncertain by `share`: a phase that changes it by less is
-  /// none.
+  /// one half swing, `swing` long, later. A phase that changes the amplitude by less than `share`
+  /// counts as zero.
   [[nodiscard]] bool turns_at_first(const DerivedDecay& result, double share, double swing) const {
     const std::vector<double>& e = result.record.extremes;
     constexpr double least_share = 0.25;  // the times of smaller swings are uncertain

@@ -40,7 +40,7 @@ std::vector<Cause> wrong_units(const std::vector<Pair>& pairs) {
           {"the phases may be radians", "their unit: --unit phase=rad", altered(pairs, 1.0 / degree)}};
 }
 
-/// Of histories the phase is no column, whose sign could be wrong.
+/// A phase that was computed from histories is not a column, so its sign is not among the causes.
 std::vector<Cause> wrong_signs(const std::vector<Pair>& pairs, bool from_histories) {
   std::vector<Cause> list;
   if (!from_histories) list.push_back({"the phase has the wrong sign", "--scale phase=-1", altered(pairs, -1.0)});

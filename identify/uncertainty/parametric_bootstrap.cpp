@@ -63,7 +63,7 @@ std::optional<BootstrapSpread> bootstrap_spread(
   // If the record is not like the synthetic records, its bias need not be theirs.
   if (ratio.maxCoeff() > 1.0) spread.covariance += spread.bias * spread.bias.transpose();
   spread.half_width = quantile95(count - 1) * std::sqrt(1.0 + 1.0 / count);
-  // A bias as large as the mass or the stiffness is no correction.
+  // A mass or a stiffness less a bias as large as itself would not be positive.
   for (const Eigen::Index positive : {0, 2})
     if (truth[positive] > 0.0 && !(spread.bias[positive] < truth[positive])) return std::nullopt;
   return spread;

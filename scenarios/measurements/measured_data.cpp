@@ -18,7 +18,7 @@ namespace dualdamp::scenarios {
 
 namespace {
 
-/// Statements of the scenario about columns, where the file makes none.
+/// What the scenario states about columns, for a file that does not state it.
 identify::ReadOptions read_options(const Json& section, core::Coordinate coordinate, const std::string& name) {
   identify::ReadOptions options;
   options.name = name;

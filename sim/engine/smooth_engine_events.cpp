@@ -212,7 +212,7 @@ bool SmoothEngine::find_violated(Hit& hit) const {
   return false;
 }
 
-/// Whether the event at once is none that the last one caused: two laws reach their guards at one instant.
+/// Whether a second law reaches its guard at the same instant as the last event, independently of it.
 bool SmoothEngine::coincides(const Hit& hit) const {
   const Watch& watch = watches_[hit.watch];
   const auto* guard = std::get_if<LawGuard>(&watch.ending);

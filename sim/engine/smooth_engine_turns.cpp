@@ -130,7 +130,7 @@ bool SmoothEngine::makes_headway() {
   return false;
 }
 
-/// Which law's force is no number just ahead of the motion, and where; empty: none is.
+/// The law whose force is not a number just ahead of the motion, and where; empty: there is none.
 std::string SmoothEngine::infinite_force() {
   flow_.evaluate(X_, local_time_, rates_);
   const std::vector<double> ahead = rates_;

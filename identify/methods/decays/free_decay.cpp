@@ -188,8 +188,8 @@ std::optional<Eigen::Matrix2d> unit_covariance(const DecayModel& model, const So
   return Eigen::Matrix2d(half.transpose() * half);
 }
 
-/// Fits, leaves out the extremes after the mass has stopped for good at the estimate, and fits again until there
-/// are none.
+/// Fits, leaves out the extremes after the mass has stopped for good at the estimate, and fits again until none is
+/// left out.
 std::optional<Solution> solve_moving(Extremes& extremes, bool zero_offset, const KnownConstants& constants,
                                      Estimate& estimate) {
   while (enough(extremes, zero_offset ? 3 : 4, estimate)) {
