@@ -134,7 +134,9 @@ struct Estimate {
   /// Nothing speaks against the estimate, apart from the assumptions that the ledger tests (ledger/ledger.hpp).
   bool sound = false;
   std::vector<std::string>
-      findings;         ///< results of the method's own tests against its assumptions, each a sentence
+      findings;  ///< results of the method's own tests against its assumptions, each a sentence
+  // Until concluded() (ledger/answer.hpp) the next three are the method's own; then `usable` and `reason` are those
+  // of the ledger, and a value that the method did not correct for its bias is corrected.
   bool usable = false;  ///< sound and without findings
   std::string reason;   ///< why it is not usable, or which data it is from
   ParameterSet value;

@@ -6,7 +6,8 @@
 #include <string_view>
 
 #include "core/numbers.hpp"
-#include "scenarios/results/cells.hpp"
+#include "scenarios/format/json.hpp"
+#include "scenarios/results/table.hpp"
 
 namespace dualdamp::scenarios {
 

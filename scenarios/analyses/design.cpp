@@ -5,11 +5,12 @@
 #include <utility>
 
 #include "scenarios/analyses/shared/identify_options.hpp"
+#include "scenarios/format/json.hpp"
 #include "scenarios/format/values.hpp"
 #include "scenarios/measurements/measured_data.hpp"
 #include "scenarios/measurements/measurement.hpp"
-#include "scenarios/results/cells.hpp"
 #include "scenarios/results/laws.hpp"
+#include "scenarios/results/table.hpp"
 
 namespace dualdamp::scenarios {
 

@@ -11,9 +11,9 @@
 #include "scenarios/format/excitations.hpp"
 #include "scenarios/format/values.hpp"
 #include "scenarios/measurements/measured_data.hpp"
-#include "scenarios/results/cells.hpp"
 #include "scenarios/results/fits.hpp"
 #include "scenarios/results/fitted_rig.hpp"
+#include "scenarios/results/table.hpp"
 
 namespace dualdamp::scenarios {
 

@@ -5,8 +5,8 @@
 /// the reference page (reference.cpp) all use these tables. The content of the tables (`scenario_format.cpp` and
 /// the analyses) is stated nowhere else.
 ///
-///     Section{{quantity("mass", "kg", "sliding mass").required().above(0),
-///              words("damper_to", {"ground", "base"}, "other end of the damper").fallback("ground")}}
+///     Section{{quantity("mass", {"kg"}, "sliding mass").required().above(0),
+///              words("damper_to", {"ground", "base"}, "other end of the damper").with_fallback("ground")}}
 
 #include <functional>
 #include <memory>

@@ -6,9 +6,10 @@
 #include <vector>
 
 #include "core/numbers.hpp"
-#include "scenarios/results/cells.hpp"
+#include "scenarios/format/json.hpp"
 #include "scenarios/results/laws.hpp"
 #include "scenarios/results/ledger.hpp"
+#include "scenarios/results/table.hpp"
 
 namespace dualdamp::scenarios {
 

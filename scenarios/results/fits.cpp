@@ -3,7 +3,8 @@
 #include <cmath>
 
 #include "core/coordinate.hpp"
-#include "scenarios/results/cells.hpp"
+#include "scenarios/format/json.hpp"
+#include "scenarios/results/table.hpp"
 
 namespace dualdamp::scenarios {
 

@@ -1,7 +1,8 @@
 #include "scenarios/results/laws.hpp"
 
 #include "core/numbers.hpp"
-#include "scenarios/results/cells.hpp"
+#include "scenarios/format/json.hpp"
+#include "scenarios/results/table.hpp"
 
 namespace dualdamp::scenarios {
 

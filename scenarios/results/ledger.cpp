@@ -4,7 +4,8 @@
 
 #include "core/numbers.hpp"
 #include "identify/methods.hpp"
-#include "scenarios/results/cells.hpp"
+#include "scenarios/format/json.hpp"
+#include "scenarios/results/table.hpp"
 
 namespace dualdamp::scenarios {
 

@@ -1,6 +1,6 @@
 #include "scenarios/results/motion.hpp"
 
-#include "scenarios/results/cells.hpp"
+#include "scenarios/results/table.hpp"
 #include "sim/engine/engine.hpp"
 
 namespace dualdamp::scenarios {

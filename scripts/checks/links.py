@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
-"""Fails when a page links a file of the tree, or a heading of a page, that does not exist, or when the site lacks a page.
+"""Fails when a page links or names a file of the tree, or links a heading of a page, that does not exist, or when the site lacks a page.
 
 usage: links.py ROOT
 
 Read are all Markdown files but those of build trees; those of docs/site/ stand among the pages of docs/ on the site. Headings
 have the anchors that GitHub and MyST give them. Links to other sites are not followed. A page of docs/ stands in a table of
-contents (`toctree`) of docs/site/.
+contents (`toctree`) of docs/site/. Pages of docs/ name files between backticks by their paths from ROOT, with an extension;
+NAME and GROUP stand for any name, and results/ is what programs write.
 """
 
 import re
@@ -18,6 +19,9 @@ FENCE = re.compile(r"^(```+|~~~+).*?^\1\s*$", re.MULTILINE | re.DOTALL)
 CODE = re.compile(r"(`+).*?\1", re.DOTALL)
 LINK = re.compile(r"\[[^\]]*\]\(\s*<?([^)\s>]+)>?(?:\s+\"[^\"]*\")?\s*\)")
 HEADING = re.compile(r"^#{1,6}\s+(.*?)\s*#*$", re.MULTILINE)
+NAMED = re.compile(r"`([\w.+-]+(?:/[\w.+-]+)+\.\w+)`")
+TEMPLATE = re.compile(r"NAME|GROUP")
+WRITTEN = ("results", "build")
 ELSEWHERE = re.compile(r"[a-z][a-z0-9+.-]*:", re.IGNORECASE)
 
 
@@ -62,6 +66,15 @@ def link_faults(root, page, text):
             yield f"{where}: no heading '#{anchor}' in {path.relative_to(root)}"
 
 
+def name_faults(root, page, text):
+    plain = FENCE.sub(blank, text)
+    for match in NAMED.finditer(plain):
+        first = match[1].split("/")[0]
+        if first in WRITTEN or TEMPLATE.search(match[1]) or not (root / first).is_dir() or (root / match[1]).exists():
+            continue
+        yield f"{page.relative_to(root)}:{plain.count(chr(10), 0, match.start()) + 1}: no file '{match[1]}'"
+
+
 def site_faults(root):
     site = root / "docs/site"
     listed = {line.strip() for page in site.glob("*.md") for tree in TOCTREE.findall(page.read_text(encoding="utf-8"))
@@ -76,6 +89,8 @@ def main():
         sys.exit(__doc__)
     root = Path(sys.argv[1]).resolve()
     found = [fault for page in pages(root) for fault in link_faults(root, page, page.read_text(encoding="utf-8"))]
+    found += [fault for page in pages(root) if page.relative_to(root).parts[0] == "docs"
+              for fault in name_faults(root, page, page.read_text(encoding="utf-8"))]
     found += site_faults(root)
     for fault in found:
         print(fault)

@@ -2,7 +2,7 @@
 
 #include <functional>
 
-#include "scenarios/results/cells.hpp"
+#include "scenarios/results/table.hpp"
 
 namespace dualdamp::scenarios {
 

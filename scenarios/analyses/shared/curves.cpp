@@ -5,7 +5,7 @@
 #include "core/numbers.hpp"
 #include "scenarios/format/limits.hpp"
 #include "scenarios/format/values.hpp"
-#include "scenarios/results/cells.hpp"
+#include "scenarios/results/table.hpp"
 
 namespace dualdamp::scenarios {
 

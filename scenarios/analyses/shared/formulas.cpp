@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "scenarios/format/json.hpp"
 #include "scenarios/format/values.hpp"
-#include "scenarios/results/cells.hpp"
 #include "sim/analytic/contact.hpp"
 #include "sim/analytic/den_hartog.hpp"
 
