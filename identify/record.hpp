@@ -27,6 +27,8 @@ struct KnownConstants {
   /// Only for the units in messages; the units in this file are those of a displacement (core/coordinate.hpp).
   core::Coordinate coordinate = core::Coordinate::displacement;
 
+  [[nodiscard]] double natural_frequency() const { return std::sqrt(stiffness / mass); }  ///< rad/s
+
   /// "N.m" for "N" where x is an angle.
   [[nodiscard]] std::string unit(std::string_view unit) const { return core::unit_for(coordinate, unit); }
 };

@@ -346,7 +346,7 @@ double verification_tolerance(std::string_view unit) {
 SizesOfUnits sizes_of_rounding(const sim::Model& model) {
   const sim::Oscillator& oscillator = model.oscillator;
   const sim::Excitation& drive = model.excitation;
-  const double omega = std::sqrt(oscillator.stiffness / oscillator.mass);
+  const double omega = sim::natural_frequency(oscillator);
   double X = std::abs(model.initial.position) + std::abs(model.initial.velocity) / omega;
   if (drive.is_harmonic()) X += drive.moves_base() ? drive.amplitude : drive.amplitude / oscillator.stiffness;
   // Times the tolerance of a work that is 1e-12 of the energy in the spring: beside a mass that rests, or far above

@@ -56,7 +56,7 @@ std::vector<CandidateMeasurement> candidates_after(const std::vector<Pair>& stat
   const States same = same_levels(states);
   const auto [low, high] = std::ranges::minmax_element(same, {}, &PlannedState::Y);
   const double omega = same.front().omega;
-  const double natural = std::sqrt(constants.stiffness / constants.mass);
+  const double natural = constants.natural_frequency();
   const auto count = static_cast<int>(same.size());
   const double middle = 0.5 * (low->Y + high->Y);
   const bool has_phase = std::ranges::any_of(states, [](const Pair& state) { return !std::isnan(state.phase); });

@@ -130,7 +130,7 @@ DataScale scale_of(const Rig& rig, const std::vector<std::unique_ptr<Experiment>
     }
   }
   const sim::Oscillator& o = rig.known.oscillator;
-  if (!is_known(omega)) omega = is_known(o.mass) && is_known(o.stiffness) ? std::sqrt(o.stiffness / o.mass) : 1.0;
+  if (!is_known(omega)) omega = is_known(o.mass) && is_known(o.stiffness) ? sim::natural_frequency(o) : 1.0;
   if (length == 0.0 && speed == 0.0) length = acceleration / (omega * omega);
   if (length == 0.0) length = speed > 0.0 ? speed / omega : 1.0;
   if (speed == 0.0) speed = length * omega;

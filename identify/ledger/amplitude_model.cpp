@@ -335,7 +335,7 @@ bool drop_sticking(std::vector<SteadyPoint>& points, const PlainFriction& fricti
 }
 
 std::vector<SteadyPoint> points_of(const std::vector<Pair>& states, const KnownConstants& constants, double unit) {
-  const double natural = std::sqrt(constants.stiffness / constants.mass);
+  const double natural = constants.natural_frequency();
   std::vector<std::string> labels;
   std::vector<SteadyPoint> points;
   for (const Pair& pair : states) {

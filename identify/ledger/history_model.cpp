@@ -40,8 +40,8 @@ class Histories {
     if (!fit_.problem().empty()) return;
     start_.p = fit_.found().parameters;
     const ForceParameters force = fit_.layout().force(start_.p);
-    scale_ = {fit_.layout().length(), fit_.layout().length() * std::sqrt(force.k / force.m)};
-    natural_ = std::sqrt(force.k / force.m);
+    natural_ = force.natural_frequency();
+    scale_ = {fit_.layout().length(), fit_.layout().length() * natural_};
     unit_force_ = force.k * scale_.length;
     list_ = history_ways(fit_.tests(), constants_);
     start_.g = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(list_.relaxations.size()));

@@ -3,6 +3,7 @@
 /// Without a spring (k = 0, a machine on a rail) zeta and x_f do not exist and are NaN.
 
 #include <Eigen/Core>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,8 @@ struct ForceParameters {
   double c = 0.0;   ///< N.s/m
   double k = 0.0;   ///< N/m
   double F0 = 0.0;  ///< N
+
+  [[nodiscard]] double natural_frequency() const { return std::sqrt(k / m); }  ///< rad/s
 };
 
 [[nodiscard]] ParameterSet parameters(const ForceParameters& force);

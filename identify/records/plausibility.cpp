@@ -46,7 +46,7 @@ struct ResonanceLine {
 
 /// The line through the pairs, if there are at least three, near resonance, at one frequency, on a straight line.
 std::optional<ResonanceLine> resonance_line(const std::vector<Pair>& pairs, const KnownConstants& constants) {
-  const double natural = std::sqrt(constants.stiffness / constants.mass);
+  const double natural = constants.natural_frequency();
   const double n = static_cast<double>(pairs.size());
   double x = 0.0;
   double Y = 0.0;
@@ -106,8 +106,6 @@ class Check {
     return std::ranges::find(assumed_, name) != assumed_.end();
   }
 
-  [[nodiscard]] double natural_frequency() const { return std::sqrt(constants_.stiffness / constants_.mass); }
-
   [[nodiscard]] static const std::vector<double>& leading(const History& history) {
     for (const auto* signal : {&history.x, &history.v, &history.a, &history.y})
       if (!signal->empty()) return *signal;
@@ -141,13 +139,13 @@ class Check {
     const double measured = guess_frequency(leading(history), history.sample_rate);
     if (!(measured > 0.0)) return true;
     const bool is_driven = !history.y.empty() && constants_.frequency > 0.0;
-    const double expected = is_driven ? constants_.frequency : natural_frequency();
+    const double expected = is_driven ? constants_.frequency : constants_.natural_frequency();
     if (!(expected > 0.0) || (!is_driven && !(history.y.empty() && history.force.empty()))) return true;
     return !refuse_times(measured, expected, is_driven ? "the stated frequency" : "the natural frequency");
   }
 
   void check_decay(const DecayRecord& decay) {
-    double omega = natural_frequency();
+    double omega = constants_.natural_frequency();
     if (decay.times.size() > 2) {
       std::vector<double> half_periods;
       for (std::size_t i = 1; i < decay.times.size(); ++i)
@@ -280,7 +278,7 @@ class Check {
   void refuse_balance(const std::vector<Pair>& pairs, const Balance& balance, const std::string& swapped) {
     const double omega = frequency_of(pairs.front(), constants_);
     const std::string where = " at " + in_hertz(omega) + ", where the natural frequency is " +
-                              in_hertz(natural_frequency()) +
+                              in_hertz(constants_.natural_frequency()) +
                               ": spring and inertia of the motion x need more force than the base gives, k Y";
     constexpr double turn = 2.0 * std::numbers::pi;
     for (const auto& [factor, unit] : {std::pair{turn, "Hz, not rad/s"}, {1.0 / turn, "rad/s, not Hz"}}) {
@@ -319,8 +317,8 @@ class Check {
     double base = 0.0;
     double omega = 0.0;
     for (const Pair& pair : pairs) {
-      omega = std::max(
-          omega, std::isnan(frequency_of(pair, constants_)) ? natural_frequency() : frequency_of(pair, constants_));
+      omega = std::max(omega, std::isnan(frequency_of(pair, constants_)) ? constants_.natural_frequency()
+                                                                         : frequency_of(pair, constants_));
       largest = std::max(largest, pair.x);
       base = std::max(base, pair.Y);
       if (!(pair.x > 0.0)) continue;

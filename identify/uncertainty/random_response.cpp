@@ -19,10 +19,8 @@ namespace {
 constexpr std::uint32_t stretch_stream = 100;  // beside those of the sensors
 constexpr std::uint32_t kick_stream = 101;
 
-double natural_frequency(const ForceParameters& law) { return std::sqrt(law.k / law.m); }
-
 double samples_of(const RandomResponse& response, double periods) {
-  return periods * 2.0 * std::numbers::pi / natural_frequency(response.law) * response.measured.sample_rate;
+  return periods * 2.0 * std::numbers::pi / response.law.natural_frequency() * response.measured.sample_rate;
 }
 
 std::size_t length_of(const RandomResponse& response) {
@@ -72,7 +70,7 @@ void respond_to_kicks(const RandomResponse& response, const core::RandomStream& 
   const ForceParameters& law = response.law;
   constexpr double angle = 0.02;
   const double interval = 1.0 / history.sample_rate;
-  const int steps = static_cast<int>(std::ceil(natural_frequency(law) * interval / angle));
+  const int steps = static_cast<int>(std::ceil(law.natural_frequency() * interval / angle));
   const double dt = interval / steps;
   const double kick = std::sqrt(response.intensity * dt);
   const double brake = law.F0 / law.m * dt;

@@ -55,7 +55,7 @@ std::optional<double> den_hartogs(const Model& model, const ForceLimits& limits)
                    drive.is_harmonic() && drive.harmonics.empty() && drive.offset == 0.0;
   if (!his) return std::nullopt;
   const double zeta = o.damping / (2.0 * std::sqrt(o.mass * o.stiffness));
-  const double r = drive.frequency / std::sqrt(o.stiffness / o.mass);
+  const double r = drive.frequency / natural_frequency(o);
   const double force = limits.kinetic / analytic::non_sticking_boundary(analytic::den_hartog(zeta, r));
   return is_force ? force : force / o.stiffness;
 }
@@ -152,7 +152,7 @@ Model driven(Model model) {
 }  // namespace
 
 std::vector<BoundaryPoint> sticking_boundary(const Model& model, std::span<const double> frequencies) {
-  require_in(positive, "analysis.frequencies", frequencies, "rad/s");
+  require_in(friction::positive, "analysis.frequencies", frequencies, "rad/s");
   const ForceLimits limits = limits_of(valid_harmonic(driven(model), "sticking_boundary"));
   std::vector<BoundaryPoint> boundary;
   for (const double omega : frequencies) boundary.push_back(find(model, limits, omega));

@@ -227,7 +227,7 @@ void add_uncertainty(const AmplitudeLaw& law, const ExactFit& fit, double unit, 
                     constants);
   }
   if (law.size() < 3) return;
-  const double omega_n = std::sqrt(constants.stiffness / constants.mass);
+  const double omega_n = constants.natural_frequency();
   FurtherParameter parameter{"natural_frequency", "rad/s", omega_n, std::nullopt, std::nullopt};
   if (scatter && covariance) {
     const double std = omega_n * std::sqrt(scatter->variance * (*covariance)(2, 2));

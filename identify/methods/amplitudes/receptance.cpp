@@ -157,7 +157,7 @@ std::optional<Limacon> limacon_of(const std::vector<Pair>& states, const KnownCo
   }
   const std::optional<ForceLine> line = force_line(std::move(points), 1.0);
   if (!line || !(line->line.slope > 0.0) || line->freedom() < 1.0) return std::nullopt;
-  const double omega_n = std::sqrt(constants.stiffness / constants.mass);
+  const double omega_n = constants.natural_frequency();
   const double c = 1.0 / (line->line.slope * omega_n);
   const double variance = line->residuals.squaredNorm() / line->freedom() / line->moments.S_YY;
   return Limacon{parameters(ForceParameters{constants.mass, c, constants.stiffness,

@@ -34,10 +34,6 @@ std::string exclusion_reason(const Pair& pair, bool phases) {
   return {};
 }
 
-double natural_frequency(const KnownConstants& constants) {
-  return std::sqrt(constants.stiffness) / std::sqrt(constants.mass);
-}
-
 }  // namespace
 
 double fundamental(const Pair& pair) { return std::isnan(pair.fundamental) ? pair.x : pair.fundamental; }
@@ -75,7 +71,7 @@ bool drop_sticking(std::vector<Pair>& states, const ParameterSet& value, const K
   const auto sticks = [&](const Pair& pair) {
     if (pair.omega != omega) {
       omega = pair.omega;
-      limit = analytic::non_sticking_limit(analytic::den_hartog(value.zeta, omega / natural_frequency(constants)));
+      limit = analytic::non_sticking_limit(analytic::den_hartog(value.zeta, omega / constants.natural_frequency()));
     }
     return !(pair.x > limit * value.x_f);
   };
@@ -99,7 +95,7 @@ std::vector<Pair> exact_states(const std::vector<Pair>& states, const ParameterS
   for (const Pair& measured : states) {
     if (measured.omega != omega) {
       omega = measured.omega;
-      functions = analytic::den_hartog(value.zeta, omega / natural_frequency(constants));
+      functions = analytic::den_hartog(value.zeta, omega / constants.natural_frequency());
       limit = analytic::non_sticking_limit(functions);
     }
     const auto state = analytic::non_sticking_state(functions, limit, measured.Y, value.x_f);

@@ -40,7 +40,7 @@ class DecayReadings final : public ReadingModel {
     const double offset = plain.decay ? plain.decay->offset : 0.0;
     const double last = std::abs(readings_[readings_.size() - 1] - offset);
     reference_ = {.amplitude = 0.5 * (std::abs(release_ - offset) + last),
-                  .frequency = std::sqrt(constants.stiffness / constants.mass),
+                  .frequency = constants.natural_frequency(),
                   .Y = std::abs(release_)};
     begin_with(plain.value, reference_.speed());
     start_[2] = -offset / release_;

@@ -149,7 +149,7 @@ Scales scales_of(const History& history, const KalmanOptions& options) {
 
 Setting setting_for(const Scales& scales, double width, const History& history, const KnownConstants& constants) {
   Setting setting{constants.mass, constants.stiffness, width, scales.noise};
-  const double slowest = std::sqrt(constants.stiffness / constants.mass);
+  const double slowest = constants.natural_frequency();
   // The largest rate is that of the smoothed sign, for a friction of a quarter of the spring's force.
   const double steepest = 0.25 * constants.stiffness * scales.length / (constants.mass * width) + slowest;
   const auto steps_for = [&](double rate) {

@@ -60,7 +60,7 @@ ForwardLayout::ForwardLayout(const std::vector<ForwardTest>& tests, const KnownC
     count_ += test.starts_at_rest ? 1 : 2;
   }
   length_ = length(tests);
-  speed_ = length_ * std::sqrt(start.k / start.m);
+  speed_ = length_ * start.natural_frequency();
   known_ = start;
 }
 

@@ -99,7 +99,7 @@ Estimate random_decrement(const Record& record, const KnownConstants& constants)
   const std::optional<NumberedHistory> longest = longest_history(record, constants, estimate);
   if (!longest) return estimate;
   const auto& [number, history] = *longest;
-  const double W = std::sqrt(constants.stiffness / constants.mass);
+  const double W = constants.natural_frequency();
   const auto period = static_cast<std::size_t>(std::lround(2.0 * std::numbers::pi / W * history->sample_rate));
   std::vector<Start> starts;
   if (period >= 12) starts = starts_of(history->x, period);

@@ -193,7 +193,7 @@ std::vector<double> amplitude_of(const History& history, double W, double& unit)
 }
 
 Averages averages_of(const History& history, const KnownConstants& constants) {
-  const double W = std::sqrt(constants.stiffness / constants.mass);
+  const double W = constants.natural_frequency();
   Averages averages;
   const std::vector<double> amplitude = amplitude_of(history, W, averages.unit);
   if (!(averages.unit > 0.0)) {
@@ -245,7 +245,7 @@ Estimate stochastic_averaging(const Record& record, const KnownConstants& consta
   const std::optional<NumberedHistory> longest = longest_history(record, constants, estimate);
   if (!longest) return estimate;
   const auto& [number, history] = *longest;
-  const double W = std::sqrt(constants.stiffness / constants.mass);
+  const double W = constants.natural_frequency();
   const double periods =
       static_cast<double>(history->x.size()) / history->sample_rate * W / (2.0 * std::numbers::pi);
   constexpr double fewest = 400.0;
