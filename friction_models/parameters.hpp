@@ -74,6 +74,9 @@ struct Range {
   [[nodiscard]] std::string describe(std::string_view unit) const;
 };
 
+inline constexpr Range positive = {.low = 0.0, .low_open = true};
+inline constexpr Range not_negative = {.low = 0.0};
+
 /// Seeds: whole numbers that a double and a JSON reader keep exactly.
 inline constexpr Range seed_range = {.low = 0.0, .high = 9007199254740991.0};
 

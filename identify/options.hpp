@@ -104,13 +104,13 @@ inline constexpr Option sigma_x_option{
     .name = "sigma_x",
     .kind = OptionKind::number,
     .unit = "m",
-    .range = {.low = 0.0},
+    .range = friction::not_negative,
     .otherwise = "from the data",
     .meaning = "known standard deviation of a measured output amplitude or extreme"};
 inline constexpr Option sigma_Y_option{.name = "sigma_Y",
                                        .kind = OptionKind::number,
                                        .unit = "m",
-                                       .range = {.low = 0.0},
+                                       .range = friction::not_negative,
                                        .otherwise = "from the data",
                                        .meaning = "known standard deviation of a measured input amplitude"};
 inline constexpr Option bootstrap_option{.name = "bootstrap",
@@ -125,7 +125,7 @@ inline constexpr Option cutoffs_option{
     .name = "cutoffs",
     .kind = OptionKind::numbers,
     .unit = "rad/s",
-    .range = {.low = 0.0, .low_open = true},
+    .range = friction::positive,
     .most_items = 16,
     .per_unit = 2.0 * std::numbers::pi,
     .otherwise = "from the sample rate and the motion",
@@ -136,7 +136,7 @@ inline constexpr Option least_speed_option{
     .name = "least_speed",
     .kind = OptionKind::number,
     .unit = "m/s",
-    .range = {.low = 0.0},
+    .range = friction::not_negative,
     .otherwise = "a share of the largest speed",
     .meaning = "samples slower than this are left out of the regression of friction on speed"};
 

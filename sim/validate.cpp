@@ -51,33 +51,33 @@ class Check {
   }
 
   void oscillator(const Oscillator& o) {
-    in(positive, "system.mass", o.mass, "kg");
-    in(positive, "system.stiffness", o.stiffness, "N/m", ": a motion needs a spring");
+    in(friction::positive, "system.mass", o.mass, "kg");
+    in(friction::positive, "system.stiffness", o.stiffness, "N/m", ": a motion needs a spring");
     in(any, "system.damping", o.damping, "N.s/m");
     in(any, "system.cubic_stiffness", o.cubic_stiffness, "N/m^3");
-    in(not_negative, "system.gravity_stiffness", o.gravity_stiffness, "N.m");
-    in(not_negative, "system.loss_factor", o.loss_factor, "1");
+    in(friction::not_negative, "system.gravity_stiffness", o.gravity_stiffness, "N.m");
+    in(friction::not_negative, "system.loss_factor", o.loss_factor, "1");
   }
 
   void excitation(const Excitation& e) {
     const std::string_view unit = e.moves_base() ? "m" : "N";
     if (e.is_harmonic()) {
-      in(not_negative, "excitation.amplitude", e.amplitude, unit);
-      in(positive, "excitation.frequency", e.frequency, "rad/s");
+      in(friction::not_negative, "excitation.amplitude", e.amplitude, unit);
+      in(friction::positive, "excitation.frequency", e.frequency, "rad/s");
       in(phases, "excitation.phase", e.phase, "rad");
       in(any, "excitation.offset", e.offset, "N");
       if (e.harmonics.size() > static_cast<std::size_t>(max_harmonics))
         problems_.push_back(too_many("excitation.harmonics", max_harmonics, e.harmonics.size()));
       for (const Harmonic& harmonic : e.harmonics) this->harmonic(harmonic, unit);
     } else if (e.is_noise()) {
-      in(not_negative, "excitation.intensity", e.noise.intensity, e.moves_base() ? "m^2.s" : "N^2.s");
-      in(positive, "excitation.bandwidth", e.noise.bandwidth, "rad/s");
+      in(friction::not_negative, "excitation.intensity", e.noise.intensity, e.moves_base() ? "m^2.s" : "N^2.s");
+      in(friction::positive, "excitation.bandwidth", e.noise.bandwidth, "rad/s");
     } else if (e.is_chirp()) {
-      in(not_negative, "excitation.amplitude", e.amplitude, unit);
+      in(friction::not_negative, "excitation.amplitude", e.amplitude, unit);
       in(phases, "excitation.phase", e.phase, "rad");
-      in(positive, "excitation.from", e.chirp.from, "rad/s");
-      in(positive, "excitation.to", e.chirp.to, "rad/s");
-      in(positive, "excitation.duration", e.chirp.duration, "s");
+      in(friction::positive, "excitation.from", e.chirp.from, "rad/s");
+      in(friction::positive, "excitation.to", e.chirp.to, "rad/s");
+      in(friction::positive, "excitation.duration", e.chirp.duration, "s");
     } else if (e.is_sampled()) {
       if (e.samples == nullptr) problems_.push_back({.message = "a sampled excitation has no samples"});
     } else if (e.is_ramp()) {
@@ -113,7 +113,7 @@ class Check {
 
   void harmonic(const Harmonic& harmonic, std::string_view unit) {
     in({.low = 2, .high = max_order}, "excitation.harmonics.order", harmonic.order, "");
-    in(not_negative, "excitation.harmonics.amplitude", harmonic.amplitude, unit);
+    in(friction::not_negative, "excitation.harmonics.amplitude", harmonic.amplitude, unit);
     in(phases, "excitation.harmonics.phase", harmonic.phase, "rad");
   }
 

@@ -31,8 +31,6 @@ const Model& valid(const Model&& model) = delete;
 const Model& valid_harmonic(const Model& model, std::string_view analysis);
 /// The same; the excitation must be `none`.
 const Model& valid_free(const Model& model, std::string_view analysis);
-inline constexpr friction::Range positive{.low = 0.0, .low_open = true};
-inline constexpr friction::Range not_negative{.low = 0.0};
 
 /// Throws if a value is out of range or not finite. `path`: its name in a scenario file.
 void require_in(const friction::Range& range, std::string_view path, double value, std::string_view unit);

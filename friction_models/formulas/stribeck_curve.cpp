@@ -20,12 +20,12 @@ std::vector<Parameter> StribeckCurve::parameters(const Range& kinetic) {
       {.name = "static",
        .unit = "N",
        .same_as = "kinetic",
-       .range = {.low = 0.0},
+       .range = not_negative,
        .at_least = "kinetic",
        .meaning = "friction level at rest"},
       {.name = "stribeck_velocity",
        .unit = "m/s",
-       .range = {.low = 0.0, .low_open = true},
+       .range = positive,
        .meaning = "speed over which the level falls from static to kinetic"},
   };
 }
@@ -35,7 +35,7 @@ std::vector<Parameter> StribeckCurve::shape_parameters() {
       {.name = "exponent",
        .unit = "1",
        .fallback = 2.0,
-       .range = {.low = 0.0, .low_open = true},
+       .range = positive,
        .meaning = "exponent of r in the form gaussian"},
       {.name = "form",
        .kind = ParameterKind::choice,

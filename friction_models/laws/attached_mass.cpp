@@ -8,16 +8,16 @@ const std::vector<Parameter>& AttachedMass::parameters() {
   static const std::vector<Parameter> table = {
       {.name = "mass",
        .unit = "kg",
-       .range = {.low = 0.0, .low_open = true},
+       .range = positive,
        .meaning = "attached mass, in addition to that of the oscillator"},
       {.name = "stiffness",
        .unit = "N/m",
-       .range = {.low = 0.0, .low_open = true},
+       .range = positive,
        .meaning = "stiffness of the spring between both masses"},
       {.name = "damping",
        .unit = "N.s/m",
        .fallback = 0.0,
-       .range = {.low = 0.0},
+       .range = not_negative,
        .meaning = "damper in parallel with that spring"},
   };
   return table;

@@ -10,12 +10,9 @@ const std::vector<Parameter>& BoucWen::parameters() {
   static const std::vector<Parameter> table = {
       {.name = "limit",
        .unit = "N",
-       .range = {.low = 0.0, .low_open = true},
+       .range = positive,
        .meaning = "force at which a spring of this stiffness yields"},
-      {.name = "stiffness",
-       .unit = "N/m",
-       .range = {.low = 0.0, .low_open = true},
-       .meaning = "stiffness before yielding"},
+      {.name = "stiffness", .unit = "N/m", .range = positive, .meaning = "stiffness before yielding"},
       {.name = "exponent", .unit = "1", .range = {.low = 1.0}, .meaning = "sharpness of yielding"},
       {.name = "ratio",
        .unit = "1",
@@ -25,7 +22,7 @@ const std::vector<Parameter>& BoucWen::parameters() {
       {.name = "beta_share",
        .unit = "1",
        .fallback = 0.5,
-       .range = {.low = 0.0},
+       .range = not_negative,
        .meaning = "beta/(beta + gamma), the share of |z|^exponent that changes its sign with v z"},
   };
   return table;

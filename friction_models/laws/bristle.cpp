@@ -18,14 +18,8 @@ constexpr double same_place = 1.0 - 1e-12;
 
 const std::vector<Parameter>& Bristle::parameters() {
   static const std::vector<Parameter> table = {
-      {.name = "stiffness",
-       .unit = "N/m",
-       .range = {.low = 0.0, .low_open = true},
-       .meaning = "stiffness of one bristle"},
-      {.name = "snap_distance",
-       .unit = "m",
-       .range = {.low = 0.0, .low_open = true},
-       .meaning = "stretch at which a bristle snaps"},
+      {.name = "stiffness", .unit = "N/m", .range = positive, .meaning = "stiffness of one bristle"},
+      {.name = "snap_distance", .unit = "m", .range = positive, .meaning = "stretch at which a bristle snaps"},
       {.name = "count",
        .kind = ParameterKind::count,
        .range = {.low = 1.0, .high = 10'000.0},

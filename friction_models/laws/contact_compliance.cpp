@@ -26,21 +26,21 @@ constexpr double rounded = 1e-13;
 
 const std::vector<Parameter>& ContactCompliance::parameters() {
   static const std::vector<Parameter> table = {
-      {.name = "kinetic", .unit = "N", .range = {.low = 0.0}, .meaning = "friction force while the slider slides"},
+      {.name = "kinetic", .unit = "N", .range = not_negative, .meaning = "friction force while the slider slides"},
       {.name = "static",
        .unit = "N",
        .same_as = "kinetic",
-       .range = {.low = 0.0},
+       .range = not_negative,
        .at_least = "kinetic",
        .meaning = "force at which the slider breaks away"},
       {.name = "contact_stiffness",
        .unit = "N/m",
-       .range = {.low = 0.0, .low_open = true},
+       .range = positive,
        .meaning = "stiffness of the contact before it slides"},
       {.name = "contact_damping",
        .unit = "N.s/m",
        .fallback = 0.0,
-       .range = {.low = 0.0},
+       .range = not_negative,
        .meaning = "damper in parallel with the contact spring"},
   };
   return table;

@@ -11,14 +11,8 @@ namespace dualdamp::friction {
 
 const std::vector<Parameter>& Dahl::parameters() {
   static const std::vector<Parameter> table = {
-      {.name = "kinetic",
-       .unit = "N",
-       .range = {.low = 0.0, .low_open = true},
-       .meaning = "friction force after a long slip"},
-      {.name = "sigma0",
-       .unit = "N/m",
-       .range = {.low = 0.0, .low_open = true},
-       .meaning = "stiffness of the bristles at F = 0"},
+      {.name = "kinetic", .unit = "N", .range = positive, .meaning = "friction force after a long slip"},
+      {.name = "sigma0", .unit = "N/m", .range = positive, .meaning = "stiffness of the bristles at F = 0"},
       {.name = "exponent",
        .unit = "1",
        .fallback = 1.0,

@@ -15,7 +15,7 @@ const std::vector<Parameter>& ElastoPlastic::parameters() {
     std::vector<Parameter> list = Lugre::parameters();
     list.push_back({.name = "elastic_limit",
                     .unit = "m",
-                    .range = {.low = 0.0, .low_open = true},
+                    .range = positive,
                     .meaning = "deflection up to which the bristles do not yield, < kinetic/sigma0"});
     return list;
   }();

@@ -10,17 +10,17 @@ const std::vector<Parameter>& FreePlay::parameters() {
   static const std::vector<Parameter> table = {
       {.name = "kinetic",
        .unit = "N",
-       .range = {.low = 0.0},
+       .range = not_negative,
        .meaning = "friction force of the element while it is pushed"},
       {.name = "static",
        .unit = "N",
        .same_as = "kinetic",
-       .range = {.low = 0.0},
+       .range = not_negative,
        .at_least = "kinetic",
        .meaning = "force at which the element breaks away"},
       {.name = "play",
        .unit = "m",
-       .range = {.low = 0.0, .low_open = true},
+       .range = positive,
        .meaning = "distance from one stop of the element to the other"},
   };
   return table;

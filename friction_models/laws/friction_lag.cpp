@@ -11,12 +11,10 @@ namespace dualdamp::friction {
 
 const std::vector<Parameter>& FrictionLag::parameters() {
   static const std::vector<Parameter> table = [] {
-    std::vector<Parameter> list = StribeckCurve::parameters({.low = 0.0});
+    std::vector<Parameter> list = StribeckCurve::parameters(not_negative);
     std::ranges::copy(StribeckCurve::shape_parameters(), std::back_inserter(list));
-    list.push_back({.name = "lag",
-                    .unit = "s",
-                    .range = {.low = 0.0, .low_open = true},
-                    .meaning = "time by which the friction lags the speed"});
+    list.push_back(
+        {.name = "lag", .unit = "s", .range = positive, .meaning = "time by which the friction lags the speed"});
     list.push_back({.name = "delay",
                     .kind = ParameterKind::flag,
                     .fallback = false,

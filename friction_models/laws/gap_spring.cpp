@@ -6,13 +6,10 @@ namespace dualdamp::friction {
 
 const std::vector<Parameter>& GapSpring::parameters() {
   static const std::vector<Parameter> table = {
-      {.name = "stiffness",
-       .unit = "N/m",
-       .range = {.low = 0.0, .low_open = true},
-       .meaning = "stiffness beyond the gap"},
+      {.name = "stiffness", .unit = "N/m", .range = positive, .meaning = "stiffness beyond the gap"},
       {.name = "gap",
        .unit = "m",
-       .range = {.low = 0.0},
+       .range = not_negative,
        .meaning = "distance from x = 0 to the spring, on either side"},
   };
   return table;

@@ -28,21 +28,20 @@ std::vector<GeneralizedMaxwellSlip::Element> elements_of(const ParameterValues& 
 
 const std::vector<Parameter>& GeneralizedMaxwellSlip::parameters() {
   static const std::vector<Parameter> table = [] {
-    std::vector<Parameter> list = StribeckCurve::parameters({.low = 0.0, .low_open = true});
-    list.insert(list.begin(), {.name = "elements",
-                               .kind = ParameterKind::list,
-                               .fields = {{.name = "stiffness",
-                                           .unit = "N/m",
-                                           .range = {.low = 0.0, .low_open = true},
-                                           .meaning = "stiffness of the spring"},
-                                          {.name = "share",
-                                           .unit = "1",
-                                           .range = {.low = 0.0, .high = 1.0, .low_open = true},
-                                           .meaning = "share of the level at which it slips"}},
-                               .meaning = "springs that slip, in any order; their shares add to 1"});
+    std::vector<Parameter> list = StribeckCurve::parameters(positive);
+    list.insert(
+        list.begin(),
+        {.name = "elements",
+         .kind = ParameterKind::list,
+         .fields = {{.name = "stiffness", .unit = "N/m", .range = positive, .meaning = "stiffness of the spring"},
+                    {.name = "share",
+                     .unit = "1",
+                     .range = {.low = 0.0, .high = 1.0, .low_open = true},
+                     .meaning = "share of the level at which it slips"}},
+         .meaning = "springs that slip, in any order; their shares add to 1"});
     list.push_back({.name = "attraction",
                     .unit = "N/s",
-                    .range = {.low = 0.0, .low_open = true},
+                    .range = positive,
                     .meaning = "rate at which slipping elements approach the friction level"});
     return list;
   }();

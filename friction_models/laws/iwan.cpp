@@ -59,14 +59,10 @@ void pop(Memory& memory) {
 }  // namespace
 
 const std::vector<Parameter>& Iwan::parameters() {
-  const Parameter stiffness{.name = "stiffness",
-                            .unit = "N/m",
-                            .range = {.low = 0.0, .low_open = true},
-                            .meaning = "stiffness of the spring"};
-  const Parameter limit{.name = "limit",
-                        .unit = "N",
-                        .range = {.low = 0.0, .low_open = true},
-                        .meaning = "force at which the slider slides"};
+  const Parameter stiffness{
+      .name = "stiffness", .unit = "N/m", .range = positive, .meaning = "stiffness of the spring"};
+  const Parameter limit{
+      .name = "limit", .unit = "N", .range = positive, .meaning = "force at which the slider slides"};
   Parameter total_stiffness = stiffness;
   total_stiffness.instead_of = "elements";
   total_stiffness.meaning = "stiffness of all springs together";

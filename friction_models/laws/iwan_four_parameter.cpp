@@ -10,11 +10,11 @@ const std::vector<Parameter>& IwanFourParameter::parameters() {
   static const std::vector<Parameter> table = {
       {.name = "stiffness",
        .unit = "N/m",
-       .range = {.low = 0.0, .low_open = true},
+       .range = positive,
        .meaning = "stiffness of the joint before anything slides, K_T"},
       {.name = "limit",
        .unit = "N",
-       .range = {.low = 0.0, .low_open = true},
+       .range = positive,
        .meaning = "force at which everything slides (macroslip), F_S"},
       {.name = "exponent",
        .unit = "1",

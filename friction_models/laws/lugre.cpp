@@ -9,15 +9,12 @@ namespace dualdamp::friction {
 
 const std::vector<Parameter>& Lugre::parameters() {
   static const std::vector<Parameter> table = [] {
-    std::vector<Parameter> list = StribeckCurve::parameters({.low = 0.0, .low_open = true});
-    list.push_back({.name = "sigma0",
-                    .unit = "N/m",
-                    .range = {.low = 0.0, .low_open = true},
-                    .meaning = "stiffness of the bristles"});
+    std::vector<Parameter> list = StribeckCurve::parameters(positive);
+    list.push_back({.name = "sigma0", .unit = "N/m", .range = positive, .meaning = "stiffness of the bristles"});
     list.push_back(
-        {.name = "sigma1", .unit = "N.s/m", .range = {.low = 0.0}, .meaning = "damping of the bristles"});
+        {.name = "sigma1", .unit = "N.s/m", .range = not_negative, .meaning = "damping of the bristles"});
     list.push_back(
-        {.name = "sigma2", .unit = "N.s/m", .fallback = 0.0, .range = {.low = 0.0}, .meaning = "viscous friction"});
+        {.name = "sigma2", .unit = "N.s/m", .fallback = 0.0, .range = not_negative, .meaning = "viscous friction"});
     return list;
   }();
   return table;

@@ -10,8 +10,6 @@
 namespace dualdamp::friction {
 
 const std::vector<Parameter>& NormalVibration::parameters() {
-  constexpr Range positive = {.low = 0.0, .low_open = true};
-  constexpr Range not_negative = {.low = 0.0};
   static const std::vector<Parameter> table = {
       {.name = "mu", .unit = "1", .range = not_negative, .meaning = "coefficient of friction while slipping"},
       {.name = "mu_static",

@@ -28,11 +28,10 @@ double entropy(double r) { return r == 0.0 ? 0.0 : r * std::log(std::abs(r)); }
 }  // namespace
 
 const std::vector<Parameter>& RateState::parameters() {
-  constexpr Range positive = {.low = 0.0, .low_open = true};
   static const std::vector<Parameter> table = {
       {.name = "normal_force",
        .unit = "N",
-       .range = {.low = 0.0},
+       .range = not_negative,
        .meaning = "force that presses the faces together"},
       {.name = "mu0",
        .unit = "1",
@@ -41,7 +40,7 @@ const std::vector<Parameter>& RateState::parameters() {
       {.name = "a", .unit = "1", .range = positive, .meaning = "direct effect: immediate rise with ln of speed"},
       {.name = "b",
        .unit = "1",
-       .range = {.low = 0.0},
+       .range = not_negative,
        .meaning = "evolution effect: fall with ln of speed, over the slip distance"},
       {.name = "slip_distance", .unit = "m", .range = positive, .meaning = "slip over which contacts are renewed"},
       {.name = "reference_velocity", .unit = "m/s", .range = positive, .meaning = "speed to which mu0 refers"},

@@ -11,20 +11,20 @@ namespace dualdamp::friction {
 
 const std::vector<Parameter>& ResetIntegrator::parameters() {
   static const std::vector<Parameter> table = {
-      {.name = "kinetic", .unit = "N", .range = {.low = 0.0}, .meaning = "friction force while slipping"},
+      {.name = "kinetic", .unit = "N", .range = not_negative, .meaning = "friction force while slipping"},
       {.name = "stiffness",
        .unit = "N/m",
-       .range = {.low = 0.0, .low_open = true},
+       .range = positive,
        .meaning = "stiffness of the bond without its static gain"},
       {.name = "static_gain",
        .unit = "1",
        .fallback = 0.0,
-       .range = {.low = 0.0},
+       .range = not_negative,
        .meaning = "the bond breaks at (1 + static_gain) kinetic"},
       {.name = "damping",
        .unit = "N.s/m",
        .fallback = 0.0,
-       .range = {.low = 0.0},
+       .range = not_negative,
        .meaning = "damper that acts in stick only"},
   };
   return table;

@@ -11,7 +11,7 @@ namespace dualdamp::friction {
 
 const std::vector<Parameter>& Stribeck::parameters() {
   static const std::vector<Parameter> table = [] {
-    std::vector<Parameter> list = StribeckCurve::parameters({.low = 0.0});
+    std::vector<Parameter> list = StribeckCurve::parameters(not_negative);
     std::ranges::copy(StribeckCurve::shape_parameters(), std::back_inserter(list));
     return list;
   }();

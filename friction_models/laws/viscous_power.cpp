@@ -7,15 +7,15 @@ namespace dualdamp::friction {
 
 const std::vector<Parameter>& ViscousPower::parameters() {
   static const std::vector<Parameter> table = {
-      {.name = "coefficient", .unit = "N", .range = {.low = 0.0}, .meaning = "force at the reference velocity"},
+      {.name = "coefficient", .unit = "N", .range = not_negative, .meaning = "force at the reference velocity"},
       {.name = "reference_velocity",
        .unit = "m/s",
        .fallback = 1.0,
-       .range = {.low = 0.0, .low_open = true},
+       .range = positive,
        .meaning = "speed at which the force equals the coefficient"},
       {.name = "exponent",
        .unit = "1",
-       .range = {.low = 0.0, .low_open = true},
+       .range = positive,
        .meaning = "exponent of the speed: 1 for a dashpot, 2 for drag"},
   };
   return table;

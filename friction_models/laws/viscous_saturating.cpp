@@ -7,10 +7,10 @@ namespace dualdamp::friction {
 
 const std::vector<Parameter>& ViscousSaturating::parameters() {
   static const std::vector<Parameter> table = {
-      {.name = "coefficient", .unit = "N.s/m", .range = {.low = 0.0}, .meaning = "viscous friction at low speed"},
+      {.name = "coefficient", .unit = "N.s/m", .range = not_negative, .meaning = "viscous friction at low speed"},
       {.name = "saturation_velocity",
        .unit = "m/s",
-       .range = {.low = 0.0, .low_open = true},
+       .range = positive,
        .meaning = "speed at which the force is half of its largest value"},
   };
   return table;

@@ -17,8 +17,6 @@ using friction::Parameter;
 using friction::ParameterKind;
 using friction::ParameterValues;
 
-constexpr friction::Range positive{.low = 0.0, .low_open = true};
-
 /// The number at `path` of the values. A missing number on the last level is created; nullptr if a record or an
 /// item on the way is missing.
 double* number_at(ParameterValues& values, std::string_view path) {
@@ -93,13 +91,14 @@ struct SystemNumber {
 };
 
 const std::vector<SystemNumber>& system_numbers() {
-  static const std::vector<SystemNumber> list = {{"mass", "kg", Owner::mass, positive},
-                                                 {"stiffness", "N/m", Owner::stiffness, positive},
-                                                 {"cubic_stiffness", "N/m^3", Owner::cubic_stiffness, {}},
-                                                 {"damping", "N.s/m", Owner::damping, {.low = 0.0}},
-                                                 {"damping_ratio", "1", Owner::damping_ratio, {.low = 0.0}},
-                                                 {"phase", "rad", Owner::phase, {}},
-                                                 {"force_offset", "N", Owner::force_offset, {}}};
+  static const std::vector<SystemNumber> list = {
+      {"mass", "kg", Owner::mass, friction::positive},
+      {"stiffness", "N/m", Owner::stiffness, friction::positive},
+      {"cubic_stiffness", "N/m^3", Owner::cubic_stiffness, {}},
+      {"damping", "N.s/m", Owner::damping, friction::not_negative},
+      {"damping_ratio", "1", Owner::damping_ratio, friction::not_negative},
+      {"phase", "rad", Owner::phase, {}},
+      {"force_offset", "N", Owner::force_offset, {}}};
   return list;
 }
 

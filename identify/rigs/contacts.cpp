@@ -193,7 +193,7 @@ std::vector<Rig> bristles() {
                       {.name = "static_gain",
                        .unit = "1",
                        .meaning = "the bond breaks at (1 + static_gain) F0",
-                       .range = {.low = 0.0}}},
+                       .range = not_negative}},
        .build = reset_integrator,
        .severity = "stretch F0/stiffness at which the bond breaks over the amplitude X, and its static gain",
        .largest = 1.0,

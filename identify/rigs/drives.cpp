@@ -112,7 +112,7 @@ std::vector<Rig> drives() {
        .parameters = {{.name = "third_harmonic",
                        .unit = "m",
                        .meaning = "its amplitude, the same at all inputs",
-                       .range = {.low = 0.0}}},
+                       .range = not_negative}},
        .build = base_distortion,
        .severity = "third harmonic of the base over its fundamental in the middle of the range",
        .largest = 1.0,

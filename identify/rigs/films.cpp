@@ -56,7 +56,7 @@ std::vector<Rig> film_rigs() {
            .parameters = {{.name = "drag",
                            .unit = "N.s^2/m^2",
                            .meaning = "force over the square of speed",
-                           .range = {.low = 0.0},
+                           .range = not_negative,
                            .start = 0.1,
                            .low = 1e-5,
                            .high = 3.0}},

@@ -50,12 +50,14 @@ using RigValues = std::span<const double>;
 /// Speed over which friction falls in several departures: a tenth of the peak speed.
 [[nodiscard]] inline double tenth_of_speed(const RigBase& base) { return 0.1 * base.reference.speed(); }
 
+using friction::not_negative;
+using friction::positive;
+
 /// Parameters that several rigs have.
-inline constexpr friction::Range positive = {.low = 0.0, .low_open = true};
 inline constexpr RigParameter excess_parameter = {.name = "excess",
                                                   .unit = "1",
                                                   .meaning = "excess of static friction over F0, relative to F0",
-                                                  .range = {.low = 0.0},
+                                                  .range = not_negative,
                                                   .start = 0.3,
                                                   .low = 1e-4,
                                                   .high = 3.0};

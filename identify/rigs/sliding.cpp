@@ -131,7 +131,7 @@ std::vector<Rig> by_speed() {
       {.name = "normal_vibration",
        .meaning = "speed lifts the rider off the way, and friction falls with its load",
        .parameters =
-           {{.name = "lift", .unit = "N.s/m", .meaning = "lift per speed at low speed", .range = {.low = 0.0}}},
+           {{.name = "lift", .unit = "N.s/m", .meaning = "lift per speed at low speed", .range = not_negative}},
        .build = normal_vibration,
        .severity = "lift at high speed over the weight; half of it at the peak speed",
        .largest = 1.0,
@@ -194,7 +194,7 @@ std::vector<Rig> by_place() {
        .parameters = {{.name = "ratio",
                        .unit = "1",
                        .meaning = "standard deviation of the force over F0",
-                       .range = {.low = 0.0}},
+                       .range = not_negative},
                       {.name = "correlation_length",
                        .unit = "m",
                        .meaning = "distance over which the force changes",

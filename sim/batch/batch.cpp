@@ -248,15 +248,15 @@ void check(const OscillatorBatch& batch) {
   for (const std::vector<double>* column :
        {&batch.damping, &batch.stiffness, &batch.kinetic, &batch.static_level, &batch.amplitude, &batch.frequency})
     require(column->size() == batch.size(), "the columns of a batch differ in length", "one value for each mass");
-  require_in(positive, "system.mass", batch.mass, "kg");
-  require_in(positive, "system.stiffness", batch.stiffness, "N/m");
+  require_in(friction::positive, "system.mass", batch.mass, "kg");
+  require_in(friction::positive, "system.stiffness", batch.stiffness, "N/m");
   require_in({}, "system.damping", batch.damping, "N.s/m");
-  require_in(not_negative, "system.friction.kinetic", batch.kinetic, "N");
+  require_in(friction::not_negative, "system.friction.kinetic", batch.kinetic, "N");
   for (std::size_t i = 0; i < batch.size(); ++i)
     require_in({.low = batch.kinetic[i]}, "system.friction.static", batch.static_level[i], "N");
-  require_in(not_negative, "excitation.amplitude", batch.amplitude,
+  require_in(friction::not_negative, "excitation.amplitude", batch.amplitude,
              batch.type == ExcitationType::base_harmonic ? "m" : "N");
-  require_in(positive, "excitation.frequency", batch.frequency, "rad/s");
+  require_in(friction::positive, "excitation.frequency", batch.frequency, "rad/s");
 }
 
 /// Whether the form does not depend on the motion.

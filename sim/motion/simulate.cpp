@@ -10,8 +10,8 @@
 namespace dualdamp::sim {
 
 History simulate(const Model& model, const SimulateOptions& options) {
-  require_in(not_negative, "analysis.duration", options.duration, "s");
-  require_in(not_negative, "analysis.sample_rate", options.sample_rate, "Hz");
+  require_in(friction::not_negative, "analysis.duration", options.duration, "s");
+  require_in(friction::not_negative, "analysis.sample_rate", options.sample_rate, "Hz");
   History history;
   const std::unique_ptr<Engine> owned = make_engine(model);
   Engine& engine = *owned;

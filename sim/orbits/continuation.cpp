@@ -298,8 +298,8 @@ std::string_view name(BranchEnd end) {
 
 Branch continue_branch(const Model& model, BranchParameter parameter, double from, double to,
                        const BranchOptions& options) {
-  require_in(positive, "analysis.from", from, "");
-  require_in(positive, "analysis.to", to, "");
+  require_in(friction::positive, "analysis.from", from, "");
+  require_in(friction::positive, "analysis.to", to, "");
   Continuation continuation(model, parameter, from, to, options);
   Branch branch = continuation.run();
   branch.certificate = continuation.count();

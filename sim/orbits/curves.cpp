@@ -63,8 +63,8 @@ Curve computed(const Model& model, std::vector<CurvePoint> points, const SteadyS
 /// Checks the model, and the frequencies and amplitudes that replace those of its excitation.
 void check(Model model, std::span<const double> frequencies, std::span<const double> amplitudes,
            std::string_view analysis) {
-  require_in(positive, "analysis.frequencies", frequencies, "rad/s");
-  require_in(not_negative, "analysis.amplitudes", amplitudes, model.excitation.moves_base() ? "m" : "N");
+  require_in(friction::positive, "analysis.frequencies", frequencies, "rad/s");
+  require_in(friction::not_negative, "analysis.amplitudes", amplitudes, model.excitation.moves_base() ? "m" : "N");
   if (!frequencies.empty()) model.excitation.frequency = frequencies.front();
   if (!amplitudes.empty()) model.excitation.amplitude = amplitudes.front();
   valid_harmonic(model, analysis);

@@ -44,7 +44,7 @@ std::vector<double> stepped(std::vector<double> levels, Stepping stepping) {
 
 Curve stepped_xy_curve(const Model& model, const std::vector<double>& amplitudes, Stepping stepping,
                        const SteadyStateOptions& options) {
-  require_in(not_negative, "analysis.amplitudes", amplitudes, model.excitation.moves_base() ? "m" : "N");
+  require_in(friction::not_negative, "analysis.amplitudes", amplitudes, model.excitation.moves_base() ? "m" : "N");
   std::vector<CurvePoint> points;
   for (const double Y : stepped(amplitudes, stepping))
     points.push_back({.omega = model.excitation.frequency, .Y = Y});
@@ -55,7 +55,7 @@ Curve stepped_xy_curve(const Model& model, const std::vector<double>& amplitudes
 
 Curve stepped_frequency_response(const Model& model, const std::vector<double>& frequencies, Stepping stepping,
                                  const SteadyStateOptions& options) {
-  require_in(positive, "analysis.frequencies", frequencies, "rad/s");
+  require_in(friction::positive, "analysis.frequencies", frequencies, "rad/s");
   std::vector<CurvePoint> points;
   for (const double omega : stepped(frequencies, stepping))
     points.push_back({.omega = omega, .Y = model.excitation.amplitude});

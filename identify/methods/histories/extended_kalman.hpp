@@ -22,7 +22,7 @@ inline constexpr Option sign_width_option{
     .name = "sign_width",
     .kind = OptionKind::number,
     .unit = "m/s",
-    .range = {.low = 0.0, .low_open = true},
+    .range = friction::positive,
     .otherwise = "0.003 of the largest speed",
     .meaning = "width of the smoothed sign of the velocity in extended_kalman"};
 
