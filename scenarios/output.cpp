@@ -176,6 +176,13 @@ void write_result(std::ostream& out, const RunResult& result, const std::string&
   });
 }
 
+std::string csv_value(const Column& column, std::size_t row) {
+  if (column.kind == CellKind::text) return csv_field(column.text(row));
+  return csv_field(column.numbers[row]);
+}
+
+}  // namespace
+
 std::string csv_field(const std::string& text) {
   if (text.find_first_of(",\"\n#") == std::string::npos) return text;
   std::string field = "\"";
@@ -183,13 +190,7 @@ std::string csv_field(const std::string& text) {
   return field + "\"";
 }
 
-std::string csv_value(const Column& column, std::size_t row) {
-  if (column.kind == CellKind::text) return csv_field(column.text(row));
-  const double value = column.numbers[row];
-  return std::isfinite(value) ? core::format_number(value) : "";
-}
-
-}  // namespace
+std::string csv_field(double value) { return std::isfinite(value) ? core::format_number(value) : std::string(); }
 
 Writer json_document(std::shared_ptr<const Scenario> scenario, std::shared_ptr<const RunResult> result,
                      std::vector<OutputFile> tables) {

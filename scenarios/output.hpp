@@ -8,6 +8,7 @@
 
 #include <iosfwd>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "scenarios/results/files.hpp"
@@ -25,6 +26,10 @@ namespace dualdamp::scenarios {
 
 /// The document of a scenario that was only checked.
 [[nodiscard]] Writer json_checked(const Scenario& scenario);
+
+/// A field of a CSV file: the text, quoted if its characters ask for it, or the number, empty if there is none.
+[[nodiscard]] std::string csv_field(const std::string& text);
+[[nodiscard]] std::string csv_field(double value);
 
 void write_csv(std::ostream& out, const Table& table, const core::Provenance& provenance);
 

@@ -19,7 +19,9 @@
 #include "core/numbers.hpp"
 #include "core/units.hpp"
 #include "core/utf8.hpp"
+#include "scenarios/format/json.hpp"
 #include "scenarios/format/si_units.hpp"
+#include "scenarios/output.hpp"
 #include "scenarios/scenario_format.hpp"
 
 namespace dualdamp::cli {
@@ -123,38 +125,24 @@ class Comparison {
     const core::BuildInfo build = core::build_info();
     out << "# program: dualdamp " << build.version << "\n# commit: " << build.commit << "\n";
     for (const Compared& one : compared_) out << "# result: " << one.directory << " " << one.sha256 << "\n";
+    using scenarios::csv_field;
     const auto heading = [](const ChartAxis& axis) {
-      return field(axis.unit.empty() ? axis.label : axis.label + " [" + axis.unit + "]");
+      return csv_field(axis.unit.empty() ? axis.label : axis.label + " [" + axis.unit + "]");
     };
     out << "result," << heading(numbers_.x) << "," << heading(numbers_.y) << "\n";
-    const auto number = [](double value) {
-      return std::isfinite(value) ? core::format_number(value) : std::string();
-    };
     for (const ChartSeries& series : numbers_.series)
       for (std::size_t i = 0; i < series.x.size(); ++i)
-        out << field(series.label) << "," << number(series.x[i]) << "," << number(series.y[i]) << "\n";
+        out << csv_field(series.label) << "," << csv_field(series.x[i]) << "," << csv_field(series.y[i]) << "\n";
   }
 
  private:
-  static std::string field(const std::string& text) {
-    if (text.find_first_of(",\"\n#") == std::string::npos) return text;
-    std::string quoted = "\"";
-    for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
-    return quoted + "\"";
-  }
-
   static Json series_json(const ChartSeries& series) {
-    const auto list = [](const std::vector<double>& numbers) {
-      Json json = Json::array();
-      for (const double value : numbers) json.push_back(std::isfinite(value) ? Json(value) : Json(nullptr));
-      return json;
-    };
     const char* kind = series.kind == SeriesKind::points   ? "points"
                        : series.kind == SeriesKind::dashed ? "dashed"
                                                            : "line";
     return {{"label", series.label},
-            {"x", list(series.x)},
-            {"y", list(series.y)},
+            {"x", scenarios::finite_or_null(series.x)},
+            {"y", scenarios::finite_or_null(series.y)},
             {"kind", kind},
             {"colour", series.colour}};
   }
