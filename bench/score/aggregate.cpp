@@ -68,26 +68,10 @@ std::vector<MetricMeans> group_means(const Plan& plan, const Weights& weights, s
   return means;
 }
 
-/// Weighted means of metrics.
-class MeanMetrics {
- public:
-  void add(double weight, const Metrics& metrics) {
-    for (std::size_t i = 0; i < metric_count; ++i) means_[i].add(weight, metrics.values[i]);
-  }
-  [[nodiscard]] Metrics value() const {
-    Metrics metrics;
-    for (std::size_t i = 0; i < metric_count; ++i) metrics.values[i] = means_[i].value();
-    return metrics;
-  }
-
- private:
-  std::array<Mean, metric_count> means_;
-};
-
 /// The means over the departures of each family. `laws`: of the departures, then perhaps of the truth.
 std::map<Family, Metrics> over_laws(const Plan& plan, const Weights& weights, const std::vector<Metrics>& laws) {
   const std::vector<Departure>& departures = plan.grid().question().departures;
-  std::map<Family, MeanMetrics> means;
+  std::map<Family, MetricMeans> means;
   for (std::size_t law = 0; law < laws.size(); ++law)
     if (weights.laws[law] > 0.0)
       means[law < departures.size() ? departures[law].family() : Family::none].add(weights.laws[law], laws[law]);
@@ -97,7 +81,7 @@ std::map<Family, Metrics> over_laws(const Plan& plan, const Weights& weights, co
 }
 
 Metrics over_families(const std::map<Family, Metrics>& families) {
-  MeanMetrics all;
+  MetricMeans all;
   for (const auto& [family, metrics] : families) all.add(1.0, metrics);
   return all.value();
 }
@@ -162,13 +146,13 @@ Aggregate aggregate_of(const Plan& plan, const Weights& weights, std::size_t ent
   std::vector<MetricMeans> cells(plan.grid().cells());
   for (std::size_t group = 0; group < groups.size(); ++group) cells[plan.groups()[group].cell].add(groups[group]);
   Aggregate result;
-  std::vector<MeanMetrics> means(weights.laws.size());
+  std::vector<MetricMeans> means(weights.laws.size());
   for (std::size_t cell = 0; cell < cells.size(); ++cell) {
     result.cells.push_back(cells[cell].value());
     means[plan.law_of(cell)].add(1.0, result.cells.back());
   }
   std::vector<Metrics> laws;
-  for (const MeanMetrics& mean : means) laws.push_back(mean.value());
+  for (const MetricMeans& mean : means) laws.push_back(mean.value());
   result.families = over_laws(plan, weights, laws);
   result.all = over_families(result.families);
   add_areas(plan, weights, entrant, result);

@@ -10,22 +10,42 @@
 
 namespace dualdamp::bench {
 
-/// In the order of their columns.
+/// In the order of their columns; `metric_list` says what they are.
 enum class Metric : std::size_t {
-  coverage_zeta,        ///< share of 95 % intervals that hold the truth
-  coverage_F0,          ///< likewise
-  interval_score_zeta,  ///< mean interval score, relative to the truth; smaller is better
-  interval_score_F0,    ///< likewise
-  power,                ///< share of cases with a departure that the method rejects
-  attainable_power,     ///< power of the best test that knows the departure
-  false_alarm,          ///< share of cases without a departure that the method rejects
-  prediction_error,     ///< mean relative error of predicted amplitudes (prediction.hpp)
-  selective_risk_area,  ///< mean loss over the coverage, the cases in the order of the method's own confidence
+  coverage_zeta,
+  coverage_F0,
+  interval_score_zeta,
+  interval_score_F0,
+  power,
+  attainable_power,
+  false_alarm,
+  prediction_error,  ///< prediction.hpp
+  selective_risk_area,
 };
-inline constexpr std::size_t metric_count = 9;
-inline constexpr std::array<std::string_view, metric_count> metric_names = {
-    "coverage_zeta",    "coverage_F0", "interval_score_zeta", "interval_score_F0",  "power",
-    "attainable_power", "false_alarm", "prediction_error",    "selective_risk_area"};
+
+struct MetricText {
+  std::string_view name;  ///< of its columns and fields
+  std::string_view meaning;
+};
+
+inline constexpr auto metric_list = std::to_array<MetricText>(
+    {{"coverage_zeta", "share of 95 % intervals that hold the true zeta"},
+     {"coverage_F0", "share of 95 % intervals that hold the true F0"},
+     {"interval_score_zeta", "mean interval score of zeta over the truth; smaller is better"},
+     {"interval_score_F0", "mean interval score of F0 over the truth; smaller is better"},
+     {"power", "share of cases with a departure that the method rejects"},
+     {"attainable_power", "power of the best test that knows the departure"},
+     {"false_alarm", "share of cases without a departure that the method rejects"},
+     {"prediction_error",
+      "mean relative error of the amplitudes that the estimate predicts for tests that were not made"},
+     {"selective_risk_area",
+      "mean loss of the cases of highest confidence, averaged over their share from 0 to 1"}});
+inline constexpr std::size_t metric_count = metric_list.size();
+static_assert(metric_count == static_cast<std::size_t>(Metric::selective_risk_area) + 1);
+
+[[nodiscard]] constexpr std::string_view name_of(Metric metric) {
+  return metric_list.at(static_cast<std::size_t>(metric)).name;
+}
 
 /// The values of all metrics; NaN: does not exist.
 struct Metrics {
@@ -89,7 +109,7 @@ class Mean {
   double weight_ = 0.0, sum_ = 0.0;
 };
 
-/// Weighted means over cases of all metrics but the area of risk.
+/// Weighted means of all metrics: over cases, which have no area of risk of their own, or over groups of cases.
 class MetricMeans {
  public:
   /// A case of the truth counts for the false alarms, a case of a departure for the power.
@@ -99,6 +119,9 @@ class MetricMeans {
     mean(is_truth ? Metric::false_alarm : Metric::power).add(weight, mark.rejected ? 1.0 : 0.0);
     mean(Metric::prediction_error).add(weight, static_cast<double>(mark.prediction_error));
     if (!is_truth) mean(Metric::attainable_power).add(weight, attainable_power);
+  }
+  void add(double weight, const Metrics& metrics) {
+    for (std::size_t i = 0; i < metric_count; ++i) means_[i].add(weight, metrics.values[i]);
   }
   void add(const MetricMeans& other) {
     for (std::size_t i = 0; i < metric_count; ++i) means_[i].add(other.means_[i]);

@@ -15,7 +15,7 @@ using scenarios::text_column;
 template <typename Item>
 void add_metrics(Table& table, const std::vector<Item>& list) {
   for (std::size_t i = 0; i < metric_count; ++i) {
-    const std::string name(metric_names.at(i));
+    const std::string name(metric_list.at(i).name);
     table.columns.push_back(column(name, "", list, [i](const Item& item) { return item.value.values.at(i); }));
     table.columns.push_back(column(name + "_se", "", list, [i](const Item& item) { return item.se.values.at(i); }));
   }
@@ -150,8 +150,8 @@ Table short_ranking(const Scores& scores, const Grid& grid) {
                column("interval_score_se", "", list, &Rank::interval_score_se)}};
   for (const Metric metric : {Metric::coverage_zeta, Metric::coverage_F0, Metric::power, Metric::attainable_power,
                               Metric::false_alarm, Metric::prediction_error})
-    table.columns.push_back(column(std::string(metric_names.at(static_cast<std::size_t>(metric))), "", list,
-                                   [metric](const Rank& r) { return r.value[metric]; }));
+    table.columns.push_back(
+        column(std::string(name_of(metric)), "", list, [metric](const Rank& r) { return r.value[metric]; }));
   table.is_file = false;
   return table;
 }
@@ -172,19 +172,9 @@ Json summary(const MarkedCases& cases, const Grid& grid) {
 
 /// The fields of a metric and its standard error in a list of the result.
 void add_metric_fields(std::vector<scenarios::ResultField>& fields, const std::string& list) {
-  static constexpr std::array<const char*, metric_count> meanings = {
-      "share of 95 % intervals that hold the true zeta",
-      "share of 95 % intervals that hold the true F0",
-      "mean interval score of zeta over the truth; smaller is better",
-      "mean interval score of F0 over the truth; smaller is better",
-      "share of cases with a departure that the method rejects",
-      "power of the best test that knows the departure",
-      "share of cases without a departure that the method rejects",
-      "mean relative error of the amplitudes that the estimate predicts for tests that were not made",
-      "mean loss of the cases of highest confidence, averaged over their share from 0 to 1"};
-  for (std::size_t i = 0; i < metric_count; ++i) {
-    const std::string path = list + "[]." + std::string(metric_names.at(i));
-    fields.push_back({path, "1", meanings.at(i)});
+  for (const MetricText& metric : metric_list) {
+    const std::string path = list + "[]." + std::string(metric.name);
+    fields.push_back({path, "1", std::string(metric.meaning)});
     fields.push_back({path + "_se", "1", "its standard error"});
   }
 }
