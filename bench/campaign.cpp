@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <chrono>
 #include <thread>
-#include <vector>
 
 #include "bench/case.hpp"
 #include "bench/grid.hpp"

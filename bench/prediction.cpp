@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include "identify/statistics/median.hpp"
 #include "sim/analytic/den_hartog.hpp"

@@ -1,7 +1,5 @@
 #include "cli/stress.hpp"
 
-#include <utility>
-
 #include "bench/analyses.hpp"
 #include "bench/contest/contest.hpp"
 #include "bench/contest/export.hpp"

@@ -2,7 +2,6 @@
 /// The commands `stress export` and `stress score`.
 
 #include <string>
-#include <vector>
 
 #include "cli/arguments.hpp"
 #include "scenarios/scenario.hpp"

@@ -5,7 +5,6 @@
 #include <limits>
 #include <string_view>
 #include <utility>
-#include <vector>
 
 namespace dualdamp::scenarios {
 

@@ -6,7 +6,6 @@
 /// Cost: about 20 ns for a valid model, no allocation.
 
 #include <span>
-#include <string>
 #include <string_view>
 #include <vector>
 

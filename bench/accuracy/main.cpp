@@ -3,10 +3,8 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <cstdlib>
 #include <ctime>
 #include <span>
-#include <string_view>
 
 #include "bench/accuracy/accuracy.hpp"
 #include "identify/methods.hpp"

@@ -3,9 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <numeric>
-#include <optional>
 #include <ostream>
 #include <sstream>
 #include <string_view>

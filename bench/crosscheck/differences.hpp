@@ -6,7 +6,6 @@
 /// data by 1e-10 on the motion (`Sensitivity`). Two computations may differ by a tolerance plus a hundred times
 /// this effect. Once the sum exceeds a thousandth of the motion nothing more is compared: a named exception.
 
-#include <optional>
 #include <string>
 #include <vector>
 

@@ -4,7 +4,6 @@
 
 #include <map>
 #include <string>
-#include <vector>
 
 #include "bench/crosscheck/case.hpp"
 #include "bench/crosscheck/children.hpp"

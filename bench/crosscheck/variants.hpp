@@ -2,8 +2,6 @@
 /// Variants of a scenario whose motion follows from that of the first: in other units, mirrored, or slightly
 /// changed.
 
-#include <cstddef>
-
 #include "bench/crosscheck/draws.hpp"
 #include "scenarios/format/json.hpp"
 

@@ -1,7 +1,6 @@
 #pragma once
 /// The data of a motion for a comparison: its events, equally spaced samples, its energy account.
 
-#include <string>
 #include <vector>
 
 #include "core/outcome.hpp"

@@ -5,10 +5,8 @@
 /// cells, and to the intervals of distance and harm; both are averaged within departures, within families, and over
 /// families.
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <map>
 #include <vector>
 

@@ -1,6 +1,5 @@
 #include "bench/speed/fits.hpp"
 
-#include <cmath>
 #include <ctime>
 #include <filesystem>
 #include <fstream>

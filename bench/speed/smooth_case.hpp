@@ -6,7 +6,6 @@
 /// Every contender starts on the periodic orbit, which is symmetric: each turning point lies at the same distance X
 /// from zero. The error of a contender is the largest departure from X over X.
 
-#include <cmath>
 #include <span>
 #include <string>
 #include <vector>

@@ -1,7 +1,6 @@
 #include "cli/report/comparison.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <memory>
 #include <optional>

@@ -7,7 +7,6 @@
 /// Close to a known zero at s = 0 the derivatives come from the Taylor series, which has that zero exactly.
 
 #include <array>
-#include <cmath>
 #include <limits>
 
 #include "core/crossing/guard.hpp"

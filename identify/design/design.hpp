@@ -15,7 +15,6 @@
 ///
 /// Cost: readings of each allowed law at its severities within reach, and their slopes; some seconds a candidate.
 
-#include <array>
 #include <string>
 #include <variant>
 #include <vector>

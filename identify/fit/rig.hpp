@@ -13,7 +13,6 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstddef>
-#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>

@@ -2,7 +2,6 @@
 /// Describes in words the parameters that the data of a fit cannot separate.
 
 #include <Eigen/Core>
-#include <string>
 #include <vector>
 
 #include "identify/fit/fit.hpp"

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <utility>
 
 #include "core/constants.hpp"
 #include "identify/fit/freedom.hpp"

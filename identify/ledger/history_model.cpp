@@ -7,7 +7,6 @@
 #include <numbers>
 #include <numeric>
 #include <optional>
-#include <span>
 #include <vector>
 
 #include "identify/ledger/freed_constants.hpp"

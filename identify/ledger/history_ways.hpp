@@ -3,7 +3,6 @@
 /// what is free in a sensor.
 
 #include <cstddef>
-#include <string>
 #include <vector>
 
 #include "identify/ledger/history_terms.hpp"

@@ -1,7 +1,6 @@
 #include "identify/ledger/misfit.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 

@@ -1,7 +1,6 @@
 #include "identify/readers/column_factors.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 #include <utility>
 

@@ -2,7 +2,6 @@
 /// Small-sample statistics shared by the methods.
 
 #include <Eigen/Core>
-#include <array>
 #include <functional>
 #include <optional>
 #include <string>

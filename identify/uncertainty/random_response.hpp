@@ -13,8 +13,6 @@
 /// scatter of an estimate falls with the root of the length. Noise of x and v: from their fourth differences. Cost:
 /// 0.4 us a sample, 50 ns a step under white acceleration.
 
-#include <cstdint>
-
 #include "identify/models/force_parameters.hpp"
 #include "identify/record.hpp"
 

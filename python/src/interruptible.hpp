@@ -16,7 +16,6 @@
 
 #include <exception>
 #include <functional>
-#include <memory>
 #include <optional>
 #include <utility>
 

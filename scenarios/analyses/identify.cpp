@@ -1,7 +1,6 @@
 #include "scenarios/analyses/identify.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
 #include <utility>
 

@@ -1,5 +1,7 @@
 #include "scenarios/format/common_keys.hpp"
 
+#include <utility>
+
 #include "scenarios/format/limits.hpp"
 
 namespace dualdamp::scenarios {

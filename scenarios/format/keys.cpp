@@ -4,6 +4,7 @@
 #include <cctype>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "core/diagnostics.hpp"
 #include "core/numbers.hpp"

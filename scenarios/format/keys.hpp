@@ -8,7 +8,6 @@
 ///     Section{{quantity("mass", {"kg"}, "sliding mass").required().above(0),
 ///              words("damper_to", {"ground", "base"}, "other end of the damper").with_fallback("ground")}}
 
-#include <functional>
 #include <memory>
 #include <string>
 #include <string_view>

@@ -1,8 +1,6 @@
 #pragma once
 /// Limits of what a file may ask for.
 
-#include <cstddef>
-
 namespace dualdamp::scenarios {
 
 inline constexpr double max_points = 1e6;   ///< values of a list, points of a curve

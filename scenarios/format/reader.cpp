@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 #include "core/diagnostics.hpp"
 #include "core/numbers.hpp"

@@ -1,6 +1,7 @@
 #include "scenarios/format/si_units.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "core/coordinate.hpp"
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 #include <numbers>
+#include <utility>
 
 #include "core/numbers.hpp"
 #include "core/uncertain_quantity.hpp"

@@ -2,7 +2,6 @@
 /// A fit as an answer: JSON and tables.
 
 #include <string>
-#include <vector>
 
 #include "identify/fit/fit.hpp"
 #include "identify/fit/prediction.hpp"

@@ -1,7 +1,6 @@
 #include "sim/engine/closed_form.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <stdexcept>
 
 #include "core/crossing/divided_exponential.hpp"

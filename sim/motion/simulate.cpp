@@ -1,7 +1,6 @@
 #include "sim/motion/simulate.hpp"
 
 #include <cmath>
-#include <limits>
 
 #include "sim/engine/engine.hpp"
 #include "sim/motion/observers.hpp"

@@ -2,7 +2,6 @@
 /// Points of a curve with their remarks. One thread fills one part; the parts are merged in order.
 
 #include <cstddef>
-#include <cstdint>
 #include <map>
 #include <span>
 #include <string>

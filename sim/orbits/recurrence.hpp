@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cstddef>
-#include <limits>
 
 #include "sim/engine/state.hpp"
 

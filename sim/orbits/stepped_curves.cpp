@@ -1,7 +1,6 @@
 #include "sim/orbits/stepped_curves.hpp"
 
 #include <algorithm>
-#include <span>
 
 #include "core/cancellation.hpp"
 #include "sim/orbits/curve_part.hpp"

@@ -17,7 +17,6 @@
 /// cores.
 
 #include <array>
-#include <optional>
 #include <string>
 #include <variant>
 #include <vector>

@@ -8,7 +8,6 @@
 /// of the profile likelihood: severity s adds the interval theta(s) +- sqrt((D - chi2(s) + chi2_min) V(s)).
 
 #include <Eigen/Core>
-#include <string>
 #include <vector>
 
 #include "identify/methods/any_law/reading_model.hpp"

@@ -6,13 +6,11 @@
 
 #include <Eigen/Core>
 #include <algorithm>
-#include <array>
 #include <limits>
 #include <memory>
 #include <numbers>
 #include <optional>
 #include <string>
-#include <variant>
 #include <vector>
 
 #include "identify/estimate.hpp"

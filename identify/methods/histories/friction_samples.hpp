@@ -1,7 +1,6 @@
 #pragma once
 /// The friction force from the balance of the other forces,  k (y - x) + f - m a,  at the samples of a history.
 
-#include <optional>
 #include <vector>
 
 #include "identify/method.hpp"

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <utility>
 
 #include "core/numbers.hpp"
 #include "identify/methods/histories/forward_fit.hpp"

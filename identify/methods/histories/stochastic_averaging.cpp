@@ -6,7 +6,6 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
-#include <utility>
 
 #include "core/numbers.hpp"
 #include "identify/models/force_parameters.hpp"

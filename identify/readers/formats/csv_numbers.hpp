@@ -2,7 +2,6 @@
 /// Numbers from the fields of a CSV file: decimal numbers as laboratory programs print them, and times of day.
 
 #include <optional>
-#include <string>
 #include <string_view>
 
 namespace dualdamp::identify {

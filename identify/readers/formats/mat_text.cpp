@@ -3,7 +3,6 @@
 #include <matio.h>
 
 #include <algorithm>
-#include <bit>
 #include <cstring>
 #include <span>
 

@@ -1,7 +1,6 @@
 #pragma once
 /// Common parts of the analyses of many steady states: curves and maps.
 
-#include <functional>
 #include <string>
 #include <vector>
 

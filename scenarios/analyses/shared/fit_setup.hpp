@@ -1,7 +1,6 @@
 #pragma once
 /// Parts of a fit or a prediction: rigs, experiments, and the parameters that are fitted.
 
-#include <memory>
 #include <string>
 #include <vector>
 

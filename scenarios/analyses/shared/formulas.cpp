@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "scenarios/format/json.hpp"
 #include "scenarios/format/values.hpp"
