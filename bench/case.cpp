@@ -62,7 +62,7 @@ identify::OptionValues options_for(const identify::MethodEntry& method, const De
   if (!method.has(identify::without_option)) return {};
   std::vector<std::string> unknown;
   for (const std::string& name : identify::library_names())
-    for (const Rig* rig : {departure.law, departure.beside})
+    for (const Rig* rig : {departure.rig, departure.beside})
       if (rig != nullptr && rig->name == name) unknown.push_back(name);
   if (unknown.empty()) return {};
   return {{std::string(identify::without_option.name), unknown}};

@@ -11,10 +11,10 @@ namespace dualdamp::bench {
 inline constexpr const char* truth_name = "coulomb_viscous";
 
 struct Departure {
-  const Rig* law = nullptr;     ///< nullptr: friction is Coulomb + viscous and all is as assumed
+  const Rig* rig = nullptr;     ///< nullptr: friction is Coulomb + viscous and all is as assumed
   const Rig* beside = nullptr;  ///< a second rig, for which `leaves_friction_alone`; or nullptr
 
-  [[nodiscard]] bool is_truth() const { return law == nullptr; }
+  [[nodiscard]] bool is_truth() const { return rig == nullptr; }
   /// "lugre", "lugre + base_gain", "coulomb_viscous"
   [[nodiscard]] std::string name() const;
   [[nodiscard]] Family family() const;

@@ -109,15 +109,15 @@ std::optional<DecayReading> Study::decay(const Explanation& explanation) const {
                                     measured.stiffness, measured.displacement);
   constexpr int extremes = 5;
   const sim::FreeDecay motion = sim::free_decay(model, extremes);
-  if (!motion.outcome.ok() || motion.peaks.size() < extremes) return std::nullopt;
+  if (!motion.outcome.ok() || motion.extremes.size() < extremes) return std::nullopt;
   identify::KnownConstants constants = constants_;
   constants.stiffness = measured.stiffness;
   const auto segment = [&](std::size_t first) -> std::optional<MeasuredDecay::Segment> {
     identify::Record record;
     record.decay.emplace();
     for (std::size_t i = first; i < first + extremes - 1; ++i) {
-      record.decay->extremes.push_back(motion.peaks[i].x);
-      record.decay->times.push_back(motion.peaks[i].t);
+      record.decay->extremes.push_back(motion.extremes[i].x);
+      record.decay->times.push_back(motion.extremes[i].t);
     }
     const identify::Estimate estimate = identify::free_decay(record, constants, {});
     if (!estimate.outcome.ok()) return std::nullopt;

@@ -169,9 +169,9 @@ void check_pairs(CheckedFile& file, const Json& analysis) {
     const std::string place = "analysis.pairs[" + std::to_string(i) + "]";
     const std::optional<Departure> both = pair_of(pairs.at(i));
     if (!both) continue;
-    if (both->law->family == both->beside->family)
+    if (both->rig->family == both->beside->family)
       file.complain(place + ".beside", "both departures lie in one family",
-                    "a departure that is not of " + std::string(name_of(both->law->family)),
+                    "a departure that is not of " + std::string(name_of(both->rig->family)),
                     std::string(both->beside->name));
     names.push_back(both->name());
     if (std::ranges::count(names, names.back()) > 1)

@@ -1,5 +1,7 @@
 #include "cli/completion.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "bench/analyses.hpp"
@@ -41,9 +43,7 @@ Choices choices_of(const std::string& placeholder) {
 }
 
 std::string joined(const std::vector<std::string>& words, const std::string& separator) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : separator) + word;
-  return text;
+  return fmt::format("{}", fmt::join(words, separator));
 }
 
 /// The first clause of a help text, for the list that the shell shows.

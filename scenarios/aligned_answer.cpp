@@ -17,12 +17,6 @@ auto* table_named(Tables& tables, std::string_view name) {
   return found == tables.end() ? nullptr : &*found;
 }
 
-template <class SomeTable>
-auto* column_named(SomeTable& table, std::string_view name) {
-  const auto found = std::ranges::find(table.columns, name, &Column::name);
-  return found == table.columns.end() ? nullptr : &*found;
-}
-
 void swap_rows(Table& table, std::size_t a, std::size_t b) {
   for (Column& column : table.columns) {
     if (column.kind != CellKind::text)
@@ -35,11 +29,11 @@ void swap_rows(Table& table, std::size_t a, std::size_t b) {
 }
 
 void align_events(const Table& events, Table& other, double tolerance) {
-  const Column* t = column_named(events, "t");
-  const Column* kind = column_named(events, "kind");
+  const Column* t = events.find("t");
+  const Column* kind = events.find("kind");
   if (t == nullptr || kind == nullptr || t->numbers.empty() || other.size() != events.size()) return;
-  const Column* other_t = column_named(other, "t");
-  const Column* other_kind = column_named(other, "kind");
+  const Column* other_t = other.find("t");
+  const Column* other_kind = other.find("kind");
   const double near = tolerance * std::abs(t->numbers.back());
   for (std::size_t i = 0; i < events.size(); ++i)
     for (std::size_t j = i; j < events.size() && std::abs(other_t->numbers[j] - t->numbers[i]) <= near; ++j) {
@@ -60,8 +54,8 @@ void begin_later(Table& orbit, std::size_t shift) {
 }
 
 double distance(const Table& orbit, const Table& other) {
-  const Column* x = column_named(orbit, "x");
-  const Column* other_x = column_named(other, "x");
+  const Column* x = orbit.find("x");
+  const Column* other_x = other.find("x");
   double largest = 0.0;
   for (std::size_t i = 0; i < x->numbers.size(); ++i)
     largest = std::max(largest, std::abs(x->numbers[i] - other_x->numbers[i]));

@@ -62,10 +62,10 @@ bool is_derived(const Table& table) { return table.key == "regimes"; }
 
 /// Rows of a table that are compared: all but grazings.
 std::vector<std::size_t> rows_of(const Table& table) {
-  const auto kind = std::ranges::find(table.columns, "kind", &Column::name);
+  const Column* const kind = table.find("kind");
   std::vector<std::size_t> rows;
   for (std::size_t i = 0; i < table.size(); ++i)
-    if (kind == table.columns.end() || kind->text(i) != "grazing") rows.push_back(i);
+    if (kind == nullptr || kind->text(i) != "grazing") rows.push_back(i);
   return rows;
 }
 
@@ -79,9 +79,9 @@ bool is_compared(const Table& table, const Column& column) {
 /// The largest mean speed between two rows of a motion [m/s], which the motion reaches; at events the speed is
 /// often 0.
 double fastest_between_rows(const Table& table) {
-  const auto t = std::ranges::find(table.columns, "t", &Column::name);
-  const auto x = std::ranges::find(table.columns, "x", &Column::name);
-  if (t == table.columns.end() || x == table.columns.end() || t->unit != "s" || x->unit != "m") return 0.0;
+  const Column* const t = table.find("t");
+  const Column* const x = table.find("x");
+  if (t == nullptr || x == nullptr || t->unit != "s" || x->unit != "m") return 0.0;
   if (t->numbers.empty()) return 0.0;
   double fastest = 0.0;
   const double rounding = 1e-9 * std::abs(t->numbers.back() - t->numbers.front());
@@ -217,8 +217,8 @@ class Comparison {
     const std::vector<char> compared = compared_rows(table, mine, *other, theirs);
     for (const Column& column : table.columns) {
       if (!is_compared(table, column)) continue;
-      const auto peer = std::ranges::find(other->columns, column.name, &Column::name);
-      if (peer == other->columns.end()) {
+      const Column* const peer = other->find(column.name);
+      if (peer == nullptr) {
         differ(name + "[]." + column.name, "only this result has it");
         continue;
       }
@@ -234,8 +234,8 @@ class Comparison {
                                   const std::vector<std::size_t>& theirs) {
     std::vector<char> result(mine.size(), 1);
     const auto has_reason = [](const Table& t, std::size_t row) {
-      const auto reason = std::ranges::find(t.columns, "reason", &Column::name);
-      return reason != t.columns.end() && !reason->text(row).empty();
+      const Column* const reason = t.find("reason");
+      return reason != nullptr && !reason->text(row).empty();
     };
     for (std::size_t i = 0; i < mine.size(); ++i)
       if (has_reason(table, mine[i]) || has_reason(other, theirs[i])) {

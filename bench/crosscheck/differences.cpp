@@ -57,7 +57,7 @@ double ratio(double gap, double size) { return gap == 0.0 ? 0.0 : std::abs(gap) 
 
 std::string text_of(const std::vector<sim::Event>& list, std::size_t i) {
   if (i >= list.size()) return "no event";
-  return fmt::format("{} at t = {:.17g} s, x = {:.10g} m", sim::name(list[i].kind), list[i].t, list[i].x);
+  return fmt::format("{} at t = {:.17g} s, x = {:.10g} m", sim::name_of(list[i].kind), list[i].t, list[i].x);
 }
 
 /// Compares the events of two walks one after the other.

@@ -52,7 +52,7 @@ class FreeVibration final : public Experiment {
     sim::Extreme last{0.0, free.initial.position};
     for (std::size_t i = 0; i < wanted; ++i) {
       // After the last stop, the position is repeated at each half swing, so that the prediction is continuous.
-      last = i < decay.peaks.size() ? decay.peaks[i] : sim::Extreme{last.t + swing, last.x};
+      last = i < decay.extremes.size() ? decay.extremes[i] : sim::Extreme{last.t + swing, last.x};
       outputs[static_cast<Eigen::Index>(i)] = last.x + offset;
       if (signals.size() > 1)
         outputs[static_cast<Eigen::Index>(wanted + i)] = last.t + own[static_cast<std::size_t>(Own::release)];

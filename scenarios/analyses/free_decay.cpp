@@ -44,7 +44,7 @@ std::unique_ptr<const Question> ask_free_decay(CheckedValues&& values) {
 Answer FreeDecayQuestion::run(const RunContext& context) const {
   sim::FreeDecay decay = sim::free_decay(context.model, peaks_);
   if (!decay.outcome.ok()) return failed(decay.outcome.reason);
-  const bool fades = leave_out_faded(decay.peaks, decay.accuracy);
+  const bool fades = leave_out_faded(decay.extremes, decay.accuracy);
   const bool creeps = decay.creeps && !fades;
   Answer answer;
   answer.result["peaks"] = nullptr;
@@ -52,13 +52,13 @@ Answer FreeDecayQuestion::run(const RunContext& context) const {
   answer.result["creeps"] = creeps;
   answer.result["fades"] = fades;
   if (creeps || fades)
-    answer.warnings.push_back("only " + std::to_string(decay.peaks.size()) + " of " + std::to_string(peaks_) +
+    answer.warnings.push_back("only " + std::to_string(decay.extremes.size()) + " of " + std::to_string(peaks_) +
                               " extremes: " +
                               (fades ? "further swings are below the error of the solver"
                                      : "the motion does not turn any more within 100 natural periods"));
   answer.tables.push_back({.name = "peaks",
-                           .columns = {column("t", "s", decay.peaks, &sim::Extreme::t),
-                                       column("x", "m", decay.peaks, &sim::Extreme::x)},
+                           .columns = {column("t", "s", decay.extremes, &sim::Extreme::t),
+                                       column("x", "m", decay.extremes, &sim::Extreme::x)},
                            .key = "peaks",
                            .is_complete = true,
                            .ends_with_accuracy = true});

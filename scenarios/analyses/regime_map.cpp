@@ -79,7 +79,7 @@ Column regime_column(const sim::Curve& map) {
   Column column{.name = "regime", .kind = CellKind::text};
   for (const sim::Regime regime :
        {sim::Regime::no_steady_state, sim::Regime::never_moves, sim::Regime::rests, sim::Regime::slides_through})
-    column.texts.emplace_back(sim::name(regime));
+    column.texts.emplace_back(sim::name_of(regime));
   for (const sim::CurvePoint& point : map.points)
     column.choices.push_back(static_cast<std::uint32_t>(point.regime()));
   return column;
@@ -139,7 +139,7 @@ Table regime_table(const sim::Curve& map, const std::string& unit) {
     return result;
   };
   return {.name = "regimes",
-          .columns = {text_column("regime", rows, [](const auto& row) { return sim::name(row.second.kind); }),
+          .columns = {text_column("regime", rows, [](const auto& row) { return sim::name_of(row.second.kind); }),
                       count("stops", [&](const auto& row) { return number_of(row, std::get<1>(row.first)); }),
                       count("sticks", [&](const auto& row) { return number_of(row, std::get<2>(row.first)); }),
                       count("points", [](const auto& row) { return static_cast<double>(row.second.points); }),
@@ -182,8 +182,8 @@ std::vector<double> sampled_values(const std::vector<double>& values) {
 
 /// The rows whose values in the column `name` are among these; all rows of a table that has no such column.
 Table with_rows(const Table& table, std::string_view name, const std::vector<double>& values) {
-  const auto key = std::ranges::find(table.columns, name, &Column::name);
-  if (key == table.columns.end()) return table;
+  const Column* const key = table.find(name);
+  if (key == nullptr) return table;
   const std::vector<double> keys = key->numbers;
   const auto keep = [&](auto& list) {
     if (list.size() != keys.size()) return;

@@ -124,7 +124,7 @@ void add_residual(const MeasuredMotion& measured, const std::vector<sim::Sample>
 Table event_table(const std::vector<sim::Event>& events) {
   return {.name = "events",
           .columns = {column("t", "s", events, &sim::Event::t),
-                      text_column("kind", events, [](const sim::Event& event) { return sim::name(event.kind); }),
+                      text_column("kind", events, [](const sim::Event& event) { return sim::name_of(event.kind); }),
                       column("x", "m", events, &sim::Event::x), column("v", "m/s", events, &sim::Event::v)},
           .key = "events",
           .is_complete = true};

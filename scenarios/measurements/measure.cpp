@@ -244,7 +244,7 @@ MotionRecord measure_decay(const sim::Model& model, int peaks) {
   const sim::FreeDecay decay = sim::free_decay(model, peaks);
   if (!decay.outcome.ok()) motion.warnings.push_back("the decay could not be measured: " + decay.outcome.reason);
   identify::DecayRecord& record = motion.exact.decay.emplace();
-  for (const sim::Extreme& extreme : decay.peaks) {
+  for (const sim::Extreme& extreme : decay.extremes) {
     record.extremes.push_back(extreme.x);
     record.times.push_back(extreme.t);
   }

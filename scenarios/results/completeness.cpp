@@ -1,6 +1,5 @@
 #include "scenarios/results/completeness.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 namespace dualdamp::scenarios {
@@ -21,12 +20,11 @@ std::string missing_in(const Json& json, const std::string& path) {
 }
 
 std::string missing_in(const Table& table) {
-  const auto reason = std::ranges::find(table.columns, "reason", &Column::name);
-  const bool has_reasons = reason != table.columns.end();
+  const Column* const reason = table.find("reason");
   for (const Column& column : table.columns) {
     if (column.kind == CellKind::text) continue;
     for (std::size_t row = 0; row < column.numbers.size(); ++row) {
-      if (std::isfinite(column.numbers[row]) || (has_reasons && !reason->text(row).empty())) continue;
+      if (std::isfinite(column.numbers[row]) || (reason != nullptr && !reason->text(row).empty())) continue;
       return (table.key.empty() ? table.name : table.key) + "[" + std::to_string(row) + "]." + column.name;
     }
   }

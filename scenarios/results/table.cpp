@@ -1,5 +1,6 @@
 #include "scenarios/results/table.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "scenarios/format/json.hpp"
@@ -9,6 +10,11 @@ namespace dualdamp::scenarios {
 std::size_t Column::size() const {
   if (!choices.empty()) return choices.size();
   return kind == CellKind::text ? texts.size() : numbers.size();
+}
+
+const Column* Table::find(std::string_view column) const {
+  const auto found = std::ranges::find(columns, column, &Column::name);
+  return found == columns.end() ? nullptr : &*found;
 }
 
 std::string json_cell(const Column& column, std::size_t row) {

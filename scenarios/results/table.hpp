@@ -7,6 +7,7 @@
 #include <functional>
 #include <limits>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -66,6 +67,8 @@ struct Table {
   bool ends_with_accuracy = false;
 
   [[nodiscard]] std::size_t size() const { return columns.empty() ? 0 : columns.front().size(); }
+  /// The column of this name; nullptr: there is none.
+  [[nodiscard]] const Column* find(std::string_view column) const;
 };
 
 /// The value of a cell as JSON: null for a number that does not exist; nothing for an empty text, the key of which

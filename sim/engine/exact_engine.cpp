@@ -23,7 +23,7 @@ constexpr double gone = 45.0;
 
 }  // namespace
 
-std::string_view name(EventKind kind) {
+std::string_view name_of(EventKind kind) {
   switch (kind) {
     case EventKind::reversal:
       return "reversal";

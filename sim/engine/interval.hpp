@@ -23,7 +23,7 @@ enum class EventKind {
 };
 
 /// "reversal", "stop", "release", "grazing", "switching".
-[[nodiscard]] std::string_view name(EventKind kind);
+[[nodiscard]] std::string_view name_of(EventKind kind);
 
 /// All quantities of the motion at one time.
 struct Sample {

@@ -200,7 +200,7 @@ void Sampler::finish(const Sample& final) {
   samples_.back().t = t;
 }
 
-void Extremes::observe(const Interval& interval) {
+void PeakAndTrough::observe(const Interval& interval) {
   const auto [begin, end] = Ends(interval);
   if (!seen_) peak_ = trough_ = begin.x;
   seen_ = true;

@@ -34,7 +34,7 @@ class Sampler {
 };
 
 /// Largest and smallest x [m], and the largest speed [m/s].
-class Extremes {
+class PeakAndTrough {
  public:
   void observe(const Interval& interval);
 

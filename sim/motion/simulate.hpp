@@ -46,14 +46,14 @@ struct Extreme {
 
 struct FreeDecay {
   core::Outcome outcome;
-  std::vector<Extreme> peaks;  ///< the initial position is the first if the mass is released from rest
-  bool came_to_rest = false;   ///< fewer peaks than requested because the mass sticks
-  bool creeps = false;         ///< fewer because the motion has no turning point within 100 natural periods
-  double accuracy = 0.0;       ///< error of the engine, relative to the motion
-  long work = 0;               ///< `Engine::work`
+  std::vector<Extreme> extremes;  ///< the initial position is the first if the mass is released from rest
+  bool came_to_rest = false;      ///< fewer than requested because the mass sticks
+  bool creeps = false;            ///< fewer because the motion has no turning point within 100 natural periods
+  double accuracy = 0.0;          ///< error of the engine, relative to the motion
+  long work = 0;                  ///< `Engine::work`
 };
 
-/// Successive extremes of the motion from `model.initial`; at most `peaks` of them. The excitation must be `none`.
-[[nodiscard]] FreeDecay free_decay(const Model& model, int peaks);
+/// Successive extremes of the motion from `model.initial`; at most `count` of them. The excitation must be `none`.
+[[nodiscard]] FreeDecay free_decay(const Model& model, int count);
 
 }  // namespace dualdamp::sim

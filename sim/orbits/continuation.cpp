@@ -256,7 +256,7 @@ Branch Continuation::ended(BranchEnd end, const std::string& warning) {
   return std::move(branch_);
 }
 
-std::string_view name(ChangeKind kind) {
+std::string_view name_of(ChangeKind kind) {
   switch (kind) {
     case ChangeKind::sequence:
       return "sequence";
@@ -278,7 +278,7 @@ std::string_view name(ChangeKind kind) {
   return "";
 }
 
-std::string_view name(BranchEnd end) {
+std::string_view name_of(BranchEnd end) {
   switch (end) {
     case BranchEnd::range:
       return "range";

@@ -35,7 +35,7 @@ enum class ChangeKind {
 };
 
 /// "sequence", "sticking", "stops", "fold", "flip", "neimark_sacker", "stability", "end".
-[[nodiscard]] std::string_view name(ChangeKind kind);
+[[nodiscard]] std::string_view name_of(ChangeKind kind);
 
 struct BranchPoint {
   double parameter = 0.0;  ///< amplitude [m or N] or frequency [rad/s]
@@ -63,7 +63,7 @@ enum class BranchEnd {
 };
 
 /// "range", "orbit", "points", "edge", "step", "work".
-[[nodiscard]] std::string_view name(BranchEnd end);
+[[nodiscard]] std::string_view name_of(BranchEnd end);
 
 struct Branch {
   core::Outcome outcome;  ///< not ok(): there is no orbit at the first value

@@ -83,7 +83,7 @@ SteadyStateOptions judging_rests(SteadyStateOptions options) {
 
 }  // namespace
 
-std::string_view name(Regime regime) {
+std::string_view name_of(Regime regime) {
   switch (regime) {
     case Regime::no_steady_state:
       return "no steady state";

@@ -26,7 +26,7 @@ enum class Regime {
 };
 
 /// "no steady state", "never moves", "rests", "slides through".
-[[nodiscard]] std::string_view name(Regime regime);
+[[nodiscard]] std::string_view name_of(Regime regime);
 
 /// One steady state. If there is none, only `omega` and `Y` are valid.
 struct CurvePoint {

@@ -28,7 +28,7 @@ class OrbitAccount final : public PeriodObserver {
 
   bool full_;
   double drive_phase_;
-  Extremes extremes_;
+  PeakAndTrough extremes_;
   EnergyAudit energy_;
   Fundamental fundamental_;
   bool judges_speed_ = false;

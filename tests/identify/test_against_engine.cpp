@@ -93,7 +93,7 @@ TEST_CASE("A simulated free decay returns its friction to rounding") {
   model.initial.position = 40e-3;
   const sim::FreeDecay motion = sim::free_decay(model, 6);
   DecayRecord record;
-  for (const sim::Extreme& extreme : motion.peaks) {
+  for (const sim::Extreme& extreme : motion.extremes) {
     record.extremes.push_back(extreme.x + 0.4e-3);  // the sensor is off
     record.times.push_back(extreme.t);
   }

@@ -85,12 +85,12 @@ class DecayReadings final : public ReadingModel {
     const sim::Model model = model_of(law, p, accuracy);
     if (!sim::validate(model).empty()) return std::nullopt;
     const sim::FreeDecay decay = sim::free_decay(model, static_cast<int>(readings_.size()));
-    if (!decay.outcome.ok() || decay.peaks.empty()) return std::nullopt;
+    if (!decay.outcome.ok() || decay.extremes.empty()) return std::nullopt;
     VectorXd result(readings_.size());
     for (Index i = 0; i < result.size(); ++i) {
       // A mass that has come to rest stays where it is.
-      const std::size_t peak = std::min(static_cast<std::size_t>(i), decay.peaks.size() - 1);
-      result[i] = readings_[i] - decay.peaks[peak].x - p[3] * release_;
+      const std::size_t peak = std::min(static_cast<std::size_t>(i), decay.extremes.size() - 1);
+      result[i] = readings_[i] - decay.extremes[peak].x - p[3] * release_;
     }
     return result;
   }

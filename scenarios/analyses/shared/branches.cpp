@@ -35,7 +35,7 @@ Table change_table(const std::vector<sim::BranchChange>& changes, const std::str
                    const std::string& unit) {
   using sim::BranchChange;
   return {.name = "changes",
-          .columns = {text_column("kind", changes, [](const BranchChange& c) { return sim::name(c.kind); }),
+          .columns = {text_column("kind", changes, [](const BranchChange& c) { return sim::name_of(c.kind); }),
                       column(name, unit, changes, &BranchChange::parameter),
                       column("x", "m", changes, &BranchChange::amplitude),
                       typed(column("stops_before", "", changes, &BranchChange::stops_before), CellKind::count),
@@ -77,7 +77,7 @@ Answer BranchQuestion::run(const RunContext& context) const {
   if (!branch.outcome.ok()) return failed("the branch has no first point: " + branch.outcome.reason);
   const bool amplitude = parameter_ == sim::BranchParameter::amplitude;
   Answer answer;
-  answer.result["end"] = sim::name(branch.end);
+  answer.result["end"] = sim::name_of(branch.end);
   answer.result["points"] = nullptr;
   answer.result["changes"] = nullptr;
   add_certificate(answer.result, context.model, branch.certificate);

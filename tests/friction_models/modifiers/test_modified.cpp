@@ -170,9 +170,9 @@ TEST_CASE("fluctuation: the exact engine takes each cell's level", "[friction][m
   model.friction = {coulomb_with(2.0, 2.0, noise)};
   model.initial.position = 1.0;
   const sim::FreeDecay decay = sim::free_decay(model, 2);
-  REQUIRE(decay.peaks.size() == 2);
-  CHECK(decay.peaks[1].t == Approx(turn).epsilon(1e-13));
-  CHECK(decay.peaks[1].x == Approx(x).epsilon(1e-13));
+  REQUIRE(decay.extremes.size() == 2);
+  CHECK(decay.extremes[1].t == Approx(turn).epsilon(1e-13));
+  CHECK(decay.extremes[1].x == Approx(x).epsilon(1e-13));
 }
 
 TEST_CASE("drift: the first half swing has a closed form, and friction ends", "[friction][modified]") {
@@ -190,9 +190,9 @@ TEST_CASE("drift: the first half swing has a closed form, and friction ends", "[
     const double x = f * (1.0 + d * turn) + (x0 - f) * std::cos(w * turn) - f * d / w * std::sin(w * turn);
     model.friction = {coulomb_with(2.0, 2.0, {{"drift", d}})};
     const sim::FreeDecay decay = sim::free_decay(model, 2);
-    REQUIRE(decay.peaks.size() == 2);
-    CHECK(decay.peaks[1].t == Approx(turn).epsilon(1e-13));
-    CHECK(decay.peaks[1].x == Approx(x).epsilon(1e-13));
+    REQUIRE(decay.extremes.size() == 2);
+    CHECK(decay.extremes[1].t == Approx(turn).epsilon(1e-13));
+    CHECK(decay.extremes[1].x == Approx(x).epsilon(1e-13));
   }
   model.friction = {coulomb_with(2.0, 2.0, {{"drift", -2.0}})};
   const sim::History free = sim::simulate(model, {.duration = 0.5});

@@ -185,9 +185,9 @@ identify::Record decay_of_rig(identify::Rig rig, double position, int peaks, dou
   const sim::FreeDecay decay = sim::free_decay(model, peaks);
   identify::DecayRecord record;
   const core::RandomStream draws{seed, 902};
-  for (std::size_t i = 0; i < decay.peaks.size(); ++i) {
-    record.extremes.push_back(decay.peaks[i].x + noise * draws.normal(i));
-    record.times.push_back(decay.peaks[i].t + 1e-4 * draws.normal(1000 + i));
+  for (std::size_t i = 0; i < decay.extremes.size(); ++i) {
+    record.extremes.push_back(decay.extremes[i].x + noise * draws.normal(i));
+    record.times.push_back(decay.extremes[i].t + 1e-4 * draws.normal(1000 + i));
   }
   identify::Record result;
   result.decay = std::move(record);

@@ -170,10 +170,10 @@ TEST_CASE("mechanisms: what lies in drive or spring is not there in a free decay
     const sim::FreeDecay decay =
         sim::free_decay(identify::rigs::released(mechanism, rig, usual, values, stiffness, 14.7e-3), 5);
     REQUIRE(decay.outcome.ok());
-    REQUIRE(decay.peaks.size() == expected.size());
+    REQUIRE(decay.extremes.size() == expected.size());
     double distance = 0.0;
     for (std::size_t i = 0; i < expected.size(); ++i)
-      distance = std::max(distance, std::abs(decay.peaks[i].x - expected[i]) / 14.7e-3);
+      distance = std::max(distance, std::abs(decay.extremes[i].x - expected[i]) / 14.7e-3);
     const bool is_plain = mechanism.forced_only || mechanism.name == "coulomb_viscous";
     if (is_plain)
       CHECK(distance < 1e-12);

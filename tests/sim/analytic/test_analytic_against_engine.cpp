@@ -73,11 +73,11 @@ TEST_CASE("The engine's free decay is the decrement law, to the last extreme") {
       REQUIRE(decay.outcome.ok());
       const auto expected = analytic::free_decay_extremes(zeta, x_f, -1.0, 12);
       CAPTURE(zeta, x_f);
-      REQUIRE(decay.peaks.size() == expected.size());
+      REQUIRE(decay.extremes.size() == expected.size());
       for (std::size_t i = 0; i < expected.size(); ++i) {
-        CHECK(decay.peaks[i].x == Approx(expected[i]).margin(1e-14));
+        CHECK(decay.extremes[i].x == Approx(expected[i]).margin(1e-14));
         const double half_swing = std::numbers::pi / std::sqrt(1.0 - zeta * zeta);
-        CHECK(decay.peaks[i].t == Approx(static_cast<double>(i) * half_swing).margin(1e-12));
+        CHECK(decay.extremes[i].t == Approx(static_cast<double>(i) * half_swing).margin(1e-12));
       }
     }
   }

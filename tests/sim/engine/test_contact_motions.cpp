@@ -66,11 +66,11 @@ std::string difference(const std::vector<Event>& a, const std::vector<Event>& b,
     const std::vector<Event> left = chosen(a, switching);
     const std::vector<Event> right = chosen(b, switching);
     for (std::size_t i = 0; i < std::max(left.size(), right.size()); ++i) {
-      if (i == right.size()) return fmt::format("{} at {:.17g} s is missing", name(left[i].kind), left[i].t);
-      if (i == left.size()) return fmt::format("{} at {:.17g} s too many", name(right[i].kind), right[i].t);
+      if (i == right.size()) return fmt::format("{} at {:.17g} s is missing", name_of(left[i].kind), left[i].t);
+      if (i == left.size()) return fmt::format("{} at {:.17g} s too many", name_of(right[i].kind), right[i].t);
       if (left[i].kind != right[i].kind || !(std::abs(left[i].t - right[i].t) <= (switching ? 100.0 : 1.0) * time))
-        return fmt::format("{} at {:.17g} s, {} at {:.17g} s", name(left[i].kind), left[i].t, name(right[i].kind),
-                           right[i].t);
+        return fmt::format("{} at {:.17g} s, {} at {:.17g} s", name_of(left[i].kind), left[i].t,
+                           name_of(right[i].kind), right[i].t);
     }
   }
   return {};

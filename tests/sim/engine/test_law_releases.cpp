@@ -113,7 +113,7 @@ bool Walk::compare(const NextEvent& expected, const Found& found, const PlainInt
   const double rounding = 4 * epsilon * found.t + expected.uncertainty;
   if (!(error <= 1e-10 * s + rounding))
     return fail(fmt::format("after {:.17g} instead of {:.17g} (+-{:.2g}), {}", s, expected.s, rounding,
-                            sim::name(found.kind)));
+                            sim::name_of(found.kind)));
   const double length = std::abs(mass_.x) + o_.model.excitation.amplitude;
   if (!(std::abs(engine_.position() - interval.position(s)) <= 1e-12 * length)) return fail("at the wrong place");
   const test::LinearForce f = plain_.force(mass_.direction);
@@ -133,7 +133,8 @@ bool Walk::compare(const NextEvent& expected, const Found& found, const PlainInt
   released_ = is_release(expected);
   const EventKind kind = take_place(o_.model, expected, plain_, mass_);
   released_ = released_ && kind != EventKind::stop;
-  if (kind != found.kind) return fail(fmt::format("{} instead of {}", sim::name(found.kind), sim::name(kind)));
+  if (kind != found.kind)
+    return fail(fmt::format("{} instead of {}", sim::name_of(found.kind), sim::name_of(kind)));
   if (mass_.direction != static_cast<int>(engine_.direction())) return fail("goes on in the wrong direction");
   return true;
 }

@@ -249,7 +249,7 @@ TEST_CASE("smooth engine: a free vibration that creeps for ever ends after its l
   const sim::FreeDecay decay = sim::free_decay(model, 20);
   CHECK(decay.outcome.ok());
   CHECK_FALSE(decay.came_to_rest);
-  CHECK(decay.peaks.size() == 8);
+  CHECK(decay.extremes.size() == 8);
 }
 
 TEST_CASE("smooth engine: what a guard touches behind an event is not reported before it", "[sim][smooth]") {
@@ -307,10 +307,10 @@ TEST_CASE("smooth engine: free hardening spring", "[sim][smooth]") {
   const double modulus = std::sqrt(hardening / (2.0 * (100.0 + hardening)));
   const double period = 4.0 * std::comp_ellint_1(modulus) / std::sqrt(100.0 + hardening);
   const sim::FreeDecay decay = sim::free_decay(model, 5);
-  REQUIRE(decay.peaks.size() == 5);
+  REQUIRE(decay.extremes.size() == 5);
   for (std::size_t i = 0; i < 5; ++i) {
-    CHECK(std::abs(decay.peaks[i].t - 0.5 * period * static_cast<double>(i)) < 1e-10);
-    CHECK(std::abs(std::abs(decay.peaks[i].x) - A) < 1e-10);
+    CHECK(std::abs(decay.extremes[i].t - 0.5 * period * static_cast<double>(i)) < 1e-10);
+    CHECK(std::abs(std::abs(decay.extremes[i].x) - A) < 1e-10);
   }
 }
 

@@ -37,7 +37,7 @@ class Sampled final : public Interval {
 };
 
 struct Account {
-  Extremes extremes;
+  PeakAndTrough extremes;
   EnergyAudit energy;
   Fundamental fundamental;
 
@@ -120,7 +120,7 @@ TEST_CASE("The largest speed under heavy damping is that of the fastest sample")
     Model model = random_model(random);
     model.oscillator.damping = random.logarithmic(100.0, 2e4);
     ExactEngine engine(model);
-    Extremes extremes;
+    PeakAndTrough extremes;
     double fastest = 0.0;
     while (engine.periods_passed() < 2) {
       const Interval* interval = engine.next_in_period();
@@ -146,7 +146,7 @@ TEST_CASE("A free decay that turns no more says so") {
   model.initial = {.position = 0.1};
   const FreeDecay decay = free_decay(model, 8);
   CHECK(decay.outcome.ok());
-  CHECK(decay.peaks.size() == 1);
+  CHECK(decay.extremes.size() == 1);
   CHECK(decay.creeps);
   CHECK_FALSE(decay.came_to_rest);
   model.oscillator.damping = 1.0;

@@ -270,5 +270,5 @@ TEST_CASE("a map tells what the mass does, by its speed where no law holds it") 
   model.friction = {friction::Law(friction::Coulomb(0.5, 0.5))};
   const sim::Curve growing = sim::regime_map(model, {1.0}, {1.0});
   CHECK(growing.points[0].regime() == Regime::no_steady_state);
-  CHECK(sim::name(Regime::no_steady_state) == "no steady state");
+  CHECK(sim::name_of(Regime::no_steady_state) == "no steady state");
 }

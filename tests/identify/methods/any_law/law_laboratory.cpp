@@ -105,7 +105,7 @@ Record extremes(const LawRig& rig, const identify::rigs::Rig* departure, double 
   if (!decay.outcome.ok()) return record;
   Normal normal(seed ^ 0x9e3779b97f4a7c15U);
   record.decay.emplace();
-  for (const sim::Extreme& peak : decay.peaks)
+  for (const sim::Extreme& peak : decay.extremes)
     record.decay->extremes.push_back(peak.x + rig.noise * rig.reference.amplitude * normal());
   return record;
 }
