@@ -91,7 +91,7 @@ TEST_CASE("an exact law is affine", "[friction][registry]") {
     if (entry.engine != friction::EngineKind::exact) continue;
     INFO(entry.name);
     friction::ParameterValues values = least_values(entry.parameters);
-    if (!friction::complete(entry.parameters, values).empty()) continue;
+    REQUIRE(friction::complete(entry.parameters, values).empty());
     const std::vector<friction::Law> laws = entry.make(values);
     CHECK_FALSE(laws.empty());
     for (const friction::Law& law : laws) CHECK(law.is_affine());

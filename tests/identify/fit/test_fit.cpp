@@ -191,13 +191,16 @@ TEST_CASE("fit: residuals of the right law are noise", "[identify][fit]") {
   const Fit fit = test::fit_of(test::law_case_of("lugre"), 7);
   REQUIRE(fit.outcome.ok());
   CHECK(fit.noise_units == Approx(1.0).margin(0.1));
+  int profiles = 0;
   for (const FittedParameter& fitted : fit.parameters) {
     CAPTURE(fitted.parameter.name);
     if (std::isnan(fitted.profile95[0])) continue;
+    ++profiles;
     // Profile and covariance are not far from each other where the data say enough.
     CHECK(fitted.profile95[0] < fitted.value);
     CHECK(fitted.profile95[1] > fitted.value);
   }
+  CHECK(profiles >= 5);
 }
 
 TEST_CASE("fit: what the data do not tell apart is named", "[identify][fit]") {

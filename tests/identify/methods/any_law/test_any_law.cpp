@@ -177,7 +177,7 @@ TEST_CASE("any_law: extremes of a free vibration") {
   const sim::FreeDecay motion = sim::free_decay(model, 14);
   Record record;
   record.decay.emplace();
-  for (const sim::Extreme& peak : motion.peaks) record.decay->extremes.push_back(peak.x + 2e-5 * normal());
+  for (const sim::Extreme& peak : motion.extremes) record.decay->extremes.push_back(peak.x + 2e-5 * normal());
   REQUIRE(record.decay->extremes.size() >= 8);
   const Estimate estimate = any_law(record, {mass, stiffness});
   REQUIRE(estimate.outcome.ok());
@@ -217,7 +217,7 @@ TEST_CASE("any_law: next to no Coulomb friction has a range that begins at zero"
   CHECK(given >= 2);
 }
 
-TEST_CASE("any_law: readings that do not tell force from damping get no range over all numbers") {
+TEST_CASE("any_law: readings that do not tell force from damping get no range") {
   // Without damping the amplitude grows beyond all bounds at one level: 4 F0/(pi k).
   Normal normal(17);
   Record record;
@@ -228,10 +228,8 @@ TEST_CASE("any_law: readings that do not tell force from damping get no range ov
         {.Y = 4.0 / std::numbers::pi * F0 / stiffness + 2e-9 * x, .x = x + 0.003 * X * normal(), .number = i + 1});
   }
   const Estimate estimate = any_law(record, known);
-  if (estimate.outcome.ok())
-    CHECK(estimate.laws->zeta_hull[1] < 1.0);
-  else
-    CHECK_FALSE(estimate.outcome.reason.empty());
+  CHECK_FALSE(estimate.outcome.ok());
+  CHECK_THAT(estimate.outcome.reason, Catch::Contains("they do not tell its force from its damping"));
 }
 
 TEST_CASE("any_law: a level that sticks beside wild amplitudes ends with a statement, not in a crash") {
@@ -246,10 +244,9 @@ TEST_CASE("any_law: a level that sticks beside wild amplitudes ends with a state
                              {0.4e-3, 14.12465e-3}})
     record.pairs->pairs.push_back({.Y = Y, .x = x, .number = static_cast<int>(record.pairs->pairs.size()) + 1});
   const Estimate estimate = any_law(record, known);
-  if (estimate.outcome.ok())
-    CHECK(estimate.laws->inflation > 1.0);
-  else
-    CHECK_FALSE(estimate.outcome.reason.empty());
+  INFO(estimate.outcome.reason);
+  REQUIRE(estimate.outcome.ok());
+  CHECK(estimate.laws->inflation > 1.0);
 }
 
 TEST_CASE("any_law: uncertain constants widen its ranges, hull and average alike") {
