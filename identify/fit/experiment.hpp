@@ -78,6 +78,7 @@ class Experiment {
   std::vector<Own> own_free;         ///< parameters that are sought unless they are known
   std::vector<Own> own_of_place;     ///< also sought unless they are known, if a force depends on the position
   std::vector<Own> own_others;       ///< parameters that may be sought as well
+  std::vector<std::pair<Own, std::string>> remarks;  ///< why parameters of `own_of_place` are sought
   /// Work of all predictions so far, those of parts of the record included: in units of `sim::Engine::work`, of
   /// steady states without the answers of smooth laws; of a loop, in steps of its law.
   std::shared_ptr<std::atomic<long>> work = std::make_shared<std::atomic<long>>(0);

@@ -29,6 +29,16 @@ double either_p_value(double first, double second) {
   return std::isnan(second) ? first : std::min(1.0, 2.0 * std::min(first, second));
 }
 
+/// Readings that do not count are zero among the misses.
+void set_mean(const Eigen::VectorXd& misses, double counted, bool is_sampled, FittedSignal& signal) {
+  if (!is_sampled || !(counted > 1.0)) return;
+  const double mean = misses.sum() / counted;
+  const Eigen::VectorXd rest = (misses.array() - mean).matrix();
+  const double square = (misses.squaredNorm() - counted * mean * mean) / counted;
+  signal.mean = -mean;
+  if (square > 0.0) signal.mean_score = -mean / std::sqrt(square / independent_samples(rest, is_sampled));
+}
+
 void describe_signals(const FitProblem& problem, const Eigen::VectorXd& weights, const Eigen::VectorXd& misses,
                       const Eigen::MatrixXd& jacobian, bool robust, Fit& result) {
   const SerialTest serial(problem, weights, misses, jacobian);
@@ -53,6 +63,7 @@ void describe_signals(const FitProblem& problem, const Eigen::VectorXd& weights,
     signal.p_value = noise_p_value(problem.signal(rows), bounded, counted - signal.freedom);
     if (!robust && !problem.signal(rows).is_sampled)
       signal.p_value = either_p_value(signal.p_value, serial.p_value(rows));
+    set_mean(bounded, counted, problem.signal(rows).is_sampled, signal);
     signal.independent = independent_samples(own, problem.signal(rows).is_sampled);
     const std::optional<ZeroPhaseFilter>& filter = problem.signal(rows).filter;
     signal.white = static_cast<double>(size) * (filter ? std::pow(filter->noise_gain(), 2) : 1.0);
@@ -104,6 +115,16 @@ core::Outcome cut_short(long most_work) {
           "state values or bounds, or free fewer parameters"};
 }
 
+/// Warns of parameters of records that are sought because of what the record shows.
+void say_why_sought(const Request& request, Fit& result) {
+  for (std::size_t e = 0; e < request.experiments.size(); ++e)
+    for (const auto& [own, why] : request.experiments[e]->remarks)
+      if (std::ranges::any_of(request.parameters, [e, own](const FitParameter& parameter) {
+            return parameter.owner == Owner::record && parameter.index == e && parameter.own == own;
+          }))
+        result.warnings.push_back(request.experiments[e]->label + ": " + why);
+}
+
 /// Sets all results of a fit at the end of a search. Returns coordinates with a smaller sum of squares, if a
 /// profile found any.
 std::optional<Eigen::VectorXd> describe(const FitProblem& problem, const Request& request,
@@ -120,10 +141,11 @@ std::optional<Eigen::VectorXd> describe(const FitProblem& problem, const Request
   result.own = problem.own(values);
   const Eigen::VectorXd misses = problem.misses(result.outputs);
   describe_signals(problem, found.weights, misses, jacobian, request.options.robust, result);
-  warn_of_residuals(request.experiments, request.options.robust, result);
   for (std::size_t i = 0; i < request.parameters.size(); ++i)
     result.parameters.push_back(
         {.parameter = request.parameters[i], .value = values[static_cast<Eigen::Index>(i)]});
+  say_why_sought(request, result);
+  warn_of_residuals(request.experiments, request.options.robust, result);
   problem.limit(request.options.most_work);
   return add_uncertainty(
       {problem, found.weights, q, misses, jacobian, request.options.profile, request.options.robust}, result);

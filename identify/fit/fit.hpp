@@ -63,6 +63,8 @@ struct TradeOff {
 struct FittedSignal {
   SignalRows rows;
   double rms = 0.0;              ///< of the residuals
+  double mean = 0.0;             ///< of the measured signal, minus that of the fit
+  double mean_score = 0.0;       ///< mean over its standard error, from samples that count as independent
   double range = 0.0;            ///< rms of the measured signal about its mean
   double noise = unknown;        ///< of the sensor, stated or from the roughness of the signal
   double noise_units = unknown;  ///< rms over noise

@@ -3,6 +3,7 @@
 #include <numbers>
 #include <utility>
 
+#include "core/numbers.hpp"
 #include "identify/fit/drive_values.hpp"
 #include "identify/fit/experiments.hpp"
 #include "identify/fit/starts.hpp"
@@ -43,22 +44,64 @@ std::vector<double> integral_of(const std::vector<double>& of_rate, double rate)
   return integral;
 }
 
+/// Swings of a signal about its mean.
+double swings_of(const std::vector<double>& signal) {
+  constexpr double of_crossing = 1.0 / (2.0 * std::numbers::pi);
+  return of_crossing * crossing_frequency(signal, 1.0);
+}
+
 /// Position and velocity at the first sample, if only the acceleration was measured. x = -a/w^2 holds without
 /// damping and friction, which change their sign with the velocity, and x = x_0 + v_0 t + the double integral of a.
-/// x_0, v_0 and 1/w^2 follow by least squares over all samples.
+/// If the zero of a is off by b, b (1/w^2 - t^2/2) is added: a constant and t^2. x_0, v_0, 1/w^2 and b follow by
+/// least squares over all samples; b only if a parabola does not take more than half of a, as in a part of a swing.
 std::pair<double, double> begin_of_acceleration(const std::vector<double>& a, double rate) {
   const std::vector<double> way = running_integral(running_integral(a, rate), rate);
   const auto count = static_cast<Eigen::Index>(a.size());
-  Eigen::MatrixXd columns = Eigen::MatrixXd::Ones(count, 3);
-  Eigen::VectorXd target(count);
-  for (Eigen::Index i = 0; i < count; ++i) {
-    const auto at = static_cast<std::size_t>(i);
-    columns(i, 1) = static_cast<double>(i) / rate;
-    columns(i, 2) = a[at];
-    target[i] = -way[at];
-  }
+  const Eigen::Map<const Eigen::VectorXd> measured(a.data(), count);
+  const double duration = static_cast<double>(count - 1) / rate;
+  Eigen::MatrixXd columns = Eigen::MatrixXd::Ones(count, 4);
+  columns.col(1) = Eigen::VectorXd::LinSpaced(count, 0.0, duration);
+  columns.col(2) = columns.col(1).cwiseAbs2() / (duration * duration);
+  columns.col(3) = measured;
+  const auto rest_without = [&](Eigen::Index first) {
+    const Eigen::MatrixXd trend = columns.leftCols(first);
+    return (measured - trend * pivoted_least_squares(trend, measured)).squaredNorm();
+  };
+  if (rest_without(3) < 0.5 * rest_without(2)) columns.col(2).setZero();
+  const Eigen::VectorXd target = -Eigen::Map<const Eigen::VectorXd>(way.data(), count);
   const Eigen::VectorXd found = pivoted_least_squares(columns, target);
-  return {found[0], found[1]};
+  const double zero = 2.0 * found[2] / (duration * duration);
+  return {found[0] + zero * found[3], found[1]};
+}
+
+/// The zero of a measured rate of change, and how far the mass moves without it. The slope of the integral is the
+/// zero, but for what the motion itself adds.
+struct Zero {
+  double value = 0.0;
+  double swing = 0.0;  ///< largest distance from the middle [m]
+};
+
+Zero zero_of_velocity(const std::vector<double>& v, double rate) {
+  const std::vector<double> rest = integral_of(v, rate);
+  const std::vector<double> whole = running_integral(v, rate);
+  const double duration = static_cast<double>(v.size() - 1) / rate;
+  return {(whole.back() - whole.front() - (rest.back() - rest.front())) / duration, largest_swing(rest)};
+}
+
+Zero zero_of_acceleration(const std::vector<double>& a, double rate) {
+  const std::vector<double> rest = integral_of(a, rate);
+  const std::vector<double> whole = running_integral(a, rate);
+  const double duration = static_cast<double>(a.size() - 1) / rate;
+  return {(whole.back() - whole.front() - (rest.back() - rest.front())) / duration,
+          largest_swing(integral_of(rest, rate))};
+}
+
+/// Whether the zero of v or a is off for certain. A motion within X of its middle adds at most 3 X/T to the slope
+/// of the integral of v over the duration T, and 24 X/T^2 to that of the integral of a. Noise adds a random walk.
+bool is_off(const Zero& zero, double most_of_motion, double noise, std::size_t samples) {
+  constexpr double deviations = 5.0;
+  const double of_walk = noise * std::sqrt(1.2 / static_cast<double>(samples));
+  return std::abs(zero.value) > most_of_motion * zero.swing && std::abs(zero.value) > deviations * of_walk;
 }
 
 constexpr std::size_t least_samples = 8;
@@ -112,7 +155,10 @@ class MeasuredMotion final : public Experiment {
     samples_ = signals.front().measured.size();
     own_free = {Own::position, Own::velocity};
     own_others = {Own::offset};
+    if (!history.v.empty()) own_others.push_back(Own::offset_v);
+    if (!history.a.empty()) own_others.push_back(Own::offset_a);
     begin(history);
+    seek_zeros(history);
   }
 
   [[nodiscard]] bool predict(const sim::Model& model, const OwnValues& own,
@@ -128,11 +174,10 @@ class MeasuredMotion final : public Experiment {
     }
     outputs.resize(size());
     const std::unique_ptr<sim::Engine> engine = sim::make_engine(there);
-    const double offset = own[static_cast<std::size_t>(Own::offset)];
     std::size_t next = 0;
     const auto take_until = [&](const sim::Interval& interval, double until) {
       for (; next < samples_ && static_cast<double>(next) / rate_ <= until; ++next)
-        write(interval.state_at(static_cast<double>(next) / rate_), offset, next, outputs);
+        write(interval.state_at(static_cast<double>(next) / rate_), own, next, outputs);
     };
     // A little longer than the record, so that the last sample is inside an interval.
     while (const sim::Interval* interval = engine->next(end * (1.0 + 1e-9) + 1e-12)) {
@@ -212,11 +257,28 @@ class MeasuredMotion final : public Experiment {
       position = integral_of(history.v, rate_).front();
   }
 
-  void write(const sim::Sample& sample, double offset, std::size_t i, Eigen::VectorXd& outputs) const {
+  /// Zeros of v and a that are off for certain are sought if a spring holds the mass near its place.
+  void seek_zeros(const History& history) {
+    const double duration = static_cast<double>(samples_ - 1) / rate_;
+    for (const Signal& signal : signals) {
+      if (signal.name == "x" || swings_of(signal.measured) < 1.0) continue;
+      const bool is_v = signal.name == "v";
+      const Zero zero = is_v ? zero_of_velocity(history.v, rate_) : zero_of_acceleration(history.a, rate_);
+      if (!is_off(zero, is_v ? 3.0 / duration : 24.0 / (duration * duration), signal.noise, samples_)) continue;
+      own_of_place.push_back(is_v ? Own::offset_v : Own::offset_a);
+      remarks.emplace_back(own_of_place.back(),
+                           "the mean of " + signal.name + ", " + core::format_number(zero.value, 3) +
+                               " in SI units, would carry the mass away: the zero of " + signal.name +
+                               " is sought as " + (is_v ? "offset_v" : "offset_a"));
+    }
+  }
+
+  void write(const sim::Sample& sample, const OwnValues& own, std::size_t i, Eigen::VectorXd& outputs) const {
     for (std::size_t s = 0; s < signals.size(); ++s)
-      outputs[static_cast<Eigen::Index>(s * samples_ + i)] = signals[s].name == "x"   ? sample.x + offset
-                                                             : signals[s].name == "v" ? sample.v
-                                                                                      : sample.a;
+      outputs[static_cast<Eigen::Index>(s * samples_ + i)] =
+          signals[s].name == "x"   ? sample.x + own[static_cast<std::size_t>(Own::offset)]
+          : signals[s].name == "v" ? sample.v + own[static_cast<std::size_t>(Own::offset_v)]
+                                   : sample.a + own[static_cast<std::size_t>(Own::offset_a)];
   }
 
   double start_;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <complex>
 #include <numeric>
+#include <optional>
 #include <unsupported/Eigen/FFT>
 #include <utility>
 #include <vector>
@@ -159,6 +160,29 @@ std::string said_of_noise(const FittedSignal& fitted, const std::string& who) {
          "measure v and a rather than x, or use 'robust' for outliers";
 }
 
+/// The zero of a signal of a history that its residuals speak of; nothing if they do not, or if it is sought.
+std::optional<Own> zero_off(const Experiments& experiments, const FittedSignal& fitted, const Fit& fit) {
+  constexpr double errors = 4.0;
+  if (experiments[fitted.rows.experiment]->kind != ExperimentKind::history || std::abs(fitted.mean_score) < errors)
+    return std::nullopt;
+  if (!is_noise(fitted.p_value) && 2.0 * fitted.mean * fitted.mean < fitted.rms * fitted.rms) return std::nullopt;
+  const std::string& name = signal_of(experiments, fitted).name;
+  const Own zero = name == "x" ? Own::offset : name == "v" ? Own::offset_v : Own::offset_a;
+  const bool is_sought = std::ranges::any_of(fit.parameters, [&](const FittedParameter& found) {
+    return found.parameter.owner == Owner::record && found.parameter.index == fitted.rows.experiment &&
+           found.parameter.own == zero;
+  });
+  return is_sought ? std::nullopt : std::optional(zero);
+}
+
+std::string said_of_zero(const FittedSignal& fitted, Own zero, const std::string& who) {
+  return who + " have a mean of " + core::format_number(fitted.mean, 3) + " in SI units, " +
+         core::format_number(std::abs(fitted.mean_score), 2) +
+         " standard errors: the zero of the sensor is off, or the law differs between the directions. Seek the zero: "
+         "'free' with " +
+         std::string(own_names[static_cast<std::size_t>(zero)]);
+}
+
 }  // namespace
 
 std::vector<std::string> contradictions_of_stated(const Experiments& experiments, const Fit& fit) {
@@ -178,10 +202,12 @@ void warn_of_residuals(const Experiments& experiments, bool robust, Fit& fit) {
                              (contradicts_stated(fitted) < 0
                                   ? "; the intervals use it and are too wide by up to the same factor"
                                   : "; the intervals are widened in proportion to the residuals"));
+    const std::optional<Own> zero = zero_off(experiments, fitted, fit);
+    if (zero) fit.warnings.push_back(said_of_zero(fitted, *zero, who));
     // For readings that are not samples, `said_of_stated` has already reported residuals above the stated noise.
     constexpr double far = 3.0;
     if (is_noise(fitted.p_value) && contradicts_stated(fitted) == 0 && signal.is_sampled && !robust &&
-        fitted.noise_units > far)
+        fitted.noise_units > far && !zero)
       fit.warnings.push_back(said_of_noise(fitted, who));
     if (is_noise(fitted.p_value) || (!signal.is_sampled && contradicts_stated(fitted) > 0)) continue;
     std::string text = who;

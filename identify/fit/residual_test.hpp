@@ -16,6 +16,9 @@
 /// A stated noise may be too small or too large: a two-sided chi-square test with the readings that count as
 /// independent. It is called wrong for a chance below 0.001 and a ratio of the deviations beyond a factor of 1.3.
 ///
+/// The test leaves out the mean. Of the residuals of a history, a mean above four standard errors, or one that
+/// makes up half of their mean square, speaks of the zero of the sensor, unless this zero is sought.
+///
 /// Source: brockwell1991. Cost: two Fourier transforms.
 
 #include <Eigen/Core>
@@ -51,7 +54,7 @@ void compare_with_stated(double deviation, double freedom, FittedSignal& signal)
 
 /// Adds warnings to `fit`: signals whose residuals are not noise, and stated noises that are wrong. Also signals
 /// whose residuals look like noise, but far above that of the sensor; not in a `robust` fit, where outliers do
-/// that.
+/// that. Also signals whose zero is off; `fit.parameters` say which zeros are sought.
 void warn_of_residuals(const Experiments& experiments, bool robust, Fit& fit);
 
 }  // namespace dualdamp::identify

@@ -5,8 +5,9 @@
 /// cubic_stiffness, damping, damping_ratio, phase, force_offset. The names of a law are those of its table, with a
 /// path into lists and records ("elements[1].stiffness", "warming.power"). If two parameters have the same name,
 /// "system." or "friction." ("friction[1]." for laws in parallel) is put before it. Each record adds its own
-/// parameters: position and velocity at its first sample, offset (the reading of x at rest), release (the time of
-/// the first extreme). A law's parameter with such a name also gets "friction." before it.
+/// parameters: position and velocity at its first sample, offset, offset_v and offset_a (the readings of x, v and a
+/// at rest), release (the time of the first extreme). A law's parameter with such a name also gets "friction."
+/// before it.
 ///
 /// Ranges are those of the laws' tables. The last `share` of a list of elements is 1 minus the sum of the others.
 
@@ -31,10 +32,11 @@ struct RigLaw {
 };
 
 /// The parameters of a single record, in this order.
-enum class Own { position, velocity, offset, release };
-inline constexpr std::size_t own_count = 4;
-inline constexpr std::array<std::string_view, own_count> own_names = {"position", "velocity", "offset", "release"};
-/// m, m/s, m, s
+enum class Own { position, velocity, offset, release, offset_v, offset_a };
+inline constexpr std::size_t own_count = 6;
+inline constexpr std::array<std::string_view, own_count> own_names = {"position", "velocity", "offset",
+                                                                      "release",  "offset_v", "offset_a"};
+/// m, m/s, m, s, m/s, m/s^2
 using OwnValues = std::array<double, own_count>;
 
 /// What a parameter belongs to.

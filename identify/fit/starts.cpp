@@ -56,7 +56,11 @@ Guess guess_of(const FitParameter& parameter, const DataScale& s) {
     case Owner::damping_ratio:
       return {0.05, 10.0};
     case Owner::record:
-      return {parameter.unit == "s" ? time : parameter.unit == "m/s" ? s.speed : s.length, 1.0};
+      return {parameter.unit == "s"       ? time
+              : parameter.unit == "m/s"   ? s.speed
+              : parameter.unit == "m/s^2" ? s.speed / time
+                                          : s.length,
+              1.0};
     default:
       break;
   }

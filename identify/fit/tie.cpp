@@ -67,9 +67,12 @@ std::optional<sim::Model> Tie::tied(const sim::Model& model, const OwnValues& ow
   const double spring = follows_x_ ? strength_ * o.stiffness : 0.0;
   const double damper = 2.0 * std::sqrt(strength_ * o.mass * o.stiffness);
   const double offset = own[static_cast<std::size_t>(Own::offset)];
-  const double begin = begins_with_v_ ? own[static_cast<std::size_t>(Own::velocity)] : 0.0;
+  const double begin =
+      begins_with_v_ ? own[static_cast<std::size_t>(Own::velocity)] : -own[static_cast<std::size_t>(Own::offset_v)];
+  const double drift = begins_with_v_ ? own[static_cast<std::size_t>(Own::offset_a)] : 0.0;
   std::vector<double> force = drive_force(model, times_);
-  for (std::size_t i = 0; i < times_.size(); ++i) force[i] += spring * (x_[i] - offset) + damper * (v_[i] + begin);
+  for (std::size_t i = 0; i < times_.size(); ++i)
+    force[i] += spring * (x_[i] - offset) + damper * (v_[i] + begin - drift * times_[i]);
   sim::Model tied = model;
   tied.oscillator.stiffness += spring;
   tied.oscillator.damping += damper;

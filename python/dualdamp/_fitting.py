@@ -13,7 +13,7 @@ from ._scenario import flow, plain
 from ._systems import as_mapping
 
 # Parameters of a single record, which a prediction fits anew.
-_OF_RECORDS = ("position", "velocity", "offset", "release")
+_OF_RECORDS = ("position", "velocity", "offset", "release", "offset_v", "offset_a")
 
 
 def fit(

@@ -410,7 +410,8 @@ std::vector<FitParameter> parameters_for(const identify::Rig& rig, const identif
     if (!fault.empty()) {
       std::string names;
       for (const FitParameter& parameter : all) names += (names.empty() ? "" : ", ") + parameter.name;
-      faults.push_back({"free", fault + "; there are " + names + ", position, velocity, offset"});
+      faults.push_back(
+          {"free", fault + "; there are " + names + ", position, velocity, offset, offset_v, offset_a"});
     }
     for (FitParameter& parameter : found) add_new(std::move(parameter), parameters);
   }
@@ -419,7 +420,7 @@ std::vector<FitParameter> parameters_for(const identify::Rig& rig, const identif
   for (std::size_t e = 0; e < experiments.size(); ++e)
     for (const Own free : identify::sought_own(*experiments[e], placed)) {
       const bool is_history = experiments[e]->kind == identify::ExperimentKind::history;
-      if (sought.initial_is_known && is_history && free != Own::offset) continue;
+      if (sought.initial_is_known && is_history && (free == Own::position || free == Own::velocity)) continue;
       FitParameter parameter = identify::own_parameter(*experiments[e], e, free, experiments.size() == 1);
       if (std::ranges::find(own, parameter.name, &FitParameter::name) == own.end())
         own.push_back(std::move(parameter));
