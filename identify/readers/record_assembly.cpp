@@ -250,14 +250,27 @@ class Assembly {
         complain(0, name, subject + " is constant: the mass does not move", "the signal of a motion");
         return false;
       }
-      const Clipping clipping = clipping_of(*signal);
-      if (clipping.samples == 0) continue;
-      complain(clipping.first, name,
-               subject + " is clipped: " + std::to_string(clipping.samples) + " samples in " +
-                   std::to_string(clipping.places) + " places stay at the end of the range",
+      if (!check_range(name, *signal)) return false;
+    }
+    return true;
+  }
+
+  /// Adds a problem for a clipped signal, or a warning where it is not certain. False after a problem.
+  bool check_range(std::string_view name, const std::vector<double>& signal) {
+    const Clipping exact = clipping_of(signal);
+    const Clipping clipping = exact.samples > 0 ? exact : noisy_clipping_of(signal);
+    if (clipping.samples == 0) return true;
+    const std::string where = std::to_string(clipping.samples) + " samples in " + std::to_string(clipping.places) +
+                              (clipping.places == 1 ? " place" : " places") + " stay at the end of the range";
+    const std::string subject = "column " + std::string(name);
+    // A displacement does not stop short twice at the same place.
+    if (exact.samples > 0 || (name == "x" && clipping.places > 1)) {
+      complain(clipping.first, name, subject + " is clipped: " + where,
                "a record within the range of the sensor, or the part of it that is");
       return false;
     }
+    warnings_.push_back(subject + " may be clipped: " + where +
+                        ", and the swing beside them would go further. Clipping looks like friction");
     return true;
   }
 

@@ -1,0 +1,70 @@
+#include "identify/readers/signal_checks.hpp"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "core/random.hpp"
+
+using namespace dualdamp;
+using identify::clipping_of;
+using identify::noisy_clipping_of;
+
+namespace {
+
+constexpr double per_swing = 60.0;
+
+/// A decay of eight swings about zero.
+std::vector<double> decay(double per_sample = per_swing) {
+  std::vector<double> x;
+  for (double swing = 0.0; swing < 8.0; swing += 1.0 / per_sample)
+    x.push_back(std::exp(-0.05 * swing) * std::cos(2.0 * std::numbers::pi * swing + 1.0));
+  return x;
+}
+
+std::vector<double> with_noise(std::vector<double> x, double deviation) {
+  const core::RandomStream stream{3, 905};
+  for (std::size_t i = 0; i < x.size(); ++i) x[i] += deviation * stream.normal(i);
+  return x;
+}
+
+std::vector<double> clipped(std::vector<double> x, double low, double high) {
+  for (double& value : x) value = std::clamp(value, low, high);
+  return x;
+}
+
+}  // namespace
+
+TEST_CASE("signal checks: clipping is seen under the noise of what reads the sensor") {
+  for (const double noise : {1e-4, 1e-3}) {
+    CAPTURE(noise);
+    const std::vector<double> x = with_noise(clipped(decay(), -0.8, 0.8), noise);
+    CHECK(clipping_of(x).samples == 0);
+    CHECK(noisy_clipping_of(x).places > 2);
+    CHECK(std::abs(noisy_clipping_of(x).value) == Approx(0.8).margin(5.0 * noise));
+  }
+  const std::vector<double> once = clipped(decay(), -0.93, 2.0);
+  CHECK(noisy_clipping_of(once).places == 1);
+}
+
+TEST_CASE("signal checks: tops of smooth, quantised and sticking motion are not clipped") {
+  for (const double per_sample : {7.0, 60.0, 1000.0})
+    for (const double noise : {0.0, 1e-4, 1e-3, 1e-2, 0.03})
+      for (const double step : {0.0, 1e-3, 0.02}) {
+        CAPTURE(per_sample, noise, step);
+        std::vector<double> x = with_noise(decay(per_sample), noise);
+        for (double& value : x) value = step > 0.0 ? step * std::round(value / step) : value;
+        CHECK(noisy_clipping_of(x).samples == 0);
+      }
+  // Half swings, with a rest of half a swing at each end, where the mass arrives and leaves without speed.
+  std::vector<double> sticks;
+  for (double swing = 0.0; swing < 8.0; swing += 1.0 / per_swing) {
+    const double part = std::fmod(swing, 1.0);
+    const bool moves = part < 0.5;
+    const double sign = std::fmod(swing, 2.0) < 1.0 ? 1.0 : -1.0;
+    sticks.push_back(sign * (moves ? std::cos(2.0 * std::numbers::pi * part) : -1.0));
+  }
+  for (const double noise : {1e-4, 1e-3}) CHECK(noisy_clipping_of(with_noise(sticks, noise)).samples == 0);
+}
