@@ -10,6 +10,7 @@
 #include "core/numbers.hpp"
 #include "identify/ledger/advice.hpp"
 #include "identify/ledger/misfit.hpp"
+#include "identify/ledger/preferred.hpp"
 #include "identify/methods.hpp"
 #include "identify/methods/any_law/law_intervals.hpp"
 #include "identify/statistics/distributions.hpp"
@@ -97,81 +98,14 @@ void correct(Estimate& estimate) {
   }
 }
 
-/// The area of the intervals; infinite where there are none.
-double area(const Estimate& estimate) {
-  if (!estimate.usable || !estimate.interval95) return std::numeric_limits<double>::infinity();
-  const ParameterIntervals& at = *estimate.interval95;
-  const double size = (at.c[1] - at.c[0]) * (at.F0[1] - at.F0[0]);
-  return std::isfinite(size) ? size : std::numeric_limits<double>::infinity();
-}
-
-/// Do c and F0 of all estimates at these places agree with those of one of them, to the least change that matters?
-bool agree(const std::vector<Estimate>& estimates, const std::vector<std::size_t>& places, std::size_t with) {
-  const double share = LedgerOptions{}.least_change;
-  return std::ranges::all_of(places, [&](std::size_t place) {
-    const ParameterSet& a = estimates[place].value;
-    const ParameterSet& b = estimates[with].value;
-    return std::abs(a.c - b.c) <= share * std::abs(b.c) && std::abs(a.F0 - b.F0) <= share * std::abs(b.F0);
-  });
-}
-
-bool is_negative(const Estimate& estimate) { return estimate.value.c < 0.0 || estimate.value.F0 < 0.0; }
-
-/// Is zeta or F0 uncertain by more than its value?
-bool is_vague(const Estimate& estimate) {
-  const auto vague = [](double value, const Interval& interval) {
-    return 0.5 * (interval[1] - interval[0]) > value;
-  };
-  return !estimate.interval95 || vague(estimate.value.c, estimate.interval95->c) ||
-         vague(estimate.value.F0, estimate.interval95->F0);
-}
-
-/// The range over laws that says more than a joint fit more uncertain than its value; nothing if there is none. The
-/// narrow interval of another method beside such a fit is narrow by chance.
-std::optional<std::size_t> better_range(const std::vector<Estimate>& estimates, const Estimate& joint) {
-  if (!is_vague(joint)) return std::nullopt;
-  for (std::size_t i = 0; i < estimates.size(); ++i)
-    if (estimates[i].laws && (area(estimates[i]) < area(joint) || (is_negative(joint) && estimates[i].usable)))
-      return i;
-  return std::nullopt;
-}
-
-/// The joint fit, else the narrowest; of estimates without intervals the one in the middle, if all agree.
-std::optional<std::size_t> preferred(const std::vector<Estimate>& estimates) {
-  const auto place = [&](auto found) { return static_cast<std::size_t>(found - estimates.begin()); };
-  // It has all data, and what is violated is relaxed in it: a narrower interval is narrower by chance.
-  const auto joint = std::ranges::find(estimates, "joint_fit", &Estimate::method);
-  if (joint != estimates.end() && std::isfinite(area(*joint))) {
-    const std::optional<std::size_t> better = better_range(estimates, *joint);
-    return better ? *better : place(joint);
-  }
-  // Ranges over laws count only if nothing narrower can be used.
-  const bool others = std::ranges::any_of(estimates, [](const Estimate& e) { return e.usable && !e.laws; });
-  const auto size = [others](const Estimate& e) {
-    return others && e.laws ? std::numeric_limits<double>::infinity() : area(e);
-  };
-  const auto narrowest = std::ranges::min_element(estimates, {}, size);
-  if (narrowest == estimates.end()) return std::nullopt;
-  if (std::isfinite(size(*narrowest))) return place(narrowest);
-  std::vector<std::size_t> usable;
-  for (std::size_t i = 0; i < estimates.size(); ++i)
-    if (estimates[i].usable && !estimates[i].laws) usable.push_back(i);
-  if (usable.empty()) return std::nullopt;
-  std::ranges::sort(usable, {},
-                    [&](std::size_t i) { return std::pair(estimates[i].value.c, estimates[i].method); });
-  const std::size_t middle = usable[usable.size() / 2];
-  return agree(estimates, usable, middle) ? std::optional(middle) : std::nullopt;
-}
-
-/// An answer is not negative: where the interval holds zero, zero is the nearest value that friction can have.
+/// An answer is not negative, nor does its interval reach below zero, the nearest value that friction can have.
 void keep_physical(Estimate& estimate) {
-  if (!is_negative(estimate)) return;
   for (const ReportedParameter& parameter : reported_parameters) {
     double& value = estimate.value.*parameter.value;
     value = value < 0.0 ? 0.0 : value;
     if (!estimate.interval95) continue;
     double& low = ((*estimate.interval95).*parameter.interval)[0];
-    low = std::max(0.0, low);
+    low = low < 0.0 ? 0.0 : low;
   }
 }
 
@@ -234,6 +168,11 @@ std::string why_preferred(const Identification& all) {
             " methods agree; the record has no more readings than parameters, so there is no interval";
   if (rivals > 1 && all.estimates[*all.answer].method == "joint_fit")
     text += ", and it has all data; a narrower interval beside it is narrower by chance";
+  else if (rivals > 1 && has_few_readings(all.ledger) && !all.estimates[*all.answer].laws)
+    text +=
+        ", and of " + std::to_string(rivals) +
+        " such estimates its intervals are the widest that agree: of so few readings a narrower one is narrow by "
+        "chance";
   else if (rivals > 1)
     text += ", and of " + std::to_string(rivals) + " such estimates its intervals are the narrowest";
   const std::vector<std::string> untested = names_of(all.ledger, Standing::untested);
@@ -252,6 +191,13 @@ std::string why_contradicted(const Ledger& ledger) {
          "; what would help: " + what_would_help(ledger);
 }
 
+/// Why the readings of a record are too few to test; nothing if a single method was asked for, which speaks for
+/// itself, or beside histories, of which methods find more than the ledger.
+std::string why_untested(const Identification& all) {
+  if (!has_few_readings(all.ledger) || all.estimates.size() < 2 || all.ledger.entries.empty()) return {};
+  return all.ledger.entries.front().reason;
+}
+
 std::string why_none(const Identification& all) {
   if (all.ledger.misfit)
     return misfit_text(*all.ledger.misfit) +
@@ -264,6 +210,7 @@ std::string why_none(const Identification& all) {
   const auto usable = std::ranges::find_if(all.estimates, &Estimate::usable);
   if (usable != all.estimates.end())
     return "the usable estimates have no intervals and do not agree; what would help: more data";
+  if (std::string untested = why_untested(all); !untested.empty()) return untested;
   return there->method + ": " + there->reason;
 }
 
@@ -329,13 +276,6 @@ std::string trend_text(const std::vector<Estimate>& estimates, core::Coordinate 
   return " From " + trend->subsets.front().label + " to " + trend->subsets.back().label +
          " of the data zeta goes from " + range(&ParameterSet::zeta) + " and F0 from " + range(&ParameterSet::F0) +
          " " + core::unit_for(coordinate, "N") + ".";
-}
-
-bool overlap(const Interval& a, const Interval& b) { return a[0] <= b[1] && b[0] <= a[1]; }
-
-bool disagree(const Estimate& a, const Estimate& b) {
-  if (!b.usable || !a.interval95 || !b.interval95) return false;
-  return !overlap(a.interval95->c, b.interval95->c) || !overlap(a.interval95->F0, b.interval95->F0);
 }
 
 /// An estimate cannot be used if the joint model excludes it, which has all of the same data and no known
@@ -427,7 +367,7 @@ Identification concluded(std::vector<Estimate> estimates, Ledger ledger) {
   std::vector<std::string> reached_by;
   for (Estimate& estimate : all.estimates)
     if (estimate.laws) reached_by = extend_to_relaxed(estimate, all.ledger);
-  all.answer = preferred(all.estimates);
+  all.answer = preferred(all.estimates, all.ledger);
   if (all.answer) keep_physical(all.estimates[*all.answer]);
   all.reason = all.answer ? why_preferred(all) : why_none(all);
   const bool any = std::ranges::any_of(all.estimates, [](const Estimate& e) { return e.outcome.ok(); });

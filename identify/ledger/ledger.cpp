@@ -77,7 +77,7 @@ class Writer {
     for (const Departure& departure : tests_.departures) charge(departure, ledger);
     for (const RelaxationTest& test : tests_.tests) hold(test, ledger);
     for (LedgerEntry& entry : ledger.entries)
-      if (entry.standing == Standing::untested) explain(entry);
+      if (entry.standing == Standing::untested) explain(ledger, entry);
   }
 
  private:
@@ -198,7 +198,21 @@ class Writer {
     ledger.entries[static_cast<std::size_t>(entry.assumption)].reason.clear();
   }
 
-  void explain(LedgerEntry& entry) const {
+  /// Why there is nothing to test of the drive; nothing if its history would tell.
+  [[nodiscard]] static std::string about_drive(const Ledger& ledger) {
+    if (ledger.recorded.drive && ledger.tests_histories)
+      return "the measured drive enters the model as it is: nothing rests on its being harmonic and steady";
+    if (ledger.recorded.drive)
+      return "the states taken from the histories do not show it; a test of the histories themselves needs no "
+             "harmonic drive";
+    return ledger.recorded.free && !ledger.recorded.states ? "a free vibration has no drive" : "";
+  }
+
+  void explain(const Ledger& ledger, LedgerEntry& entry) const {
+    if (entry.assumption == Assumption::drive) {
+      entry.reason = about_drive(ledger);
+      if (!entry.reason.empty()) return;
+    }
     const auto is_alone = std::ranges::find_if(
         tests_.alone, [&](std::size_t index) { return model_.relaxations[index].assumption == entry.assumption; });
     entry.reason = is_alone != tests_.alone.end()
@@ -355,8 +369,9 @@ Recorded recorded_in(const Record& record) {
     });
   };
   Recorded recorded{.histories = !record.histories.empty()};
-  const bool driven = any_has({&History::y, &History::force});
-  recorded.free = recorded.histories ? !driven : !record.pairs && record.decay;
+  recorded.drive = any_has({&History::y, &History::force});
+  recorded.states = record.pairs.has_value();
+  recorded.free = recorded.histories ? !recorded.drive : !record.pairs && record.decay;
   recorded.one_sensor = recorded.free && !any_has({&History::v, &History::a});
   return recorded;
 }

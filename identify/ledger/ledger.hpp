@@ -62,6 +62,8 @@ struct LedgerOptions {
 struct Recorded {
   bool histories = false;
   bool free = false;        ///< free vibrations alone
+  bool drive = false;       ///< histories with their drive
+  bool states = false;      ///< steady states, or histories from which they were taken
   bool one_sensor = false;  ///< x alone
 };
 

@@ -56,6 +56,38 @@ TEST_CASE("The narrowest interval answers, whatever the order of the list") {
   CHECK(mentions(found.verdict, "do not contradict any assumption"));
 }
 
+TEST_CASE("Of few readings that nothing tests the widest interval that agrees answers") {
+  // Three pairs with phases: the narrowest of four intervals with one degree of freedom each missed zeta or F0 in
+  // 19 of 150 records, the widest in 5.
+  const Estimate wide = estimate("energy_balance", 0.1, 4.0, 0.02);
+  const Estimate narrow = estimate("resonance_least_squares", 0.101, 4.0, 0.01);
+  const Estimate apart = estimate("harmonic_balance", 0.2, 4.0, 0.1);
+  Ledger few = ledger({});
+  few.data.clear();
+  CHECK(answering(concluded({wide, narrow}, few)) == "energy_balance");
+  CHECK(answering(concluded({narrow, wide}, few)) == "energy_balance");
+  CHECK(mentions(concluded({narrow, wide}, few).reason, "the widest that agree"));
+  CHECK(answering(concluded({narrow, wide, apart}, few)) == "energy_balance");
+  few.recorded.histories = true;
+  CHECK(answering(concluded({wide, narrow}, few)) == "resonance_least_squares");
+}
+
+TEST_CASE("Where too few readings leave nothing to test this is the reason that there is no answer") {
+  Estimate unsound = estimate("energy_balance", 0.06, 2.0, 0.01);
+  unsound.sound = unsound.usable = false;
+  unsound.reason = "the dissipation does not grow with the speed";
+  Estimate refused = estimate("den_hartog_fit", 0.06, 2.0, 0.01);
+  refused.outcome = {dualdamp::core::OutcomeKind::not_identifiable, "2 pairs are needed, and 0 are left"};
+  refused.sound = refused.usable = false;
+  Ledger few = ledger({});
+  few.data.clear();
+  for (LedgerEntry& entry : few.entries) entry.reason = "fewer than four steady states do not stick";
+  CHECK(concluded({refused, unsound}, few).reason == "fewer than four steady states do not stick");
+  CHECK(mentions(concluded({unsound}, few).reason, "the dissipation does not grow"));
+  few.recorded.histories = true;
+  CHECK(mentions(concluded({refused, unsound}, few).reason, "the dissipation does not grow"));
+}
+
 TEST_CASE("Of estimates without intervals that agree the one in the middle answers") {
   const auto bare = [](const std::string& method, double zeta) {
     Estimate e = estimate(method, zeta, 4.0, 0.0);
@@ -269,6 +301,14 @@ TEST_CASE("No answer has negative friction") {
   CHECK(answer.value.c == 0.0);
   CHECK(answer.interval95->zeta == Interval{0.0, 0.01});
   CHECK(answer.value.F0 == 2.0);
+  // Nor does an interval reach below zero, whatever its middle is.
+  Estimate vague = estimate("joint_fit", 0.06, 2.0, 1.5);
+  const Identification positive = concluded({vague, vague}, ledger({}));
+  REQUIRE(positive.answer);
+  const Estimate& of_positive = positive.estimates[*positive.answer];
+  CHECK(of_positive.value.zeta == 0.06);
+  CHECK(of_positive.interval95->zeta == std::array<double, 2>{0.0, vague.interval95->zeta[1]});
+  CHECK(of_positive.interval95->F0[0] == 0.0);
 }
 
 TEST_CASE("An answer of as many readings as unknowns says that they leave no freedom") {

@@ -40,6 +40,16 @@ TEST_CASE("Constants of a decay that are off by a large factor are charged, and 
   }
 }
 
+TEST_CASE("The history of the drive is asked for only where it is missing") {
+  const auto about = [](Kind kind) {
+    const Measured m = measured(kind, first_seed);
+    return ledger_of(m.record, m.constants).entry(Assumption::drive).reason;
+  };
+  CHECK(about(Kind::decay) == "a free vibration has no drive");
+  CHECK(about(Kind::random).find("the measured drive enters the model as it is") == 0);
+  CHECK(about(Kind::xy).find("the history of the drive would tell") != std::string::npos);
+}
+
 TEST_CASE("A simulated motion that misses the record tests nothing") {
   Measured m = measured(Kind::random, first_seed);
   std::ranges::reverse(m.record.histories[0].x);  // a motion that the force does not make

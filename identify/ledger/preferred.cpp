@@ -1,0 +1,104 @@
+#include "identify/ledger/preferred.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <utility>
+
+namespace dualdamp::identify {
+
+namespace {
+
+bool overlap(const Interval& a, const Interval& b) { return a[0] <= b[1] && b[0] <= a[1]; }
+
+}  // namespace
+
+double area(const Estimate& estimate) {
+  if (!estimate.usable || !estimate.interval95) return std::numeric_limits<double>::infinity();
+  const ParameterIntervals& at = *estimate.interval95;
+  const double size = (at.c[1] - at.c[0]) * (at.F0[1] - at.F0[0]);
+  return std::isfinite(size) ? size : std::numeric_limits<double>::infinity();
+}
+
+bool is_negative(const Estimate& estimate) { return estimate.value.c < 0.0 || estimate.value.F0 < 0.0; }
+
+bool disagree(const Estimate& a, const Estimate& b) {
+  if (!b.usable || !a.interval95 || !b.interval95) return false;
+  return !overlap(a.interval95->c, b.interval95->c) || !overlap(a.interval95->F0, b.interval95->F0);
+}
+
+bool has_few_readings(const Ledger& ledger) { return ledger.data.empty() && !ledger.recorded.histories; }
+
+namespace {
+
+/// Do c and F0 of all estimates at these places agree with those of one of them, to the least change that matters?
+bool agree(const std::vector<Estimate>& estimates, const std::vector<std::size_t>& places, std::size_t with) {
+  const double share = LedgerOptions{}.least_change;
+  return std::ranges::all_of(places, [&](std::size_t place) {
+    const ParameterSet& a = estimates[place].value;
+    const ParameterSet& b = estimates[with].value;
+    return std::abs(a.c - b.c) <= share * std::abs(b.c) && std::abs(a.F0 - b.F0) <= share * std::abs(b.F0);
+  });
+}
+
+/// Is zeta or F0 uncertain by more than its value?
+bool is_vague(const Estimate& estimate) {
+  const auto vague = [](double value, const Interval& interval) {
+    return 0.5 * (interval[1] - interval[0]) > value;
+  };
+  return !estimate.interval95 || vague(estimate.value.c, estimate.interval95->c) ||
+         vague(estimate.value.F0, estimate.interval95->F0);
+}
+
+/// The range over laws that says more than a joint fit more uncertain than its value; nothing if there is none. The
+/// narrow interval of another method beside such a fit is narrow by chance.
+std::optional<std::size_t> better_range(const std::vector<Estimate>& estimates, const Estimate& joint) {
+  if (!is_vague(joint)) return std::nullopt;
+  for (std::size_t i = 0; i < estimates.size(); ++i)
+    if (estimates[i].laws && (area(estimates[i]) < area(joint) || (is_negative(joint) && estimates[i].usable)))
+      return i;
+  return std::nullopt;
+}
+
+/// The widest of the estimates with intervals that do not contradict the one at `with`.
+std::size_t widest_beside(const std::vector<Estimate>& estimates, std::size_t with) {
+  std::size_t widest = with;
+  for (std::size_t i = 0; i < estimates.size(); ++i)
+    if (!estimates[i].laws && std::isfinite(area(estimates[i])) && area(estimates[i]) > area(estimates[widest]) &&
+        !disagree(estimates[with], estimates[i]))
+      widest = i;
+  return widest;
+}
+
+}  // namespace
+
+std::optional<std::size_t> preferred(const std::vector<Estimate>& estimates, const Ledger& ledger) {
+  const auto place = [&](auto found) { return static_cast<std::size_t>(found - estimates.begin()); };
+  // It has all data, and what is violated is relaxed in it: a narrower interval is narrower by chance.
+  const auto joint = std::ranges::find(estimates, "joint_fit", &Estimate::method);
+  if (joint != estimates.end() && std::isfinite(area(*joint))) {
+    const std::optional<std::size_t> better = better_range(estimates, *joint);
+    return better ? *better : place(joint);
+  }
+  // Ranges over laws count only if nothing narrower can be used.
+  const bool others = std::ranges::any_of(estimates, [](const Estimate& e) { return e.usable && !e.laws; });
+  const auto size = [others](const Estimate& e) {
+    return others && e.laws ? std::numeric_limits<double>::infinity() : area(e);
+  };
+  const auto narrowest = std::ranges::min_element(estimates, {}, size);
+  if (narrowest == estimates.end()) return std::nullopt;
+  if (std::isfinite(size(*narrowest)))
+    return others && has_few_readings(ledger) ? widest_beside(estimates, place(narrowest)) : place(narrowest);
+  std::vector<std::size_t> usable;
+  for (std::size_t i = 0; i < estimates.size(); ++i)
+    if (estimates[i].usable && !estimates[i].laws) usable.push_back(i);
+  if (usable.empty()) return std::nullopt;
+  std::ranges::sort(usable, {},
+                    [&](std::size_t i) { return std::pair(estimates[i].value.c, estimates[i].method); });
+  const std::size_t middle = usable[usable.size() / 2];
+  return agree(estimates, usable, middle) ? std::optional(middle) : std::nullopt;
+}
+
+}  // namespace dualdamp::identify
