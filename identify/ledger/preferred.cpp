@@ -1,7 +1,6 @@
 #include "identify/ledger/preferred.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <string>
