@@ -81,6 +81,9 @@ class SteadyStates {
   [[nodiscard]] bool with_phases() const { return with_phases_; }
   [[nodiscard]] const Deviations& largest() const { return largest_; }
   [[nodiscard]] std::size_t frequencies() const { return frequencies_.size(); }
+  [[nodiscard]] Eigen::Index smooth_columns() const {
+    return identify::smooth_columns(frequencies() > 1, points_.size());
+  }
   [[nodiscard]] int sweeps() const { return sweeps_; }
   [[nodiscard]] Eigen::Index amplitudes() const { return static_cast<Eigen::Index>(points_.size()); }
   [[nodiscard]] Eigen::Index phases() const { return with_phases_ ? phases_ : 0; }
@@ -221,30 +224,21 @@ struct AmplitudeFit {
   double deviance = std::numeric_limits<double>::infinity();  ///< -2 log-likelihood
 };
 
-/// Columns of the smooth curve that separates the noise of a channel: fewer where they would leave no noise.
-Eigen::Index smooth_columns(const SteadyStates& states) {
-  if (states.frequencies() < 2) return 3;
-  return states.amplitudes() < many_states ? 4 : 6;
-}
-
 /// The noise of one channel: what a smooth curve over amplitude and frequency leaves of its residuals. A departure
 /// is smooth, so it is not taken for noise. The curve is over the true amplitudes as fitted, whose errors are
 /// independent of the residuals: at one level of Y a measured amplitude is a curve over r and its own noise.
 double scale_of(const SteadyStates& states, const Eigen::VectorXd& residuals, Eigen::Index first,
                 Eigen::Index count) {
-  Eigen::MatrixXd curve(count, smooth_columns(states));
+  Eigen::MatrixXd curve(count, states.smooth_columns());
   Eigen::Index row = 0;
   for (std::size_t i = 0; i < states.points().size() && row < count; ++i) {
     const SteadyPoint& point = states.points()[i];
     if (first > 0 && std::isnan(point.phase)) continue;
     const double x = states.true_x(i);
     const double r = point.r - 1.0;
-    const std::array<double, 6> by_both{1.0, x, r, r * r, x * x, r * r * r};
-    const std::array<double, 3> by_x{1.0, x, x * x};
-    for (Eigen::Index j = 0; j < curve.cols(); ++j)
-      curve(row, j) =
-          states.frequencies() > 1 ? by_both[static_cast<std::size_t>(j)] : by_x[static_cast<std::size_t>(j)];
-    ++row;
+    std::array<double, 6> powers{1.0, x, x * x};
+    if (states.frequencies() > 1) powers = {1.0, x, r, r * r, x * x, r * r * r};
+    curve.row(row++) = Eigen::Map<const Eigen::RowVectorXd>(powers.data(), curve.cols());
   }
   const Eigen::VectorXd own = residuals.segment(first, count);
   const Eigen::VectorXd left = own - curve * pivoted_least_squares(curve, own);
@@ -398,9 +392,9 @@ JointModel amplitude_model_of(const AmplitudeFit& fit, const SteadyStates& state
   leave_out_unseen(states, fit.at.friction, relaxed, model);
   model.spent = states.with_phases() ? 1.0 : 0.0;
   for (const Eigen::Index rows : {states.amplitudes(), states.phases()})
-    if (const Eigen::Index freedom = rows - smooth_columns(states); freedom > 0)
+    if (const Eigen::Index freedom = rows - states.smooth_columns(); freedom > 0)
       model.known_noise.push_back({rows, static_cast<double>(freedom)});
-  model.scale_freedom = static_cast<double>(states.amplitudes() - smooth_columns(states));
+  model.scale_freedom = static_cast<double>(states.amplitudes() - states.smooth_columns());
   model.refit = [states, begin = start_beside(fit.at.friction, states.points()), hidden = model.hidden, unit,
                  stated](const Taken& taken) {
     const bool second_order =

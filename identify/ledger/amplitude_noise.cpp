@@ -12,6 +12,11 @@
 
 namespace dualdamp::identify {
 
+Eigen::Index smooth_columns(bool several_frequencies, std::size_t states) {
+  constexpr std::size_t many = 8;
+  return !several_frequencies ? 3 : states < many ? 4 : 6;
+}
+
 namespace {
 
 /// 1, 1/x, x at one frequency; r, r^2 and x^2 as well at several. Few states at several frequencies: 1, 1/x, r,
@@ -20,7 +25,7 @@ Eigen::MatrixXd curves(const std::vector<SteadyPoint>& points) {
   const bool several = std::ranges::any_of(
       points, [&](const SteadyPoint& point) { return !is_same_frequency(point.r, points.front().r); });
   const auto count = static_cast<Eigen::Index>(points.size());
-  Eigen::MatrixXd columns(count, !several ? 3 : count < many_states ? 4 : 6);
+  Eigen::MatrixXd columns(count, smooth_columns(several, points.size()));
   for (Eigen::Index i = 0; i < columns.rows(); ++i) {
     const auto& [Y, x, phase, r, sweep, number] = points[static_cast<std::size_t>(i)];
     const double s = r - 1.0;

@@ -8,14 +8,17 @@
 ///
 /// Lengths in units of the largest output.
 
+#include <Eigen/Core>
+#include <cstddef>
 #include <vector>
 
 #include "identify/ledger/amplitude_terms.hpp"
 
 namespace dualdamp::identify {
 
-/// Fewer states at several frequencies than this take fewer columns of a smooth curve, or they have no noise left.
-inline constexpr int many_states = 8;
+/// Columns of a smooth curve over amplitude, and over frequency if there are several; fewer where few states would
+/// have no noise left.
+[[nodiscard]] Eigen::Index smooth_columns(bool several_frequencies, std::size_t states);
 
 /// Standard deviations of the three channels.
 struct Deviations {
