@@ -22,8 +22,8 @@ struct LeastSquaresProblem {
   /// Relative decrease of the sum of squares at which the fit may end. 0: at rounding.
   double tolerance = 0.0;
   int most_iterations = 200;
-  /// Within bounds: the search along a step uses the derivatives at its points. Dearer, but more of the bent valleys
-  /// of a law are passed.
+  /// Within bounds: the search along a step uses the derivatives at its points. Dearer, but more of the bent
+  /// valleys of a law are passed.
   bool slopes_along_steps = false;
   /// Fills the residuals, and their derivatives (residuals x parameters) if `jacobian` is not null. False: the
   /// model has no value at these parameters, and the step is shortened.
