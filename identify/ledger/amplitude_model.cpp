@@ -224,9 +224,9 @@ struct AmplitudeFit {
   double deviance = std::numeric_limits<double>::infinity();  ///< -2 log-likelihood
 };
 
-/// The noise of one channel: what a smooth curve over amplitude and frequency leaves of its residuals. A departure
-/// is smooth, so it is not taken for noise. The curve is over the true amplitudes as fitted, whose errors are
-/// independent of the residuals: at one level of Y a measured amplitude is a curve over r and its own noise.
+/// The noise of one channel: what a smooth curve leaves of its residuals. A departure is smooth, so it is not taken
+/// for noise. Of few states the curve is over the fitted amplitudes: at one level of Y a measured one is a curve
+/// over r and its own noise. Of many it is over the measured ones, which hold where the model misses the record.
 double scale_of(const SteadyStates& states, const Eigen::VectorXd& residuals, Eigen::Index first,
                 Eigen::Index count) {
   Eigen::MatrixXd curve(count, states.smooth_columns());
@@ -234,7 +234,7 @@ double scale_of(const SteadyStates& states, const Eigen::VectorXd& residuals, Ei
   for (std::size_t i = 0; i < states.points().size() && row < count; ++i) {
     const SteadyPoint& point = states.points()[i];
     if (first > 0 && std::isnan(point.phase)) continue;
-    const double x = states.true_x(i);
+    const double x = states.amplitudes() < many_states ? states.true_x(i) : point.x;
     const double r = point.r - 1.0;
     std::array<double, 6> powers{1.0, x, x * x};
     if (states.frequencies() > 1) powers = {1.0, x, r, r * r, x * x, r * r * r};

@@ -16,6 +16,9 @@
 
 namespace dualdamp::identify {
 
+/// From this number on, measured amplitudes serve as abscissae of a smooth curve.
+inline constexpr Eigen::Index many_states = 16;
+
 /// Columns of a smooth curve over amplitude, and over frequency if there are several; fewer where few states would
 /// have no noise left.
 [[nodiscard]] Eigen::Index smooth_columns(bool several_frequencies, std::size_t states);
