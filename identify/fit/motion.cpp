@@ -81,19 +81,14 @@ struct Zero {
   double swing = 0.0;  ///< largest distance from the middle [m]
 };
 
-Zero zero_of_velocity(const std::vector<double>& v, double rate) {
-  const std::vector<double> rest = integral_of(v, rate);
-  const std::vector<double> whole = running_integral(v, rate);
-  const double duration = static_cast<double>(v.size() - 1) / rate;
-  return {(whole.back() - whole.front() - (rest.back() - rest.front())) / duration, largest_swing(rest)};
-}
-
-Zero zero_of_acceleration(const std::vector<double>& a, double rate) {
-  const std::vector<double> rest = integral_of(a, rate);
-  const std::vector<double> whole = running_integral(a, rate);
-  const double duration = static_cast<double>(a.size() - 1) / rate;
-  return {(whole.back() - whole.front() - (rest.back() - rest.front())) / duration,
-          largest_swing(integral_of(rest, rate))};
+/// `integrals`: from the signal to the position.
+Zero zero_of(const std::vector<double>& signal, int integrals, double rate) {
+  std::vector<double> rest = integral_of(signal, rate);
+  const std::vector<double> whole = running_integral(signal, rate);
+  const double duration = static_cast<double>(signal.size() - 1) / rate;
+  const double zero = (whole.back() - whole.front() - (rest.back() - rest.front())) / duration;
+  if (integrals == 2) rest = integral_of(rest, rate);
+  return {zero, largest_swing(rest)};
 }
 
 /// Whether the zero of v or a is off for certain. A motion within X of its middle adds at most 3 X/T to the slope
@@ -263,7 +258,7 @@ class MeasuredMotion final : public Experiment {
     for (const Signal& signal : signals) {
       if (signal.name == "x" || swings_of(signal.measured) < 1.0) continue;
       const bool is_v = signal.name == "v";
-      const Zero zero = is_v ? zero_of_velocity(history.v, rate_) : zero_of_acceleration(history.a, rate_);
+      const Zero zero = is_v ? zero_of(history.v, 1, rate_) : zero_of(history.a, 2, rate_);
       if (!is_off(zero, is_v ? 3.0 / duration : 24.0 / (duration * duration), signal.noise, samples_)) continue;
       own_of_place.push_back(is_v ? Own::offset_v : Own::offset_a);
       remarks.emplace_back(own_of_place.back(),

@@ -24,8 +24,7 @@ namespace {
 Eigen::MatrixXd curves(const std::vector<SteadyPoint>& points) {
   const bool several = std::ranges::any_of(
       points, [&](const SteadyPoint& point) { return !is_same_frequency(point.r, points.front().r); });
-  const auto count = static_cast<Eigen::Index>(points.size());
-  Eigen::MatrixXd columns(count, smooth_columns(several, points.size()));
+  Eigen::MatrixXd columns(static_cast<Eigen::Index>(points.size()), smooth_columns(several, points.size()));
   for (Eigen::Index i = 0; i < columns.rows(); ++i) {
     const auto& [Y, x, phase, r, sweep, number] = points[static_cast<std::size_t>(i)];
     const double s = r - 1.0;

@@ -88,8 +88,7 @@ class SampledOscillator {
     std::vector<By> by;
     std::vector<const Force*> forces;  ///< null but for By::force
     Eigen::ArrayXd x, v;
-    Eigen::ArrayXXd
-        forcing;  ///< its Taylor series [N per unit of the parameter]; rows that stay zero are not written
+    Eigen::ArrayXXd forcing;  ///< its Taylor series [N per unit of the parameter]
 
     void add(By what, const Force* force = nullptr);
     void start(double per_velocity);
