@@ -1,158 +1,183 @@
 #include "bench/score/score_tables.hpp"
 
 #include <string>
+#include <string_view>
+
+#include "scenarios/results/list_columns.hpp"
 
 namespace dualdamp::bench {
 
 namespace {
 
-using scenarios::column;
 using scenarios::Json;
 using scenarios::Table;
-using scenarios::text_column;
 
-/// The columns that all tables of scores have: each metric and its standard error.
 template <typename Item>
-void add_metrics(Table& table, const std::vector<Item>& list) {
+using Columns = scenarios::ListColumns<Item, Grid>;
+
+/// The value of a member of the item, whatever the grid.
+template <typename Item, typename Base, typename Value>
+auto number(Value Base::* member) {
+  return [member](const Item& item, const Grid&) { return static_cast<double>(item.*member); };
+}
+
+template <typename Item>
+std::string entrant_of(const Item& item, const Grid& grid) {
+  return grid.question().entrant(item.entrant);
+}
+
+/// The columns that all tables of scores end with: each metric and its standard error.
+template <typename Item>
+Columns<Item> with_metrics(Columns<Item> columns) {
   for (std::size_t i = 0; i < metric_count; ++i) {
-    const std::string name(metric_list.at(i).name);
-    table.columns.push_back(column(name, "", list, [i](const Item& item) { return item.value.values.at(i); }));
-    table.columns.push_back(column(name + "_se", "", list, [i](const Item& item) { return item.se.values.at(i); }));
+    const MetricText& metric = metric_list.at(i);
+    const std::string name(metric.name);
+    columns.push_back({name, "1", std::string(metric.meaning),
+                       [i](const Item& item, const Grid&) { return item.value.values.at(i); }});
+    columns.push_back({name + "_se", "1", "its standard error",
+                       [i](const Item& item, const Grid&) { return item.se.values.at(i); }});
   }
+  return columns;
 }
 
-Table cell_table(const Scores& scores, const Grid& grid) {
-  const StressTest& question = grid.question();
-  const std::vector<CellScore>& list = scores.cells;
-  const auto place = [&](const CellScore& score) { return grid.first_of_cell(score.cell); };
-  const auto motion = [&](const CellScore& score) { return grid.motion(place(score).motion); };
-  const auto family = [&](const CellScore& score) { return name_of(motion(score).departure.family()); };
-  Table table{
-      "scores",
-      {text_column("family", list, family),
-       text_column("law", list, [&](const CellScore& s) { return motion(s).departure.name(); }),
-       column("severity", "", list, [&](const CellScore& s) { return motion(s).severity; }),
-       text_column("range", list, [&](const CellScore& s) { return question.ranges[motion(s).range].name; }),
-       text_column("sensors", list, [&](const CellScore& s) { return question.sensors[place(s).sensors].name; }),
-       text_column("method", list, [&](const CellScore& s) { return question.entrant(s.entrant); }),
-       column("cases", "", list, &CellScore::cases), column("estimates", "", list, &CellScore::estimates),
-       column("distance", "", list, &CellScore::distance), column("harm", "", list, &CellScore::harm),
-       column("zeta_bias", "", list, &CellScore::zeta_bias), column("F0_bias", "", list, &CellScore::F0_bias),
-       column("zeta_error", "", list, &CellScore::zeta_error), column("F0_error", "", list, &CellScore::F0_error)},
-      true};
-  add_metrics(table, list);
-  table.key = "scores";
-  return table;
+Columns<Rank> ranking_columns() {
+  return with_metrics<Rank>(
+      {{"method", "", "a method or an entry, best first", entrant_of<Rank>},
+       {"rank_from", "1", "1 + number of those that are better by more than two standard errors",
+        number<Rank>(&Rank::from)},
+       {"rank_to", "1", "number of those that are not worse by more than two standard errors",
+        number<Rank>(&Rank::to)},
+       {"interval_score", "1", "mean of the interval scores of zeta and F0, by which the ranking is made",
+        number<Rank>(&Rank::interval_score)},
+       {"interval_score_se", "1", "its standard error", number<Rank>(&Rank::interval_score_se)}});
 }
 
-Table family_table(const Scores& scores, const Grid& grid) {
-  const std::vector<FamilyScore>& list = scores.families;
-  Table table{
-      "families",
-      {text_column("family", list, [](const FamilyScore& s) { return name_of(s.family); }),
-       text_column("method", list, [&](const FamilyScore& s) { return grid.question().entrant(s.entrant); })},
-      true};
-  add_metrics(table, list);
-  table.key = "families";
-  return table;
+Columns<FamilyScore> family_columns() {
+  return with_metrics<FamilyScore>(
+      {{"family", "", "family of departures, or none",
+        [](const FamilyScore& s, const Grid&) { return std::string(name_of(s.family)); }},
+       {"method", "", "a method or an entry", entrant_of<FamilyScore>}});
 }
 
-Table ranking_table(const Scores& scores, const Grid& grid) {
-  const std::vector<Rank>& list = scores.ranking;
-  Table table{"ranking",
-              {text_column("method", list, [&](const Rank& r) { return grid.question().entrant(r.entrant); }),
-               column("rank_from", "", list, &Rank::from), column("rank_to", "", list, &Rank::to),
-               column("interval_score", "", list, &Rank::interval_score),
-               column("interval_score_se", "", list, &Rank::interval_score_se)}};
-  table.is_long = true;  // a terminal shows the short table
-  add_metrics(table, list);
-  table.key = "ranking";
-  return table;
+Columns<Departure> departure_columns() {
+  return {
+      {"departure", "", "name of the departure", [](const Departure& d, const Grid&) { return d.name(); }},
+      {"family", "", "what it changes, such as friction or the drive",
+       [](const Departure& d, const Grid&) { return std::string(name_of(d.family())); }},
+      {"severity", "", "what its severity means", [](const Departure& d, const Grid&) { return d.severity(); }}};
 }
 
-Table difference_table(const Scores& scores, const Grid& grid) {
-  const std::vector<Difference>& list = scores.differences;
-  Table table{
-      "differences",
-      {text_column("better", list, [&](const Difference& d) { return grid.question().entrant(d.better); }),
-       text_column("worse", list, [&](const Difference& d) { return grid.question().entrant(d.worse); }),
-       column("difference", "", list, &Difference::value), column("difference_se", "", list, &Difference::se),
-       column("significant", "", list, [](const Difference& d) { return d.is_significant ? 1.0 : 0.0; })},
-      true};
-  table.columns.back().kind = scenarios::CellKind::truth;
-  table.key = "differences";
-  return table;
+Columns<Difference> difference_columns() {
+  return {{"better", "", "the better of two",
+           [](const Difference& d, const Grid& grid) { return grid.question().entrant(d.better); }},
+          {"worse", "", "the other",
+           [](const Difference& d, const Grid& grid) { return grid.question().entrant(d.worse); }},
+          {"difference", "1", "difference of their interval scores", number<Difference>(&Difference::value)},
+          {"difference_se", "1", "its standard error", number<Difference>(&Difference::se)},
+          {"significant", "", "whether it exceeds two standard errors",
+           number<Difference>(&Difference::is_significant), scenarios::CellKind::truth}};
 }
 
-Table by_consequence_table(const Scores& scores, const Grid& grid) {
-  const std::vector<ConsequenceScore>& list = scores.by_consequence;
-  Table table{
-      "by_consequence",
-      {text_column("of", list, [](const ConsequenceScore& s) { return s.axis; }),
-       column("from", "", list, &ConsequenceScore::from), column("to", "", list, &ConsequenceScore::to),
-       text_column("method", list, [&](const ConsequenceScore& s) { return grid.question().entrant(s.entrant); }),
-       column("departures", "", list, &ConsequenceScore::departures),
-       column("cases", "", list, &ConsequenceScore::cases)},
-      true};
-  add_metrics(table, list);
-  table.key = "by_consequence";
-  return table;
+Columns<ConsequenceScore> by_consequence_columns() {
+  using Score = ConsequenceScore;
+  return with_metrics<Score>(
+      {{"of", "", "distance or harm", [](const Score& s, const Grid&) { return s.axis; }},
+       {"from", "1", "smallest distance or harm of these cases", number<Score>(&Score::from)},
+       {"to", "1", "their distance or harm is below this; null: no limit", number<Score>(&Score::to)},
+       {"method", "", "a method or an entry", entrant_of<Score>},
+       {"departures", "1", "departures that have such cases", number<Score>(&Score::departures)},
+       {"cases", "1", "number of these cases", number<Score>(&Score::cases)}});
 }
 
-Table consequence_table(const MarkedCases& cases, const Grid& grid) {
-  const StressTest& question = grid.question();
-  std::vector<std::size_t> rows(cases.consequences.size());
-  for (std::size_t i = 0; i < rows.size(); ++i) rows[i] = i;
-  const auto motion = [&](std::size_t row) { return grid.motion(row / question.sensors.size()); };
-  const auto number = [&](double CaseConsequence::* member) {
-    return [&cases, member](std::size_t row) { return cases.consequences[row].*member; };
+Columns<CellScore> cell_columns() {
+  const auto place = [](const CellScore& score, const Grid& grid) { return grid.first_of_cell(score.cell); };
+  const auto motion = [place](const CellScore& score, const Grid& grid) {
+    return grid.motion(place(score, grid).motion);
   };
-  const auto rig = [&](std::size_t row) -> const TrueRig& { return question.rigs[motion(row).rig]; };
-  Table table{"consequences",
-              {text_column("law", rows, [&](std::size_t r) { return motion(r).departure.name(); }),
-               column("severity", "", rows, [&](std::size_t r) { return motion(r).severity; }),
-               column("rig", "", rows, [&](std::size_t r) { return static_cast<double>(motion(r).rig); }),
-               text_column("range", rows, [&](std::size_t r) { return question.ranges[motion(r).range].name; }),
-               text_column("sensors", rows,
-                           [&](std::size_t r) { return question.sensors[r % question.sensors.size()].name; }),
-               column("zeta", "", rows, [&](std::size_t r) { return rig(r).parameters().zeta; }),
-               column("F0", "N", rows, [&](std::size_t r) { return rig(r).parameters().F0; }),
-               column("distance", "", rows, number(&CaseConsequence::distance)),
-               column("harm", "", rows, number(&CaseConsequence::harm)),
-               column("harm_zeta", "", rows, number(&CaseConsequence::harm_zeta)),
-               column("harm_F0", "", rows, number(&CaseConsequence::harm_F0)),
-               column("attainable_power", "", rows, number(&CaseConsequence::attainable_power)),
-               column("cramer_rao_zeta", "", rows, number(&CaseConsequence::cramer_rao_zeta)),
-               column("cramer_rao_F0", "", rows, number(&CaseConsequence::cramer_rao_F0))},
-              true};
-  table.key = "consequences";
-  return table;
+  return with_metrics<CellScore>(
+      {{"family", "", "family of the departure, or none",
+        [=](const CellScore& s, const Grid& g) { return std::string(name_of(motion(s, g).departure.family())); }},
+       {"law", "", "departure, or coulomb_viscous",
+        [=](const CellScore& s, const Grid& g) { return motion(s, g).departure.name(); }},
+       {"severity", "1", "severity of the departure",
+        [=](const CellScore& s, const Grid& g) { return motion(s, g).severity; }},
+       {"range", "", "range of excitation",
+        [=](const CellScore& s, const Grid& g) { return g.question().ranges[motion(s, g).range].name; }},
+       {"sensors", "", "sensors",
+        [=](const CellScore& s, const Grid& g) { return g.question().sensors[place(s, g).sensors].name; }},
+       {"method", "", "a method or an entry", entrant_of<CellScore>},
+       {"cases", "1", "rigs times seeds", number<CellScore>(&CellScore::cases)},
+       {"estimates", "1", "cases with an estimate", number<CellScore>(&CellScore::estimates)},
+       {"distance", "1", "mean distance over the rigs, in units of the sensors' noise",
+        number<CellScore>(&CellScore::distance)},
+       {"harm", "1", "mean harm over the rigs", number<CellScore>(&CellScore::harm)},
+       {"zeta_bias", "1", "mean error of zeta, relative", number<CellScore>(&CellScore::zeta_bias)},
+       {"F0_bias", "1", "mean error of F0, relative", number<CellScore>(&CellScore::F0_bias)},
+       {"zeta_error", "1", "median of the absolute error of zeta, relative",
+        number<CellScore>(&CellScore::zeta_error)},
+       {"F0_error", "1", "median of the absolute error of F0, relative", number<CellScore>(&CellScore::F0_error)}});
 }
 
-Table departure_table(const Grid& grid) {
-  const std::vector<Departure>& list = grid.question().departures;
-  Table table{"departures",
-              {text_column("departure", list, [](const Departure& d) { return d.name(); }),
-               text_column("family", list, [](const Departure& d) { return name_of(d.family()); }),
-               text_column("severity", list, [](const Departure& d) { return d.severity(); })},
-              true};
-  table.key = "departures";
-  return table;
+/// A consequence with its place in the list, which says to which motion and sensors it belongs.
+struct PlacedConsequence {
+  std::size_t row = 0;
+  const CaseConsequence* found = nullptr;
+
+  [[nodiscard]] Grid::Motion motion(const Grid& grid) const {
+    return grid.motion(row / grid.question().sensors.size());
+  }
+  [[nodiscard]] const TrueRig& rig(const Grid& grid) const { return grid.question().rigs[motion(grid).rig]; }
+};
+
+Columns<PlacedConsequence> consequence_columns() {
+  using Placed = PlacedConsequence;
+  const auto found = [](double CaseConsequence::* member) {
+    return [member](const Placed& c, const Grid&) { return c.found->*member; };
+  };
+  return {{"law", "", "departure, or coulomb_viscous",
+           [](const Placed& c, const Grid& g) { return c.motion(g).departure.name(); }},
+          {"severity", "1", "severity of the departure",
+           [](const Placed& c, const Grid& g) { return c.motion(g).severity; }},
+          {"rig", "1", "number of the rig, from 0",
+           [](const Placed& c, const Grid& g) { return static_cast<double>(c.motion(g).rig); }},
+          {"range", "", "range of excitation",
+           [](const Placed& c, const Grid& g) { return g.question().ranges[c.motion(g).range].name; }},
+          {"sensors", "", "sensors",
+           [](const Placed& c, const Grid& g) {
+             return g.question().sensors[c.row % g.question().sensors.size()].name;
+           }},
+          {"zeta", "1", "damping ratio of the rig",
+           [](const Placed& c, const Grid& g) { return c.rig(g).parameters().zeta; }},
+          {"F0", "N", "friction force of the rig",
+           [](const Placed& c, const Grid& g) { return c.rig(g).parameters().F0; }},
+          {"distance", "1",
+           "distance of the readings from those of the nearest Coulomb and viscous motion, in units of noise",
+           found(&CaseConsequence::distance)},
+          {"harm", "1", "largest relative error of zeta and F0 of that motion", found(&CaseConsequence::harm)},
+          {"harm_zeta", "1", "relative error of zeta of that motion", found(&CaseConsequence::harm_zeta)},
+          {"harm_F0", "1", "relative error of F0 of that motion", found(&CaseConsequence::harm_F0)},
+          {"attainable_power", "1", "power of the best test that knows the departure",
+           found(&CaseConsequence::attainable_power)},
+          {"cramer_rao_zeta", "1", "smallest relative standard deviation of zeta if the law is known",
+           found(&CaseConsequence::cramer_rao_zeta)},
+          {"cramer_rao_F0", "1", "the same of F0", found(&CaseConsequence::cramer_rao_F0)}};
+}
+
+std::vector<PlacedConsequence> placed(const std::vector<CaseConsequence>& consequences) {
+  std::vector<PlacedConsequence> list;
+  for (const CaseConsequence& found : consequences) list.push_back({list.size(), &found});
+  return list;
 }
 
 /// The columns of the ranking that fit a terminal.
-Table short_ranking(const Scores& scores, const Grid& grid) {
-  const std::vector<Rank>& list = scores.ranking;
-  Table table{"ranking",
-              {text_column("method", list, [&](const Rank& r) { return grid.question().entrant(r.entrant); }),
-               column("rank_from", "", list, &Rank::from), column("rank_to", "", list, &Rank::to),
-               column("interval_score", "", list, &Rank::interval_score),
-               column("interval_score_se", "", list, &Rank::interval_score_se)}};
-  for (const Metric metric : {Metric::coverage_zeta, Metric::coverage_F0, Metric::power, Metric::attainable_power,
-                              Metric::false_alarm, Metric::prediction_error})
-    table.columns.push_back(
-        column(std::string(name_of(metric)), "", list, [metric](const Rank& r) { return r.value[metric]; }));
-  table.is_file = false;
+Table short_ranking(const Table& ranking) {
+  Table table{.name = ranking.name, .is_file = false};
+  for (const std::string_view name :
+       {std::string_view("method"), std::string_view("rank_from"), std::string_view("rank_to"),
+        std::string_view("interval_score"), std::string_view("interval_score_se"), name_of(Metric::coverage_zeta),
+        name_of(Metric::coverage_F0), name_of(Metric::power), name_of(Metric::attainable_power),
+        name_of(Metric::false_alarm), name_of(Metric::prediction_error)})
+    table.columns.push_back(*ranking.find(name));
   return table;
 }
 
@@ -170,97 +195,40 @@ Json summary(const MarkedCases& cases, const Grid& grid) {
   return json;
 }
 
-/// The fields of a metric and its standard error in a list of the result.
-void add_metric_fields(std::vector<scenarios::ResultField>& fields, const std::string& list) {
-  for (const MetricText& metric : metric_list) {
-    const std::string path = list + "[]." + std::string(metric.name);
-    fields.push_back({path, "1", std::string(metric.meaning)});
-    fields.push_back({path + "_se", "1", "its standard error"});
-  }
-}
-
-void add_consequence_fields(std::vector<scenarios::ResultField>& fields) {
-  for (const auto& [name, unit, meaning] :
-       {std::tuple("law", "", "departure, or coulomb_viscous"),
-        std::tuple("severity", "1", "severity of the departure"),
-        std::tuple("rig", "1", "number of the rig, from 0"), std::tuple("range", "", "range of excitation"),
-        std::tuple("sensors", "", "sensors"), std::tuple("zeta", "1", "damping ratio of the rig"),
-        std::tuple("F0", "N", "friction force of the rig"),
-        std::tuple("distance", "1",
-                   "distance of the readings from those of the nearest Coulomb and viscous motion, in units of "
-                   "noise"),
-        std::tuple("harm", "1", "largest relative error of zeta and F0 of that motion"),
-        std::tuple("harm_zeta", "1", "relative error of zeta of that motion"),
-        std::tuple("harm_F0", "1", "relative error of F0 of that motion"),
-        std::tuple("attainable_power", "1", "power of the best test that knows the departure"),
-        std::tuple("cramer_rao_zeta", "1", "smallest relative standard deviation of zeta if the law is known"),
-        std::tuple("cramer_rao_F0", "1", "the same of F0")})
-    fields.push_back({"consequences[]." + std::string(name), unit, meaning});
-}
-
 }  // namespace
 
 scenarios::Answer answer_of(const MarkedCases& cases, const Grid& grid) {
+  using scenarios::list_table;
   const Scores scores = score(cases, grid);
+  const Table ranking = list_table("ranking", ranking_columns(), scores.ranking, grid);
   scenarios::Answer answer;
   answer.result = summary(cases, grid);
-  answer.tables = {short_ranking(scores, grid), ranking_table(scores, grid),    family_table(scores, grid),
-                   departure_table(grid),       difference_table(scores, grid), by_consequence_table(scores, grid),
-                   cell_table(scores, grid),    consequence_table(cases, grid)};
+  answer.tables = {short_ranking(ranking),
+                   ranking,
+                   list_table("families", family_columns(), scores.families, grid),
+                   list_table("departures", departure_columns(), grid.question().departures, grid),
+                   list_table("differences", difference_columns(), scores.differences, grid),
+                   list_table("by_consequence", by_consequence_columns(), scores.by_consequence, grid),
+                   list_table("scores", cell_columns(), scores.cells, grid),
+                   list_table("consequences", consequence_columns(), placed(cases.consequences), grid)};
   if (cases.failed_cases > 0) answer.status = core::ExitStatus::some_cases_failed;
   return answer;
 }
 
 std::vector<scenarios::ResultField> score_fields() {
-  std::vector<scenarios::ResultField> fields = {
-      {"cases.all", "1", "cases of the grid"},
-      {"cases.failed", "1", "cases without an estimate by any method"},
-      {"cases.motions", "1", "motions computed for them"},
-      {"cases.rigs", "1", "rigs"},
-      {"cases.estimates", "1", "cases times methods and entries"},
-      {"ranking[].method", "", "a method or an entry, best first"},
-      {"ranking[].rank_from", "1", "1 + number of those that are better by more than two standard errors"},
-      {"ranking[].rank_to", "1", "number of those that are not worse by more than two standard errors"},
-      {"ranking[].interval_score", "1", "mean of the interval scores of zeta and F0, by which the ranking is made"},
-      {"ranking[].interval_score_se", "1", "its standard error"}};
-  add_metric_fields(fields, "ranking");
-  fields.push_back({"departures[].departure", "", "name of the departure"});
-  fields.push_back({"departures[].family", "", "what it changes, such as friction or the drive"});
-  fields.push_back({"departures[].severity", "", "what its severity means"});
-  fields.push_back({"families[].family", "", "family of departures, or none"});
-  fields.push_back({"families[].method", "", "a method or an entry"});
-  add_metric_fields(fields, "families");
-  for (const auto& [name, unit, meaning] :
-       {std::tuple("of", "", "distance or harm"),
-        std::tuple("from", "1", "smallest distance or harm of these cases"),
-        std::tuple("to", "1", "their distance or harm is below this; null: no limit"),
-        std::tuple("method", "", "a method or an entry"),
-        std::tuple("departures", "1", "departures that have such cases"),
-        std::tuple("cases", "1", "number of these cases")})
-    fields.push_back({"by_consequence[]." + std::string(name), unit, meaning});
-  add_metric_fields(fields, "by_consequence");
-  for (const auto& [name, unit, meaning] :
-       {std::tuple("differences[].better", "", "the better of two"),
-        std::tuple("differences[].worse", "", "the other"),
-        std::tuple("differences[].difference", "1", "difference of their interval scores"),
-        std::tuple("differences[].difference_se", "1", "its standard error"),
-        std::tuple("differences[].significant", "", "whether it exceeds two standard errors"),
-        std::tuple("scores[].family", "", "family of the departure, or none"),
-        std::tuple("scores[].law", "", "departure, or coulomb_viscous"),
-        std::tuple("scores[].severity", "1", "severity of the departure"),
-        std::tuple("scores[].range", "", "range of excitation"), std::tuple("scores[].sensors", "", "sensors"),
-        std::tuple("scores[].method", "", "a method or an entry"),
-        std::tuple("scores[].cases", "1", "rigs times seeds"),
-        std::tuple("scores[].estimates", "1", "cases with an estimate"),
-        std::tuple("scores[].distance", "1", "mean distance over the rigs, in units of the sensors' noise"),
-        std::tuple("scores[].harm", "1", "mean harm over the rigs"),
-        std::tuple("scores[].zeta_bias", "1", "mean error of zeta, relative"),
-        std::tuple("scores[].F0_bias", "1", "mean error of F0, relative"),
-        std::tuple("scores[].zeta_error", "1", "median of the absolute error of zeta, relative"),
-        std::tuple("scores[].F0_error", "1", "median of the absolute error of F0, relative")})
-    fields.push_back({name, unit, meaning});
-  add_metric_fields(fields, "scores");
-  add_consequence_fields(fields);
+  using scenarios::add_list_fields;
+  std::vector<scenarios::ResultField> fields = {{"cases.all", "1", "cases of the grid"},
+                                                {"cases.failed", "1", "cases without an estimate by any method"},
+                                                {"cases.motions", "1", "motions computed for them"},
+                                                {"cases.rigs", "1", "rigs"},
+                                                {"cases.estimates", "1", "cases times methods and entries"}};
+  add_list_fields("ranking", ranking_columns(), fields);
+  add_list_fields("families", family_columns(), fields);
+  add_list_fields("departures", departure_columns(), fields);
+  add_list_fields("differences", difference_columns(), fields);
+  add_list_fields("by_consequence", by_consequence_columns(), fields);
+  add_list_fields("scores", cell_columns(), fields);
+  add_list_fields("consequences", consequence_columns(), fields);
   return fields;
 }
 
