@@ -9,6 +9,7 @@ Whatever happens, no file under its final name is half-written: documents parse,
 import json
 import os
 import random
+import re
 import resource
 import signal
 import subprocess
@@ -39,6 +40,13 @@ COMMANDS = {
     "fit": (ROOT / "scenarios/examples/fit.yaml").read_text(),
     "stress": (ROOT / "scenarios/stress/small.yaml").read_text(),
 }
+
+
+def wait_until_it_heeds_signals(process):
+    """Waits until the program blocks SIGTERM to handle it itself, or has ended; before that the signal ends any process."""
+    status, bit = Path(f"/proc/{process.pid}/status"), 1 << (signal.SIGTERM - 1)
+    while process.poll() is None and not int(re.search(r"SigBlk:\s*(\w+)", status.read_text()).group(1), 16) & bit:
+        time.sleep(0.005)
 
 
 class Limits(unittest.TestCase):
@@ -158,8 +166,8 @@ class Limits(unittest.TestCase):
                 with self.subTest(name):
                     process = subprocess.Popen([PROGRAM, "run", "--quiet", f"{name}.yaml", "--out", "out"], cwd=self.folder, stdout=subprocess.DEVNULL,
                                                stderr=subprocess.PIPE)
-                    # The program takes 0.05 s to begin on a free machine.
-                    time.sleep(self.random.uniform(0.1, 1.2))
+                    wait_until_it_heeds_signals(process)
+                    time.sleep(self.random.uniform(0.0, 1.1))
                     process.send_signal(number)
                     _, errors = process.communicate(timeout=120)
                     self.assertIn(process.returncode, statuses, errors)
