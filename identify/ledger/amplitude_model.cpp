@@ -87,6 +87,9 @@ class SteadyStates {
   [[nodiscard]] int sweeps() const { return sweeps_; }
   [[nodiscard]] Eigen::Index amplitudes() const { return static_cast<Eigen::Index>(points_.size()); }
   [[nodiscard]] Eigen::Index phases() const { return with_phases_ ? phases_ : 0; }
+  /// If only some states have phases, these may be too few for a smooth curve to leave noise. Then the noise is
+  /// taken as large as that of the amplitudes, relative to the largest.
+  [[nodiscard]] bool tells_phase_noise() const { return phases() == amplitudes() || phases() > smooth_columns(); }
 
   [[nodiscard]] std::vector<Relaxation> relaxations() const {
     std::vector<Relaxation> list;
@@ -276,7 +279,10 @@ AmplitudeFit fit_with(SteadyStates states, const PlainFriction& begin, const Tak
     const double amplitude = scale_of(states, left, 0, states.amplitudes());
     fit.deviations.x *= amplitude;
     fit.deviations.Y *= amplitude;
-    if (states.phases() > 0) fit.deviations.phase *= scale_of(states, left, states.amplitudes(), states.phases());
+    if (states.tells_phase_noise())
+      fit.deviations.phase *= scale_of(states, left, states.amplitudes(), states.phases());
+    else
+      fit.deviations.phase = std::max(fit.deviations.x, fit.deviations.Y);
     limit(fit.deviations, states.largest());
   }
   Taken all(static_cast<std::size_t>(fit.at.g.size()));
@@ -326,19 +332,6 @@ bool drop_sticking(std::vector<SteadyPoint>& points, const PlainFriction& fricti
     return sticks;
   });
   return points.size() < before;
-}
-
-std::vector<SteadyPoint> points_of(const std::vector<Pair>& states, const KnownConstants& constants, double unit) {
-  const double natural = constants.natural_frequency();
-  std::vector<std::string> labels;
-  std::vector<SteadyPoint> points;
-  for (const Pair& pair : states) {
-    auto label = std::ranges::find(labels, pair.sweep);
-    if (label == labels.end()) label = labels.insert(labels.end(), pair.sweep);
-    points.push_back({pair.Y / unit, pair.x / unit, pair.phase, pair.omega / natural,
-                      static_cast<int>(label - labels.begin()), pair.number});
-  }
-  return points;
 }
 
 /// Leaves out the terms that amplitudes alone do not show. At resonance the drive is in quadrature with the motion,

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <string>
 
 #include "sim/analytic/den_hartog.hpp"
 
@@ -26,6 +27,19 @@ Complex plain_drive(const PlainFriction& friction, double x, double r) {
   const Complex drive = Complex(x + d.G * x_f, -d.H * x_f) * stiffness;
   const Complex fundamental = (drive - i * (4.0 / std::numbers::pi * x_f)) / stiffness;
   return drive * std::polar(1.0, -std::arg(fundamental));
+}
+
+std::vector<SteadyPoint> points_of(const std::vector<Pair>& states, const KnownConstants& constants, double unit) {
+  const double natural = constants.natural_frequency();
+  std::vector<std::string> labels;
+  std::vector<SteadyPoint> points;
+  for (const Pair& pair : states) {
+    auto label = std::ranges::find(labels, pair.sweep);
+    if (label == labels.end()) label = labels.insert(labels.end(), pair.sweep);
+    points.push_back({pair.Y / unit, pair.x / unit, pair.phase, pair.omega / natural,
+                      static_cast<int>(label - labels.begin()), pair.number});
+  }
+  return points;
 }
 
 PlainFriction first_guess(const std::vector<SteadyPoint>& points) {

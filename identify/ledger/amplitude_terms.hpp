@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "identify/assumption.hpp"
+#include "identify/record.hpp"
 
 namespace dualdamp::identify {
 
@@ -38,6 +39,10 @@ struct SteadyPoint {
   int sweep = 0;
   int number = 0;
 };
+
+/// The states of a record; lengths are divided by `unit`, frequencies by wn.
+[[nodiscard]] std::vector<SteadyPoint> points_of(const std::vector<Pair>& states, const KnownConstants& constants,
+                                                 double unit);
 
 /// Where a fit begins: the best of a grid in zeta and x_f.
 [[nodiscard]] PlainFriction first_guess(const std::vector<SteadyPoint>& points);

@@ -14,6 +14,7 @@ struct KnownColumn {
   std::string_view alias;
   std::string_view unit;  ///< SI, for x in metres (core/coordinate.hpp); empty for a label
   bool is_signal = false;
+  bool may_lack = false;  ///< a row may have no value: NaN in the table
 };
 
 inline constexpr std::array<KnownColumn, 12> known_columns = {{{"t", "time", "s"},
@@ -24,7 +25,7 @@ inline constexpr std::array<KnownColumn, 12> known_columns = {{{"t", "time", "s"
                                                                {"a", "acceleration", "m/s^2", true},
                                                                {"force", "", "N", true},
                                                                {"omega", "frequency", "rad/s"},
-                                                               {"phase", "", "rad"},
+                                                               {"phase", "", "rad", false, true},
                                                                {"fundamental", "", "m"},
                                                                {"mean_square_speed", "", "m^2/s^2"},
                                                                {"sweep", "", ""}}};

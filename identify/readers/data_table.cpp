@@ -16,12 +16,23 @@ namespace {
 /// Times computed from a step, and numbers converted to SI, may leave the range of double precision although the
 /// numbers of the file do not.
 void refuse_not_finite(const std::string& file, const DataColumn& column) {
-  const auto bad = std::ranges::find_if(column.values, [](double value) { return !std::isfinite(value); });
+  const auto bad = std::ranges::find_if_not(column.values, [&](double value) {
+    return std::isfinite(value) || (column.known->may_lack && std::isnan(value));
+  });
   if (bad == column.values.end()) return;
   refuse_file(file,
               "element " + std::to_string(bad - column.values.begin() + 1) + " of " +
                   std::string(column.known->name) + " leaves the range of double precision in SI",
               "finite numbers, and a step or rate of samples that makes finite times");
+}
+
+/// A column without any number is a fault of the program that wrote it, not a record without phases.
+void refuse_without_numbers(const DataTable& table) {
+  for (const DataColumn& column : table.columns)
+    if (column.known->may_lack &&
+        std::ranges::all_of(column.values, [](double value) { return std::isnan(value); }))
+      refuse_file(table.file, "element 1 of " + std::string(column.known->name) + " is not a finite number",
+                  "a finite number in one row or more; NaN where it was not measured");
 }
 
 }  // namespace
@@ -46,6 +57,7 @@ DataTable join(const std::string& file, const std::vector<TestColumns>& tests) {
     }
     if (!alike) refuse_file(file, "the tests of the file do not hold the same signals: test '" + test.label + "'");
   }
+  refuse_without_numbers(table);
   table.show = [file](std::size_t row, const KnownColumn& known) {
     core::Diagnostic result;
     result.place.file = file;

@@ -16,7 +16,7 @@ namespace dualdamp::identify {
 
 struct DataColumn {
   const KnownColumn* known = nullptr;
-  std::vector<double> values;  ///< SI; NaN for a value with a problem
+  std::vector<double> values;  ///< SI; NaN for a value with a problem, or a phase that was not measured
 };
 
 /// Rows with the same label, from `first_row` to the next run.

@@ -38,7 +38,8 @@ def identify(
     data : path, pandas.DataFrame, structured array or mapping of str to array_like
         A CSV, MATLAB or universal file; or columns by name: ``Y`` and ``x`` (amplitudes), ``t`` with ``x``, ``y``, ``v``, ``a``,
         ``force`` (histories), ``x`` alone (extremes of a free vibration), ``omega``, ``phase``, ``sweep``, .... A name may have a
-        unit, ``"x [mm]"``; without one, the numbers are in SI. docs/data-files.md has the details.
+        unit, ``"x [mm]"``; without one, the numbers are in SI. A ``phase`` that was not measured is NaN or None. docs/data-files.md
+        has the details.
     mass, stiffness : str or float, optional
         Constants of the rig: ``"1.042 kg"``. An uncertainty may follow: ``"1.042 kg +- 0.5 %"``.
     frequency : str, optional

@@ -46,6 +46,23 @@ def test_every_kind_of_columns(pairs):
         assert dd.identify(data, methods=methods, **RIG).result == expected, type(data)
 
 
+def test_a_phase_that_was_not_measured():
+    """NaN or None in a column of phases; in another column it is refused."""
+    rig = {"mass": "1 kg", "stiffness": "100 N/m"}
+    states = [(0.05 + 0.01 * (i % 5), 9.0 + 0.5 * (i // 5)) for i in range(15)]
+    found = [dd.steady_state(mass=1, stiffness=100, zeta=0.1, F0=2, Y=Y, omega=omega) for Y, omega in states]
+    data = {"Y": [Y for Y, _ in states], "omega [rad/s]": [omega for _, omega in states], "x": [float(state.amplitude) for state in found]}
+    phases = [float(state.phase) if i % 3 else None for i, state in enumerate(found)]
+    gaps = np.array(phases, dtype=float)
+    answers = [dd.identify({**data, "phase [rad]": column}, methods=["energy_balance"], **rig).estimates[0] for column in (phases, gaps)]
+    assert answers[0].zeta == answers[1].zeta == pytest.approx(0.1, rel=0.01)
+    assert [left["number"] for left in answers[0].diagnostics.excluded] == [1, 4, 7, 10, 13]
+    with pytest.raises(dd.InvalidScenario, match="the field of column phase is not a finite number"):
+        dd.identify({**data, "phase [rad]": np.full(15, np.nan)}, **rig)
+    with pytest.raises(dd.InvalidScenario, match="the field of column x is not"):
+        dd.identify({**data, "x": [None, *data["x"][1:]]}, **rig)
+
+
 def test_labels_of_sweeps_and_bits(pairs):
     """Texts are labels, numbers keep their bits."""
     numbers, _ = pairs

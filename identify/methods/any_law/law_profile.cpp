@@ -183,6 +183,12 @@ ChannelNoise noise_of(const ReadingModel& model, const ChannelNoise& noise, cons
     const VectorXd left = own - curve * pivoted_least_squares(curve, own);
     Index rank = 0;
     for (Index j = 0; j < curve.cols(); ++j) rank += curve.col(j).isZero(0.0) ? 0 : 1;
+    if (channel > 0 && own.size() <= rank) {
+      // The curve leaves nothing of so few phases: they are taken to be as noisy as the amplitudes.
+      found.deviations[channel] = std::max(found.deviations[0] / model.reference().amplitude,
+                                           model.least_deviation(static_cast<int>(channel)));
+      continue;
+    }
     const double own_freedom = std::max(1.0, static_cast<double>(own.size() - rank));
     freedom += own_freedom;
     found.deviations[channel] = std::max(noise.deviations[channel] * std::sqrt(left.squaredNorm() / own_freedom),

@@ -16,6 +16,12 @@ namespace {
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
+std::string lower_case(std::string_view text) {
+  std::string lower(text);
+  std::ranges::transform(lower, lower.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return lower;
+}
+
 /// The number in a text that std::from_chars can read completely.
 std::optional<double> plain_number(std::string_view text, std::errc& fault) {
   double value = 0.0;
@@ -173,10 +179,15 @@ std::optional<Clock> read_clock(std::string_view text, char decimal) {
   return clock;
 }
 
+bool is_unmeasured(std::string_view text) {
+  constexpr std::array<std::string_view, 8> none = {"",          "nan", "-nan", "nan(ind)",
+                                                    "-nan(ind)", "na",  "<na>", "none"};
+  return std::ranges::find(none, lower_case(text)) != none.end();
+}
+
 bool is_like_number(std::string_view text) {
   if (text.empty()) return false;
-  std::string lower(text);
-  std::ranges::transform(lower, lower.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string lower = lower_case(text);
   if (lower == "nan" || lower == "inf" || lower == "-inf") return true;
   if (!is_digit(lower[0]) && lower.find_first_of("+-.,") != 0) return false;
   static constexpr std::string_view others = "+-.,:eEdDtTzZ'/% ";

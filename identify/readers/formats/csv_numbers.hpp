@@ -16,6 +16,9 @@ struct FieldNumber {
 /// Fortran. Thousands separators are refused: 1,234 means different numbers in different countries.
 [[nodiscard]] FieldNumber read_field(std::string_view text, char decimal);
 
+/// Whether a field says that nothing was measured: it is empty, NaN, or a word of pandas, Python or R for no value.
+[[nodiscard]] bool is_unmeasured(std::string_view text);
+
 /// A time stamp: days since 1970 (0 unless there is a date with the year first) and seconds since midnight.
 struct Clock {
   int days = 0;

@@ -51,6 +51,7 @@ class Parser {
     }
     read_rows();
     problems_.throw_if_any();
+    refuse_without_numbers();
     table_.time_digits = std::max(time_digits_, 1);
     if (time_decimals_) table_.time_quantum = std::pow(10.0, -*time_decimals_) * time_factor_;
     table_.show = [rows = layout_.rows(), file = options_.name, separator = layout_.separator, targets = targets_](
@@ -165,7 +166,14 @@ class Parser {
       table_.sweeps.push_back({std::string(label), row});
   }
 
-  /// The number of a field in SI; NaN after a problem. The record is not used then.
+  /// A column without any number is a fault of the program that wrote it, not a record without phases.
+  void refuse_without_numbers() const {
+    for (const DataColumn& column : table_.columns)
+      if (std::ranges::all_of(column.values, [](double value) { return std::isnan(value); }))
+        unmeasured_.throw_if_any();
+  }
+
+  /// The number of a field in SI. NaN if it was not measured, and after a problem; the record is not used then.
   double number(const SourceLine& line, const Fields& field, const CsvField& target) {
     const bool is_time = target.known->name == "t";
     if (is_time && field.text.find(':') != std::string_view::npos)
@@ -176,13 +184,14 @@ class Parser {
     }
     if (!number.value) {
       const std::string kind = std::string(number.fault).append(number.allowed);
-      if (!problems_.repeats(kind, line.number))
-        problems_.add({at(line, field.column),
-                       "the field of column " + std::string(target.known->name) + " " + std::string(number.fault),
-                       std::string(number.allowed),
-                       field.text.empty() ? "an empty field" : quoted(field.text),
-                       {}},
-                      kind);
+      Problems& problems = target.known->may_lack && is_unmeasured(field.text) ? unmeasured_ : problems_;
+      if (!problems.repeats(kind, line.number))
+        problems.add({at(line, field.column),
+                      "the field of column " + std::string(target.known->name) + " " + std::string(number.fault),
+                      std::string(number.allowed),
+                      field.text.empty() ? "an empty field" : quoted(field.text),
+                      {}},
+                     kind);
       return std::nan("");
     }
     if (is_time) note_rounding(field.text, target.factor);
@@ -215,6 +224,7 @@ class Parser {
   Layout layout_;
   Rows rows_;
   Problems& problems_;
+  Problems unmeasured_;  ///< what the fields of columns that may lack are otherwise
   std::vector<std::string>& warnings_;
   std::vector<Target> targets_;
   DataTable table_;

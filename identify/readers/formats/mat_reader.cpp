@@ -259,8 +259,8 @@ class Reader {
     return result;
   }
 
-  /// The real numbers of a row or column. Nothing after a problem.
-  std::optional<std::vector<double>> vector(const Entry& entry) {
+  /// The real numbers of a row or column; `gaps`: it may hold NaN. Nothing after a problem.
+  std::optional<std::vector<double>> vector(const Entry& entry, bool gaps = false) {
     const matvar_t& variable = *entry.variable;
     const std::string subject = "variable '" + to_utf8(entry.name) + "'";
     const bool numeric = variable.class_type >= MAT_C_DOUBLE && variable.class_type <= MAT_C_UINT64;
@@ -289,7 +289,8 @@ class Reader {
     auto values = numbers(variable);
     if (!values) refuse_damaged_mat(file_);
     if (entry.slice) values = part_of(*values, variable, *entry.slice);
-    const auto bad = std::ranges::find_if(*values, [](double value) { return !std::isfinite(value); });
+    const auto bad = std::ranges::find_if(
+        *values, [gaps](double value) { return !std::isfinite(value) && !(gaps && std::isnan(value)); });
     if (bad == values->end()) return values;
     complain("element " + std::to_string(bad - values->begin() + 1) + " of " + subject + " is not a finite number",
              "finite numbers");
@@ -317,7 +318,7 @@ class Reader {
   }
 
   void take(const Entry& entry, const KnownColumn& known, const std::string& unit, TestColumns& test) {
-    auto values = vector(entry);
+    auto values = vector(entry, known.may_lack);
     if (!values) return;
     core::Diagnostic where;
     where.place.file = file_;

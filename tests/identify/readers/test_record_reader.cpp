@@ -212,6 +212,29 @@ TEST_CASE("Pairs with all that was read of them") {
   CHECK(mentions(refusal_of("Y,x,omega [rad/s]\n1,2,0\n"), "the frequency of column omega is zero"));
 }
 
+TEST_CASE("A phase that was not measured for a state is no fault, and no number") {
+  for (const char* word : {"", " ", "nan", "NaN", "-nan", "NA", "None", "<NA>", "\"\""}) {
+    CAPTURE(word);
+    const std::string rows = std::string("4,5,") + word + "\n5,7,80\n6,9," + word + "\n";
+    const auto found = parse_record("Y [mm],x [mm],phase [deg]\n" + rows, "data.csv");
+    const auto& pairs = found.record.pairs.value().pairs;
+    REQUIRE(pairs.size() == 3);
+    CHECK(std::isnan(pairs[0].phase));
+    CHECK(pairs[1].phase == Approx(80.0 * M_PI / 180.0).epsilon(1e-14));
+    CHECK(std::isnan(pairs[2].phase));
+    CHECK(pairs[2].x == Approx(9e-3));
+    CHECK(found.warnings.empty());
+    // Other columns have no such rows, and a column of phases has a number.
+    const std::string cell = word;
+    CHECK(mentions(refusal_of("Y,x,phase [rad]\n1," + cell + ",0.3\n2,3,0.4\n"), "the field of column x is not"));
+    CHECK(mentions(refusal_of("Y,x,phase [rad]\n" + cell + ",1,0.3\n2,3,0.4\n"), "the field of column Y is not"));
+    CHECK(mentions(refusal_of("Y,x,phase [rad]\n1,2," + cell + "\n2,3," + cell + "\n"),
+                   "the field of column phase is not"));
+  }
+  CHECK(mentions(refusal_of("Y,x,phase [rad]\n1,2,0.3\n2,3,inf\n"), "the field of column phase is not"));
+  CHECK(mentions(refusal_of("Y,x,phase [rad]\n1,2,0.3\n2,3,broken\n"), "the field of column phase is not"));
+}
+
 TEST_CASE("Large files are read, too large ones are refused") {
   std::string text = "t,x,y\n";
   constexpr int rows = 300'000;

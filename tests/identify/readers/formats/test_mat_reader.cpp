@@ -257,6 +257,26 @@ TEST_CASE("MATLAB files that hold something else") {
   }
 }
 
+TEST_CASE("NaN among the phases of a MATLAB file is a phase that was not measured") {
+  const double none = std::nan("");
+  for (const mat_ft version : {MAT_FT_MAT5, MAT_FT_MAT73}) {
+    CAPTURE(version);
+    const auto with = [version, none](std::vector<double> phases) {
+      Matlab file("gaps.mat", version);
+      file.add("Y", {1, 2, 3}).add("x", {2, 4, 6}).add("phase_rad", std::move(phases));
+      return read_record(file.path()).record.pairs.value().pairs;
+    };
+    const auto pairs = with({none, 0.5, none});
+    REQUIRE(pairs.size() == 3);
+    CHECK(std::isnan(pairs[0].phase));
+    CHECK(pairs[1].phase == 0.5);
+    CHECK(std::isnan(pairs[2].phase));
+    CHECK(mentions(refusal([&] { return with({none, none, none}); }), "is not a finite number"));
+    CHECK(mentions(refusal([&] { return with({0.5, std::numeric_limits<double>::infinity(), none}); }),
+                   "element 2 of variable 'phase_rad' is not a finite number"));
+  }
+}
+
 TEST_CASE("MATLAB files cut off anywhere are refused") {
   for (const mat_ft version : {MAT_FT_MAT5, MAT_FT_MAT73}) {
     Matlab whole("whole.mat", version);
