@@ -2,18 +2,12 @@
 /// What to measure next: by how much each of some measurements would narrow the ranges over laws, and whether it
 /// would tell apart the laws that a record allows.
 ///
-/// Each law that the record allows is taken as the truth once, at its best fit, with its weight in the average over
-/// laws. The measurement would give readings y; law i at severity s, fitted to the record with covariance C,
-/// predicts y_i with slopes J. After the measurement
+/// Each law that the record allows is taken as the truth, at its most probable severity. Its readings of a
+/// candidate, with noise, continue the record (continuation.hpp), and any_law's own rules answer to both together:
+/// hull, average, and which of the other laws are rejected. The advice is the mean over the truths. The noise has a
+/// fixed seed.
 ///
-///   chi2_i(s) grows by (y - y_i)' (S + J C J')^-1 (y - y_i),   C becomes (C^-1 + J' S^-1 J)^-1
-///
-/// with the variances S of the readings: linear in the unknowns, exact in the severity. The hull, the average and
-/// the power follow from these. The power is the mean over pairs of laws of that of a test of level 5 % of law i
-/// against the truth j, a noncentral chi square with one degree of freedom (hunter1965, box1967). Nothing random is
-/// drawn.
-///
-/// Cost: readings of each allowed law at its severities within reach, and their slopes; some seconds a candidate.
+/// Cost: some seconds for eight states.
 
 #include <string>
 #include <variant>
@@ -32,17 +26,24 @@ struct Shrinkage {
   double F0 = 1.0;
 };
 
+/// What a measurement would do if this law is the true one.
+struct Outcome {
+  std::string law;
+  Shrinkage hull;
+};
+
 struct Advice {
   CandidateMeasurement candidate;
-  Shrinkage hull;      ///< expected width of the hull
-  Shrinkage average;   ///< expected standard deviation of the average over laws
-  double power = 0.0;  ///< mean probability to reject a wrong law that the record allows
+  Shrinkage hull;                   ///< expected width of the hull: the mean of the outcomes
+  std::vector<Outcome> outcomes{};  ///< of each law that the record allows
+  Shrinkage average;                ///< expected standard deviation of the average over laws
+  double power =
+      0.0;  ///< mean share of the wrong laws which the record allows that are rejected; NaN: there is none
   std::string text;
 };
 
 struct Design {
   LawIntervals now;
-  double power_now = 0.0;
   std::vector<Advice> advice;  ///< the best first: by the hull of zeta and F0 together
 };
 

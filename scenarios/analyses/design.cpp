@@ -59,10 +59,23 @@ Json shrinkage_json(const identify::Shrinkage& shrinkage) {
   return {{"zeta", finite_or_null(shrinkage.zeta)}, {"F0", finite_or_null(shrinkage.F0)}};
 }
 
+/// The least and the largest of the outcomes.
+Json range_json(const Advice& advice, double identify::Shrinkage::* one) {
+  const auto by_law = [one](const identify::Outcome& outcome) { return outcome.hull.*one; };
+  const auto [least, most] = std::ranges::minmax(advice.outcomes, {}, by_law);
+  return {finite_or_null(by_law(least)), finite_or_null(by_law(most))};
+}
+
 Json advice_json(const Advice& advice) {
-  return {{"measurement", advice.candidate.name},           {"cost", advice.candidate.cost},
-          {"hull_shrinks_to", shrinkage_json(advice.hull)}, {"average_shrinks_to", shrinkage_json(advice.average)},
-          {"power", finite_or_null(advice.power)},          {"text", advice.text}};
+  return {{"measurement", advice.candidate.name},
+          {"cost", advice.candidate.cost},
+          {"hull_shrinks_to", shrinkage_json(advice.hull)},
+          {"average_shrinks_to", shrinkage_json(advice.average)},
+          {"hull_by_law",
+           {{"zeta", range_json(advice, &identify::Shrinkage::zeta)},
+            {"F0", range_json(advice, &identify::Shrinkage::F0)}}},
+          {"power", finite_or_null(advice.power)},
+          {"text", advice.text}};
 }
 
 Table candidate_table(const std::vector<Advice>& list) {
@@ -78,19 +91,22 @@ Table candidate_table(const std::vector<Advice>& list) {
 }
 
 ResultFields design_fields() {
-  return {{"candidates[].measurement", "", "what could be measured next, the best first"},
-          {"candidates[].cost", "1", "number of steady states to be measured, or of releases"},
-          {"candidates[].hull_shrinks_to.zeta", "1", "expected width of the hull of zeta over its present width"},
-          {"candidates[].hull_shrinks_to.F0", "1", "the same of the friction force"},
-          {"candidates[].average_shrinks_to.zeta", "1",
-           "expected standard deviation of the average over laws over the present one"},
-          {"candidates[].average_shrinks_to.F0", "1", "the same of the friction force"},
-          {"candidates[].power", "1", "mean probability to reject a wrong law at 5 %"},
-          {"candidates[].text", "", "the advice in words"},
-          {"hull95.zeta[]", "1", "ends of the present hull of zeta"},
-          {"hull95.F0[]", "N", "ends of the present hull of the friction force"},
-          {"power_now", "1", "mean probability with which the record itself rejects a wrong law"},
-          {"advice", "", "the best candidate in words, or that none helps"}};
+  return {
+      {"candidates[].measurement", "", "what could be measured next, the best first"},
+      {"candidates[].cost", "1", "number of steady states to be measured, or of releases"},
+      {"candidates[].hull_shrinks_to.zeta", "1", "expected width of the hull of zeta over its present width"},
+      {"candidates[].hull_shrinks_to.F0", "1", "the same of the friction force"},
+      {"candidates[].hull_by_law.zeta[]", "1", "the same under the true law for which it is least, and largest"},
+      {"candidates[].hull_by_law.F0[]", "1", "the same of the friction force"},
+      {"candidates[].average_shrinks_to.zeta", "1",
+       "expected standard deviation of the average over laws over the present one"},
+      {"candidates[].average_shrinks_to.F0", "1", "the same of the friction force"},
+      {"candidates[].power", "1",
+       "expected share of the wrong laws that are rejected, of those that the record allows"},
+      {"candidates[].text", "", "the advice in words"},
+      {"hull95.zeta[]", "1", "ends of the present hull of zeta"},
+      {"hull95.F0[]", "N", "ends of the present hull of the friction force"},
+      {"advice", "", "the best candidate in words, or that none helps"}};
 }
 
 std::string summary_of(const identify::Design& design) {
@@ -122,7 +138,6 @@ Answer DesignQuestion::run(const RunContext& context) const {
   Json& result = answer.result;
   result["advice"] = summary_of(design);
   result["hull95"] = {{"zeta", design.now.zeta_hull}, {"F0", design.now.F0_hull}};
-  result["power_now"] = finite_or_null(design.power_now);
   result["candidates"] = Json::array();
   for (const Advice& advice : design.advice) result["candidates"].push_back(advice_json(advice));
   answer.tables.push_back(candidate_table(design.advice));

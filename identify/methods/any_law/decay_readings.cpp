@@ -48,28 +48,25 @@ class DecayReadings final : public ReadingModel {
     channels_.assign(static_cast<std::size_t>(readings_.size()), 0);
     known_deviations_ = {sigma_x};
     least_deviations_ = {least_relative_deviation * std::abs(release_)};
-    smooth_curve_.resize(readings_.size(), 4);
-    for (Index i = 0; i < readings_.size(); ++i) {
-      const double swing = (readings_[i] - offset) / release_;
-      const double side = i % 2 == 0 ? 1.0 : -1.0;
-      smooth_curve_.row(i) << 1.0, side, swing, side * swing * swing;
-    }
+    find_smooth_curve(offset);
     data_ = std::to_string(readings_.size()) + " extremes of a free vibration";
   }
 
   /// Extremes that are planned.
-  DecayReadings(const ReadingModel& record, double release, int count, const KnownConstants& constants,
+  DecayReadings(const ReadingModel& record, double release, VectorXd extremes, const KnownConstants& constants,
                 double deviation)
       : constants_(constants), release_(release) {
-    readings_ = VectorXd::Zero(count);
+    readings_ = std::move(extremes);
     driven_ = false;
     nuisances_ = {{"release", release_deviation}, {"offset", offset_deviation}};
     reference_ = record.reference();
     F0_unit_ = record.F0_unit();
     c_unit_ = record.c_unit();
-    channels_.assign(static_cast<std::size_t>(count), 0);
+    start_ = VectorXd::Zero(unknowns());
+    channels_.assign(static_cast<std::size_t>(readings_.size()), 0);
     known_deviations_ = {deviation};
     least_deviations_ = {least_relative_deviation * std::abs(release_)};
+    find_smooth_curve(0.0);
   }
 
   [[nodiscard]] std::unique_ptr<NearbyOrbits> no_orbits(const std::vector<double>& deviations) const override {
@@ -111,6 +108,15 @@ class DecayReadings final : public ReadingModel {
   }
 
  private:
+  void find_smooth_curve(double offset) {
+    smooth_curve_.resize(readings_.size(), 4);
+    for (Index i = 0; i < readings_.size(); ++i) {
+      const double swing = (readings_[i] - offset) / release_;
+      const double side = i % 2 == 0 ? 1.0 : -1.0;
+      smooth_curve_.row(i) << 1.0, side, swing, side * swing * swing;
+    }
+  }
+
   [[nodiscard]] sim::Model model_of(const LawAt& law, const VectorXd& p, double accuracy) const {
     rigs::Truth truth;
     truth.model.oscillator.mass = constants_.mass;
@@ -146,9 +152,9 @@ std::variant<std::unique_ptr<const ReadingModel>, std::string> decay_readings(co
       Eigen::Map<const VectorXd>(used.data(), static_cast<Index>(used.size())), constants, plain, sigma_x);
 }
 
-std::unique_ptr<const ReadingModel> planned_decay(const ReadingModel& record, double release, int count,
+std::unique_ptr<const ReadingModel> planned_decay(const ReadingModel& record, double release, VectorXd extremes,
                                                   const KnownConstants& constants, double deviation) {
-  return std::make_unique<const DecayReadings>(record, release, count, constants, deviation);
+  return std::make_unique<const DecayReadings>(record, release, std::move(extremes), constants, deviation);
 }
 
 }  // namespace dualdamp::identify

@@ -19,10 +19,10 @@ namespace dualdamp::identify {
 [[nodiscard]] std::variant<std::unique_ptr<const ReadingModel>, std::string> decay_readings(
     const Record& record, const KnownConstants& constants, double sigma_x);
 
-/// Extremes that are planned on the rig of another record, after a release at `release` [m]. `deviation`: of an
-/// extreme [m]. The readings themselves have no meaning.
+/// Extremes that are planned on the rig of another record, after a release at `release` [m]. `extremes`: what would
+/// be read. `deviation`: of an extreme [m].
 [[nodiscard]] std::unique_ptr<const ReadingModel> planned_decay(const ReadingModel& record, double release,
-                                                                int count, const KnownConstants& constants,
-                                                                double deviation);
+                                                                Eigen::VectorXd extremes,
+                                                                const KnownConstants& constants, double deviation);
 
 }  // namespace dualdamp::identify

@@ -257,6 +257,23 @@ class Summary {
 
 }  // namespace
 
+LawIntervals intervals_of(const ReadingModel& model, const KnownConstants& constants, const PlainFit& plain,
+                          std::vector<LawFits>& laws) {
+  std::vector<std::string> unsolved;
+  for (const LawFits& law : laws)
+    if (!law.solved()) unsolved.push_back(law.law.name());
+  std::erase_if(laws, [](const LawFits& law) { return !law.solved(); });
+  std::vector<Profile> profiles;
+  for (const LawFits& law : laws) {
+    Profile profile{&law, severity_curve(model, law.fits)};
+    profile.least = best_of(profile.points).chi2;
+    profiles.push_back(std::move(profile));
+  }
+  LawIntervals intervals = Summary(model, constants, plain, std::move(profiles)).intervals();
+  intervals.unsolved = std::move(unsolved);
+  return intervals;
+}
+
 std::variant<LawStudy, std::string> study_laws(const ReadingModel& model, const KnownConstants& constants,
                                                const LawIntervalOptions& options) {
   std::optional<PlainFit> plain = plain_fit(model);
@@ -266,18 +283,7 @@ std::variant<LawStudy, std::string> study_laws(const ReadingModel& model, const 
            "damping";
   LawStudy study{.plain = std::move(*plain)};
   study.laws = fit_library(model, options, study.plain);
-  std::vector<std::string> unsolved;
-  for (const LawFits& law : study.laws)
-    if (!law.solved()) unsolved.push_back(law.law.name());
-  std::erase_if(study.laws, [](const LawFits& law) { return !law.solved(); });
-  std::vector<Profile> profiles;
-  for (const LawFits& law : study.laws) {
-    Profile profile{&law, severity_curve(model, law.fits)};
-    profile.least = best_of(profile.points).chi2;
-    profiles.push_back(std::move(profile));
-  }
-  study.intervals = Summary(model, constants, study.plain, std::move(profiles)).intervals();
-  study.intervals.unsolved = std::move(unsolved);
+  study.intervals = intervals_of(model, constants, study.plain, study.laws);
   return study;
 }
 

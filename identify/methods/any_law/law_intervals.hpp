@@ -64,6 +64,11 @@ struct LawStudy {
   LawIntervals intervals{};
 };
 
+/// The intervals that follow from the fits of all laws; plain friction is the first one. Laws that were not solved
+/// are left out, and named.
+[[nodiscard]] LawIntervals intervals_of(const ReadingModel& model, const KnownConstants& constants,
+                                        const PlainFit& plain, std::vector<LawFits>& laws);
+
 /// The answer, or why there is none.
 [[nodiscard]] std::variant<LawStudy, std::string> study_laws(const ReadingModel& model,
                                                              const KnownConstants& constants,

@@ -255,6 +255,32 @@ std::optional<SeverityFit> fit_law(const ReadingModel& model, const LawAt& law, 
   return find_covariance(fit) ? std::optional(fit) : std::nullopt;
 }
 
+std::optional<SeverityFit> stepped_fit(const ReadingModel& model, double severity, const ChannelNoise& noise,
+                                       const VectorXd& unknowns, const VectorXd& residuals,
+                                       const MatrixXd& slopes) {
+  const VectorXd weights = weights_of(model, noise);
+  SeverityFit fit;
+  fit.severity = severity;
+  fit.slopes = with_priors(model, weights.asDiagonal() * slopes);
+  const VectorXd before = with_priors(model, residuals.cwiseProduct(weights), unknowns);
+  VectorXd step = pivoted_least_squares(fit.slopes, before);
+  // An unknown that would fall below its least value ends there, and the others are fitted beside it.
+  for (Index j = 0; j < 2; ++j) {
+    if (!(unknowns[j] + step[j] < least_share)) continue;
+    MatrixXd others = fit.slopes;
+    others.col(j).setZero();
+    const double fixed = least_share - unknowns[j];
+    step = pivoted_least_squares(others, before - fixed * fit.slopes.col(j));
+    step[j] = fixed;
+    step[1 - j] = std::max(step[1 - j], least_share - unknowns[1 - j]);
+    break;
+  }
+  fit.unknowns = unknowns + step;
+  fit.residuals = before - fit.slopes * step;
+  fit.chi2 = fit.residuals.squaredNorm();
+  return find_covariance(fit) ? std::optional(fit) : std::nullopt;
+}
+
 std::optional<PlainFit> plain_fit(const ReadingModel& model) {
   PlainFit plain;
   for (std::size_t channel = 0; channel < model.known_deviations().size(); ++channel) {

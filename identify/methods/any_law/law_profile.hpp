@@ -44,6 +44,13 @@ struct LawStart {
                                                  const ChannelNoise& noise, const LawStart& start,
                                                  NearbyOrbits& near);
 
+/// The fit that one Gauss-Newton step from `unknowns` makes, with the residuals and the derivatives of the readings
+/// there, in the units of the readings. Nothing if the readings do not determine the unknowns.
+[[nodiscard]] std::optional<SeverityFit> stepped_fit(const ReadingModel& model, double severity,
+                                                     const ChannelNoise& noise, const Eigen::VectorXd& unknowns,
+                                                     const Eigen::VectorXd& residuals,
+                                                     const Eigen::MatrixXd& slopes);
+
 /// The fit of Coulomb and viscous friction, and the noise of the readings. Noise that is not known is what a smooth
 /// curve leaves of the residuals of this fit, which is repeated until its weights are those of the noise.
 struct PlainFit {

@@ -133,6 +133,14 @@ std::vector<std::string> library_names() {
   return list;
 }
 
+bool has_free_spring(const ReadingModel& model) {
+  return std::ranges::find(model.nuisances(), "stiffness", &Nuisance::name) != model.nuisances().end();
+}
+
+bool is_of_spring(const rigs::Rig& departure) {
+  return departure.name == "detuning" || departure.name == "cubic_spring";
+}
+
 std::vector<LibraryLaw> law_library(const ReadingModel& model, const LawIntervalOptions& options) {
   std::vector<LibraryLaw> laws;
   for (const rigs::Rig& departure : all_laws()) {
@@ -142,8 +150,8 @@ std::vector<LibraryLaw> law_library(const ReadingModel& model, const LawInterval
                    .largest = std::min(options.largest_severity, departure.largest),
                    .deviation = options.severity_deviation,
                    .both_signs = names(two_sided, departure.name)};
+    const bool of_spring = is_of_spring(departure);
     // If the readings determine spring and frequency, these are free under every law instead.
-    const bool of_spring = departure.name == "detuning" || departure.name == "cubic_spring";
     if (of_spring && !model.nuisances().empty()) continue;
     if (departure.name == "detuning") law.largest = 0.01, law.deviation = 0.005;
     if (departure.name == "cubic_spring") law.largest = 0.1, law.deviation = 0.05;

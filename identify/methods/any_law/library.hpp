@@ -33,6 +33,12 @@ struct LibraryLaw {
   }
 };
 
+/// Whether the readings determine the spring, so that it is free under every law.
+[[nodiscard]] bool has_free_spring(const ReadingModel& model);
+
+/// Whether a law is another spring or frequency. Where the spring is free, these laws are left out.
+[[nodiscard]] bool is_of_spring(const rigs::Rig& departure);
+
 /// The laws for readings of this kind, sorted by name, without plain friction. Friction that varies at random along
 /// the way and friction that warms are not among them: they have no F0 but that of their history.
 [[nodiscard]] std::vector<LibraryLaw> law_library(const ReadingModel& model, const LawIntervalOptions& options);

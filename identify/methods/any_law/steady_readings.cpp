@@ -67,13 +67,20 @@ class SteadyReadings final : public ReadingModel {
     const auto fastest =
         std::ranges::max_element(states_, {}, [](const Pair& state) { return state.omega * state.x; });
     reference_ = {.amplitude = 0.5 * (low->x + high->x), .frequency = fastest->omega, .Y = fastest->Y};
-    count_states();
-    if (phases_ < 2) phases_ = 0;
-    find_twins();
-    if (phases_ > 0 || several_) nuisances_ = spring_nuisances();
+    take_states(known);
     begin_with(begin, reference_.speed());
-    take_readings(known);
-    data_ = std::to_string(states_.size()) + " steady states" + (phases_ > 0 ? " with phases" : "");
+  }
+
+  /// States of a record and others.
+  SteadyReadings(const ReadingModel& record, std::vector<Pair> states, const KnownConstants& constants,
+                 const KnownDeviations& known, const VectorXd& start)
+      : states_(std::move(states)), constants_(constants) {
+    reference_ = record.reference();
+    F0_unit_ = record.F0_unit();
+    c_unit_ = record.c_unit();
+    take_states(known);
+    start_ = VectorXd::Zero(unknowns());
+    start_.head(std::min(start.size(), unknowns())) = start.head(std::min(start.size(), unknowns()));
   }
 
   /// States that are planned.
@@ -177,6 +184,15 @@ class SteadyReadings final : public ReadingModel {
       });
       twins_.push_back(static_cast<std::size_t>(same - states_.begin()));
     }
+  }
+
+  void take_states(const KnownDeviations& known) {
+    count_states();
+    if (phases_ < 2) phases_ = 0;
+    find_twins();
+    if (phases_ > 0 || several_) nuisances_ = spring_nuisances();
+    take_readings(known);
+    data_ = std::to_string(states_.size()) + " steady states" + (phases_ > 0 ? " with phases" : "");
   }
 
   void count_states() {
@@ -285,6 +301,12 @@ std::unique_ptr<const ReadingModel> planned_states(const ReadingModel& record, s
                                                    const KnownConstants& constants,
                                                    const std::array<double, 2>& deviations) {
   return std::make_unique<const SteadyReadings>(record, std::move(states), constants, deviations);
+}
+
+std::unique_ptr<const ReadingModel> continued_states(const ReadingModel& record, std::vector<Pair> states,
+                                                     const KnownConstants& constants, const KnownDeviations& known,
+                                                     const VectorXd& start) {
+  return std::make_unique<const SteadyReadings>(record, std::move(states), constants, known, start);
 }
 
 }  // namespace dualdamp::identify

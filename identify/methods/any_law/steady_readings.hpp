@@ -31,4 +31,12 @@ namespace dualdamp::identify {
                                                                  const KnownConstants& constants,
                                                                  const std::array<double, 2>& deviations);
 
+/// The states of another record with further ones, as one record: units and the motion that severities refer to are
+/// those of `record`, and the search begins at its unknowns `start`.
+[[nodiscard]] std::unique_ptr<const ReadingModel> continued_states(const ReadingModel& record,
+                                                                   std::vector<Pair> states,
+                                                                   const KnownConstants& constants,
+                                                                   const KnownDeviations& known,
+                                                                   const Eigen::VectorXd& start);
+
 }  // namespace dualdamp::identify

@@ -1,6 +1,7 @@
 #include "identify/design/design.hpp"
 
 #include <algorithm>
+#include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
@@ -9,6 +10,7 @@
 
 #include "identify/rigs/rigs.hpp"
 #include "sim/orbits/steady_state.hpp"
+#include "tests/identify/methods/any_law/advice_rates.hpp"
 #include "tests/identify/records.hpp"
 
 using namespace dualdamp;
@@ -70,7 +72,8 @@ TEST_CASE("design: after amplitudes alone their phases tell laws apart, and repe
   const Design& design = std::get<Design>(found);
   const Advice& phases = named(design, "record the phase of the same states");
   const Advice& again = named(design, "repeat the same states");
-  CHECK(phases.power > 0.45);
+  // The share that any_law rejects, with the error of the laws: less than a test between two exact laws would.
+  CHECK(phases.power > 0.2);
   CHECK(phases.power > 1.5 * again.power);
   CHECK(phases.hull.zeta < again.hull.zeta);
   CHECK(phases.hull.F0 < again.hull.F0);
@@ -106,7 +109,27 @@ TEST_CASE("design: no measurement is expected to widen the ranges, however diffe
     CHECK(advice.hull.zeta < rounding);
     CHECK(advice.hull.F0 < rounding);
   }
-  CHECK(named(design, "record the phase of the same states").hull.zeta < 0.3);
+  // any_law frees the spring as soon as there are phases, and adds the error of the laws that they show.
+  CHECK(named(design, "record the phase of the same states").hull.zeta < 0.5);
+}
+
+TEST_CASE("design: the ranges after the advised measurement are as wide as the advice promised") {
+  // Medians over rigs: on one rig the noise and the severity of the true law move them.
+  std::array<std::vector<double>, 2> found_over_promised;
+  for (const std::uint64_t seed : {78000U, 78002U, 78004U, 78006U, 78008U}) {
+    const auto followed =
+        followed_advice(law_rig(LawRecord::amplitudes, seed), *identify::rigs::find_departure("contact_compliance"),
+                        0.1, seed, {.without = slow_laws});
+    REQUIRE(followed);
+    for (std::size_t i = 0; i < 2; ++i)
+      found_over_promised.at(i).push_back(followed->found.at(i) / followed->promised.at(i));
+  }
+  for (std::vector<double>& ratios : found_over_promised) {
+    std::ranges::sort(ratios);
+    CAPTURE(ratios);
+    CHECK(ratios[2] < 1.5);
+    CHECK(ratios[2] > 1.0 / 1.5);
+  }
 }
 
 TEST_CASE("design: a record without steady states gets no advice, with the reason") {

@@ -13,11 +13,11 @@ namespace dualdamp::identify::testing {
 
 namespace {
 
-std::optional<LawIntervals> answer_of(const LawRig& rig, const Record& record) {
+std::optional<LawIntervals> answer_of(const LawRig& rig, const Record& record, const LawIntervalOptions& options) {
   const auto readings = steady_readings(record, rig.constants, {});
   const auto* model = std::get_if<0>(&readings);
   if (model == nullptr) return std::nullopt;
-  auto study = study_laws(**model, rig.constants, {});
+  auto study = study_laws(**model, rig.constants, options);
   if (auto* found = std::get_if<LawStudy>(&study)) return std::move(found->intervals);
   return std::nullopt;
 }
@@ -32,6 +32,14 @@ Record together(const Record& first, const Record& second) {
   return all;
 }
 
+/// The record with what the candidate gave: with the phases alone, or with all states.
+Record continued(Record first, const Record& advised, const CandidateMeasurement& candidate) {
+  if (!candidate.only_phases) return together(first, advised);
+  for (std::size_t i = 0; i < first.pairs->pairs.size(); ++i)
+    first.pairs->pairs[i].phase = advised.pairs->pairs[i].phase;
+  return first;
+}
+
 bool rejects_plain(const LawIntervals& laws) {
   return std::ranges::find(laws.laws, "coulomb_viscous", &LawAnswer::name)->rejected;
 }
@@ -39,10 +47,10 @@ bool rejects_plain(const LawIntervals& laws) {
 }  // namespace
 
 std::optional<Followed> followed_advice(const LawRig& rig, const identify::rigs::Rig& departure, double severity,
-                                        std::uint64_t seed) {
+                                        std::uint64_t seed, const LawIntervalOptions& options) {
   const Record first = law_record(LawRecord::amplitudes, rig, &departure, severity, seed);
   if (!first.pairs) return std::nullopt;
-  const auto found = design_after(first, rig.constants, {}, {});
+  const auto found = design_after(first, rig.constants, {}, options);
   const auto* design = std::get_if<Design>(&found);
   if (design == nullptr) return std::nullopt;
   // A release cannot be read together with states.
@@ -51,13 +59,20 @@ std::optional<Followed> followed_advice(const LawRig& rig, const identify::rigs:
   });
   if (best == design->advice.end()) return std::nullopt;
   const auto& states = std::get<std::vector<PlannedState>>(best->candidate.plan);
-  const Record advised = states_record(rig, &departure, severity, states, best->candidate.phases, seed + 1);
+  Record advised = states_record(rig, &departure, severity, states, best->candidate.phases, seed + 1);
   const Record equal = law_record(LawRecord::amplitudes, rig, &departure, severity, seed + 1);
   if (!advised.pairs || !equal.pairs) return std::nullopt;
-  const auto after_advice = answer_of(rig, together(first, advised));
-  const auto after_equal = answer_of(rig, together(first, equal));
+  const auto after_advice = answer_of(rig, continued(first, advised, best->candidate), options);
+  const auto after_equal = answer_of(rig, together(first, equal), options);
   if (!after_advice || !after_equal) return std::nullopt;
+  const LawIntervals& now = design->now;
+  const auto own = std::ranges::find(best->outcomes, departure.name, &Outcome::law);
+  const Shrinkage promised = own == best->outcomes.end() ? best->hull : own->hull;
   return Followed{.advice = best->candidate.name,
+                  .expected = {best->hull.zeta, best->hull.F0},
+                  .promised = {promised.zeta, promised.F0},
+                  .found = {width(after_advice->zeta_hull) / width(now.zeta_hull),
+                            width(after_advice->F0_hull) / width(now.F0_hull)},
                   .narrower = {width(after_equal->zeta_hull) / width(after_advice->zeta_hull),
                                width(after_equal->F0_hull) / width(after_advice->F0_hull)},
                   .rejected = {rejects_plain(*after_equal), rejects_plain(*after_advice)},

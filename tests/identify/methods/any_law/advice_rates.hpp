@@ -7,12 +7,16 @@
 #include <optional>
 #include <string>
 
+#include "identify/methods/any_law/library.hpp"
 #include "tests/identify/methods/any_law/law_laboratory.hpp"
 
 namespace dualdamp::identify::testing {
 
 struct Followed {
   std::string advice;
+  /// Widths of the hull after the advice over those before, of zeta and of F0: as expected over laws, as promised
+  /// if the law is that of the rig, and as found.
+  Interval expected{}, promised{}, found{};
   /// Width of the hull after equally spaced levels over that after the advice, of zeta and of F0.
   Interval narrower{};
   /// Whether plain friction is rejected: after equally spaced levels, after the advice.
@@ -23,6 +27,7 @@ struct Followed {
 
 /// Nothing if one of the records has no answer.
 [[nodiscard]] std::optional<Followed> followed_advice(const LawRig& rig, const identify::rigs::Rig& departure,
-                                                      double severity, std::uint64_t seed);
+                                                      double severity, std::uint64_t seed,
+                                                      const LawIntervalOptions& options = {});
 
 }  // namespace dualdamp::identify::testing

@@ -290,6 +290,8 @@ void print_bound(LawRecord kind, int records, std::uint64_t first) {
 
 void print_advice(const identify::rigs::Rig& departure, int records, std::uint64_t first) {
   std::array<std::vector<double>, 2> narrower;
+  std::array<std::vector<double>, 2> over_promised;
+  std::array<std::vector<double>, 2> over_expected;
   std::array<int, 2> rejected{};
   std::array<int, 2> held{};
   std::map<std::string, int> advice;
@@ -301,23 +303,29 @@ void print_advice(const identify::rigs::Rig& departure, int records, std::uint64
         followed_advice(rig, departure, severities.at(static_cast<std::size_t>(i) % severities.size()), seed);
     if (!followed) continue;
     ++advice[followed->advice];
-    std::printf("advice/%s seed %llu: narrower %.2f / %.2f, plain friction rejected %d -> %d, held %d / %d: %s\n",
-                std::string(departure.name).c_str(), static_cast<unsigned long long>(seed), followed->narrower[0],
-                followed->narrower[1], followed->rejected[0], followed->rejected[1], followed->held[0],
-                followed->held[1], followed->advice.c_str());
+    std::printf(
+        "advice/%s seed %llu: expected %.3f / %.3f, promised %.3f / %.3f, found %.3f / %.3f, narrower %.2f / %.2f, plain friction rejected %d "
+        "-> %d, held %d / %d: %s\n",
+        std::string(departure.name).c_str(), static_cast<unsigned long long>(seed), followed->expected[0],
+        followed->expected[1], followed->promised[0], followed->promised[1], followed->found[0], followed->found[1],
+        followed->narrower[0], followed->narrower[1], followed->rejected[0], followed->rejected[1],
+        followed->held[0], followed->held[1], followed->advice.c_str());
     std::fflush(stdout);
     for (std::size_t j = 0; j < 2; ++j) {
       narrower[j].push_back(followed->narrower[j]);
+      over_expected[j].push_back(followed->found[j] / followed->expected[j]);
+      over_promised[j].push_back(followed->found[j] / followed->promised[j]);
       rejected[j] += followed->rejected[j] ? 1 : 0;
       held[j] += followed->held[j] ? 1 : 0;
     }
   }
   const double n = std::max<double>(static_cast<double>(narrower[0].size()), 1.0);
   std::printf(
-      "advice/%s n %.0f: narrower %.2f / %.2f (medians), plain friction rejected %.0f -> %.0f %%, held %.0f / %.0f "
-      "%%\n",
-      std::string(departure.name).c_str(), n, median(narrower[0]), median(narrower[1]), 100.0 * rejected[0] / n,
-      100.0 * rejected[1] / n, 100.0 * held[0] / n, 100.0 * held[1] / n);
+      "advice/%s n %.0f: found over promised %.2f / %.2f, over the mean of all laws %.2f / %.2f, narrower %.2f / %.2f (medians), plain friction rejected %.0f "
+      "-> %.0f %%, held %.0f / %.0f %%\n",
+      std::string(departure.name).c_str(), n, median(over_promised[0]), median(over_promised[1]),
+      median(over_expected[0]), median(over_expected[1]), median(narrower[0]), median(narrower[1]),
+      100.0 * rejected[0] / n, 100.0 * rejected[1] / n, 100.0 * held[0] / n, 100.0 * held[1] / n);
   for (const auto& [name, count] : advice) std::printf("  %d: %s\n", count, name.c_str());
   std::fflush(stdout);
 }
@@ -349,7 +357,7 @@ int main(int argc, char** argv) {
   }
   for (const LawRecord kind : {LawRecord::phases, LawRecord::amplitudes, LawRecord::response})
     if (wanted("bound/" + std::string(name_of(kind)))) print_bound(kind, records, first);
-  for (const char* name : {"contact_compliance", "dahl"})
+  for (const char* name : {"contact_compliance", "dahl", "quadratic_drag", "stribeck"})
     if (wanted("advice/" + std::string(name))) print_advice(*identify::rigs::find_departure(name), records, first);
   for (const identify::rigs::Rig& departure : identify::rigs::departures())
     if (departure.mislead == nullptr && departure.name != "warming" &&
