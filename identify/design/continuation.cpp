@@ -259,11 +259,15 @@ bool Continuation::possible() const {
   return planned_.front().front() && own_.front().front();
 }
 
+bool Continuation::is_plain(std::size_t truth) const {
+  return rivals_[truth].fits[best_of(rivals_[truth])]->severity == 0.0;
+}
+
 std::optional<LawIntervals> Continuation::answer(const CandidateMeasurement& candidate, std::size_t truth,
                                                  std::uint64_t draw) const {
   const std::size_t best = best_of(rivals_[truth]);
   // At severity zero each law is plain friction, which is the first rival.
-  const bool plain_truth = rivals_[truth].fits[best]->severity == 0.0;
+  const bool plain_truth = is_plain(truth);
   const std::size_t of = plain_truth ? 0 : truth;
   const std::size_t at = plain_truth ? 0 : best;
   const Joint joint(record_, candidate, *own_[of][at], *planned_[of][at], draw);

@@ -67,6 +67,9 @@ class Continuation {
   /// Whether each allowed law has such motions at that severity.
   [[nodiscard]] bool possible() const;
 
+  /// Whether the rival is plain friction where it is the truth. Such truths have the same answers.
+  [[nodiscard]] bool is_plain(std::size_t truth) const;
+
   /// The answer to record and candidate if the rival `truth` made the readings; `draw`: number of the noise.
   /// Nothing if plain friction has no readings like these.
   [[nodiscard]] std::optional<LawIntervals> answer(const CandidateMeasurement& candidate, std::size_t truth,
