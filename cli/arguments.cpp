@@ -250,8 +250,7 @@ class Parser {
                     "Known standard deviation of the noise of x, v, a, force or phase: --sigma x='2 um'")
         ->allow_extra_args(false)
         ->type_name("SIGNAL=QUANTITY");
-    command.add_flag("--loop", options.loop,
-                     "The records are friction loops: the column force moves the mass along the measured motion");
+    add_record_kind(command, options.loop, options.drive);
     command.add_option("--set", options.set, "Set a value of the scenario: --set system.friction.sigma2='0 N.s/m'")
         ->allow_extra_args(false)
         ->type_name("PATH=VALUE");

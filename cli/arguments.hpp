@@ -121,6 +121,7 @@ struct FitCommand : FileOptions {
   std::vector<std::string> set;
   int starts = 0;
   bool loop = false;
+  std::string drive;  ///< y or force
   bool robust = false;
   bool no_profile = false;
   std::string out;
@@ -136,6 +137,7 @@ struct PredictCommand : FileOptions {
   std::vector<std::string> sigmas;
   std::vector<std::string> set;
   bool loop = false;
+  std::string drive;  ///< y or force
   std::string out;
   bool json = false;
   bool quiet = false;

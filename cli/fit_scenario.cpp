@@ -8,6 +8,7 @@
 
 #include "core/diagnostics.hpp"
 #include "core/numbers.hpp"
+#include "identify/fit/rig.hpp"
 #include "scenarios/format/json_text.hpp"
 #include "scenarios/results/files.hpp"
 
@@ -47,6 +48,7 @@ std::string data_of(const std::vector<std::string>& files, const RecordCommand& 
     if (!command.decimal.empty()) item += ", decimal: " + in_quotes(command.decimal);
     if (command.no_header) item += ", no_header: true";
     if (command.loop) item += ", loop: true";
+    if (!command.drive.empty()) item += ", drive: " + command.drive;
     for (const std::string& sigma : command.sigmas) {
       const std::size_t sign = std::min(sigma.find('='), sigma.size());
       item += ", sigma_" + sigma.substr(0, sign) + ": " + (sign < sigma.size() ? sigma.substr(sign + 1) : "");
@@ -99,8 +101,8 @@ std::string prediction_of(const Json& result, const PredictCommand& command) {
   const Json& parameters = result.at("parameters");
   for (std::size_t i = 0; i < parameters.size(); ++i) {
     const auto name = parameters.at(i).at("name").get<std::string>();
-    const std::string own = name.substr(0, name.find('['));
-    if (own == "position" || own == "velocity" || own == "offset" || own == "release") continue;
+    if (std::ranges::find(identify::own_names, name.substr(0, name.find('['))) != identify::own_names.end())
+      continue;
     names += (names.empty() ? "" : ", ") + name;
     shared.push_back(i);
   }

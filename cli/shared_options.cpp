@@ -67,6 +67,18 @@ void add_file_options(CLI::App& command, FileOptions& options) {
       "SI with a warning. What files may look like, and what is refused: docs/data-files.md.");
 }
 
+void add_record_kind(CLI::App& command, bool& loop, std::string& drive) {
+  CLI::Option* is_loop = command.add_flag(
+      "--loop", loop, "The records are friction loops: the column force moves the mass along the measured motion");
+  command
+      .add_option("--drive", drive,
+                  "What drove the histories: their column y, the motion of the base, or force; it says nothing of "
+                  "files without this column")
+      ->check(CLI::IsMember({"y", "force"}))
+      ->excludes(is_loop)
+      ->type_name("COLUMN");
+}
+
 void refuse_empty_names(CLI::App& command) {
   for (CLI::Option* option : command.get_options())
     if (option->get_positional())

@@ -21,6 +21,8 @@ void add_plot(CLI::App& command, std::string& plot);
 void add_gains(CLI::App& command, std::vector<std::string>& gains);
 /// Adds the options that state names, units and scales of the columns of a data file.
 void add_file_options(CLI::App& command, FileOptions& options);
+/// Adds `--loop` and `--drive`: what kind of motions the records of a fit are.
+void add_record_kind(CLI::App& command, bool& loop, std::string& drive);
 
 /// Refuses empty positional arguments (files, laws, ...) of this command and of its commands. An unset variable of
 /// a shell gives an empty argument.

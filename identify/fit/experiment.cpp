@@ -70,8 +70,13 @@ std::vector<std::unique_ptr<Experiment>> experiments_of(const Record& record, co
   }
   if (record.pairs) add(steady_states(*record.pairs, options, fault), "");
   if (record.decay) add(free_vibration(*record.decay, options, fault), "");
-  for (const History& history : record.histories)
-    add(options.loop ? friction_loop(history, options, fault) : motion(history, options, fault), history.sweep);
+  for (std::size_t h = 0; h < record.histories.size(); ++h) {
+    const History& history = record.histories[h];
+    std::unique_ptr<Experiment> made =
+        options.loop ? friction_loop(history, options, fault) : motion(history, options, fault);
+    if (made != nullptr && !options.loop && h < options.drives.size()) made->drive = options.drives[h];
+    add(std::move(made), history.sweep);
+  }
   if (found.empty() && fault.empty()) fault = "the record is empty";
   return found;
 }

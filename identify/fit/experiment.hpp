@@ -3,7 +3,8 @@
 ///
 ///   steady states  amplitudes, and phases where they were measured, at each level and frequency
 ///   decay          extremes, and their times where they were measured
-///   history        those of x, v and a that were measured, sample by sample, from the first state of the record
+///   history        those of x, v and a that were measured, sample by sample, from the first state of the record,
+///                  under the drive of the model or its own
 ///   loop           the force that moves the mass along the measured motion, m a + c v + k x + F(x, v)
 ///
 /// The engine of the laws computes a motion, from event to event. Measured signals are not differentiated, except
@@ -73,6 +74,8 @@ class Experiment {
   ExperimentKind kind = ExperimentKind::history;
   std::string label;  ///< name of its file, and its label in it
   std::vector<Signal> signals;
+  /// Of a history: its own drive, in place of that of the model. It begins with the record.
+  std::optional<sim::Excitation> drive;
   std::optional<MotionSize> motion;  ///< of a loop: the force alone is compared, and does not show it
   OwnValues own_start{};             ///< start values, from the record or known
   std::vector<Own> own_free;         ///< parameters that are sought unless they are known
@@ -120,6 +123,8 @@ struct ExperimentOptions {
   bool force_driven = false;   ///< Y is the amplitude of a force [N]
   double sigma_x = 0.0;        ///< stated noise of x, amplitudes or extremes [m]; 0: none
   double sigma_v = 0.0, sigma_a = 0.0, sigma_force = 0.0, sigma_phase = 0.0;
+  /// The own drives of the histories, in their order; empty, or nothing for a history: that of the model.
+  std::vector<std::optional<sim::Excitation>> drives = {};
 };
 
 /// One experiment for the pairs or the decay of a record, or one for each history. `fault`: why there is none.

@@ -161,7 +161,7 @@ class MeasuredMotion final : public Experiment {
     sim::Model there = model;
     there.initial = {own[static_cast<std::size_t>(Own::position)], own[static_cast<std::size_t>(Own::velocity)]};
     const double end = static_cast<double>(samples_ - 1) / rate_;
-    there.excitation = drive_from(model.excitation, start_, end);
+    there.excitation = drive ? *drive : drive_from(model.excitation, start_, end);
     if (tie_) {
       std::optional<sim::Model> tied = tie_->tied(there, own);
       if (!tied) return false;

@@ -49,14 +49,15 @@ def fit(
     frequency, amplitude : str, optional
         Frequency and amplitude of the harmonic motion of the base: ``"4 Hz"``, ``"5 mm"``.
     excitation : Excitation or mapping, optional
-        Another drive, in place of `frequency` and `amplitude`. If no drive is stated, the motion ``y`` in a single record is
-        the drive.
+        Another drive, in place of `frequency` and `amplitude`. If no drive is stated, the motion ``y`` in a record is
+        its drive.
     initial : mapping, optional
         The state at the start of the histories, if it is known.
     validate : like data, optional
         Records that are not fitted, but predicted with the fitted parameters.
     record : mapping or list of mapping, optional
-        Statements about the records: ``{"units": {"x": "mm"}, "sigma_x": "2 um", "loop": True}``. One mapping applies to all records.
+        Statements about the records: ``{"units": {"x": "mm"}, "sigma_x": "2 um", "loop": True}``; ``{"drive": "force"}`` for a
+        record that its column ``force`` drives. One mapping applies to all records.
         A list has one mapping for each record, first those of `data`, then those of `validate`.
     out, threads
         As in `run`.
@@ -111,7 +112,7 @@ def predict(fitted, data, *, excitation=None, record=None, out=None, threads=0):
     data, record
         As in `fit`.
     excitation : Excitation or mapping, optional
-        The drive of these records. Without it the motion ``y`` in a single record is the drive, else that of the fit. The
+        The drive of these records. Without it the motion ``y`` in a record is its drive, else that of the fit. The
         drive of the fit is refused where the records show that they had another one; ``{"type": "none"}`` states that they
         had none.
     out, threads

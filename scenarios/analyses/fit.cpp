@@ -8,6 +8,7 @@
 
 #include "friction_models/registry.hpp"
 #include "scenarios/analyses/shared/record_drive.hpp"
+#include "scenarios/analyses/shared/record_zeros.hpp"
 #include "scenarios/format/excitations.hpp"
 #include "scenarios/format/values.hpp"
 #include "scenarios/measurements/measured_data.hpp"
@@ -48,11 +49,12 @@ struct Setup {
   std::vector<FitQuestion::Candidate> candidates;
   identify::Experiments data;
   identify::Experiments validation;
+  std::vector<Json> excitations;  ///< of scenarios of each experiment of `data`
   std::vector<std::string> warnings;
 };
 
-Setup setup_of(const Json& analysis, const Json& system, const sim::Model& model, bool initial_is_known,
-               const std::vector<DataFile>& files, std::vector<SetupFault>& faults) {
+Setup setup_of(const Json& analysis, const Json& system, const Json& excitation, const sim::Model& model,
+               bool initial_is_known, const std::vector<DataFile>& files, std::vector<SetupFault>& faults) {
   Setup setup;
   const Sought sought = sought_of(analysis, initial_is_known);
   std::vector<DataItem> data = items_of(analysis, files, "data");
@@ -61,9 +63,12 @@ Setup setup_of(const Json& analysis, const Json& system, const sim::Model& model
   all.insert(all.end(), validation.begin(), validation.end());
   refuse_idle_drive(all, model, faults);
   if (initial_is_known && !data.empty()) refuse_idle_initial(data, faults);
-  setup.warnings = remove_zeros(data, model, sought);
+  setup.warnings = undriven_warnings(data, model);
+  std::ranges::move(remove_zeros(data, model, sought), std::back_inserter(setup.warnings));
   std::ranges::move(remove_zeros(validation, model, {}), std::back_inserter(setup.warnings));
   setup.data = experiments_from(data, "data", model, sought, faults);
+  for (const auto& experiment : setup.data)
+    setup.excitations.push_back(excitation_of(*experiment, data, excitation));
   setup.validation = experiments_from(validation, "validate", model, {sought.free, sought.bounds}, faults);
   if (setup.data.empty()) return setup;
   std::vector<std::string> laws = {""};
@@ -98,7 +103,7 @@ sim::Model outlined_model(const CheckedFile& file) {
 void check_fit(CheckedFile& file) {
   read_data_list(file, "data");
   read_data_list(file, "validate");
-  if (file.entry("excitation") == nullptr) take_recorded_drive(file);
+  take_recorded_drives(file, leaves_drive_open(file));
   const bool laws = file.has("analysis", "laws");
   if (laws && file.stands_in_file("system", "friction"))
     file.complain("analysis.laws", "'analysis.laws' stands beside 'system.friction', which it replaces",
@@ -116,15 +121,16 @@ void check_fit(CheckedFile& file) {
   }
   std::vector<SetupFault> faults;
   const Json& values = file.values();
-  static_cast<void>(setup_of(values.at("analysis"), values.value("system", Json::object()), outlined_model(file),
-                             values.contains("initial"), file.files, faults));
+  static_cast<void>(setup_of(values.at("analysis"), values.value("system", Json::object()),
+                             values.value("excitation", Json()), outlined_model(file), values.contains("initial"),
+                             file.files, faults));
   for (SetupFault& fault : faults) file.complain("analysis." + fault.path, std::move(fault.message));
 }
 
 std::unique_ptr<const Question> ask_fit(CheckedValues&& values) {
   std::vector<SetupFault> faults;
-  Setup setup =
-      setup_of(values.analysis, values.system, values.model, values.initial_is_stated, values.files, faults);
+  Setup setup = setup_of(values.analysis, values.system, values.excitation, values.model, values.initial_is_stated,
+                         values.files, faults);
   for (const std::string key : {"data", "validate"})
     refuse_other_drives(items_of(values.analysis, values.files, key), key, values.model, values.drive_start,
                         sought_of(values.analysis, false).free, faults);
@@ -138,7 +144,7 @@ std::unique_ptr<const Question> ask_fit(CheckedValues&& values) {
                                        identify::FitOptions{.robust = values.analysis.value("robust", false),
                                                             .profile = values.analysis.value("profile", true),
                                                             .starts = values.analysis.value("starts", 0)},
-                                       values.excitation, std::move(warnings));
+                                       values.excitation, std::move(setup.excitations), std::move(warnings));
 }
 
 Table law_table(const std::vector<identify::Fit>& fits, const std::vector<std::size_t>& order) {
@@ -209,7 +215,7 @@ Answer FitQuestion::run(const RunContext& /*context*/) const {
   answer.result["scenarios"] = Json::array();
   for (std::size_t e = 0; e < data_.size(); ++e)
     answer.result["scenarios"].push_back(
-        scenario_text(best, data_, e, {laws_text(best.rig) + " fitted to " + data_[e]->label, excitation_}));
+        scenario_text(best, data_, e, {laws_text(best.rig) + " fitted to " + data_[e]->label, excitations_[e]}));
   answer.result["scenario"] = answer.result["scenarios"].front();
   return answer;
 }

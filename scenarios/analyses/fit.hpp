@@ -16,12 +16,14 @@ class FitQuestion final : public Question {
   };
 
   FitQuestion(std::vector<Candidate> candidates, identify::Experiments data, identify::Experiments validation,
-              identify::FitOptions options, Json excitation, std::vector<std::string> warnings)
+              identify::FitOptions options, Json excitation, std::vector<Json> excitations,
+              std::vector<std::string> warnings)
       : candidates_(std::move(candidates)),
         data_(std::move(data)),
         validation_(std::move(validation)),
         options_(options),
         excitation_(std::move(excitation)),
+        excitations_(std::move(excitations)),
         warnings_(std::move(warnings)) {}
 
   [[nodiscard]] Answer run(const RunContext& context) const override;
@@ -31,7 +33,8 @@ class FitQuestion final : public Question {
   identify::Experiments data_;
   identify::Experiments validation_;
   identify::FitOptions options_;
-  Json excitation_;
+  Json excitation_;                ///< of the scenario: the drive of records without their own
+  std::vector<Json> excitations_;  ///< of scenarios of each experiment of `data_`
   std::vector<std::string> warnings_;
 };
 

@@ -10,6 +10,7 @@
 #include "friction_models/registry.hpp"
 #include "identify/fit/prediction.hpp"
 #include "scenarios/analyses/shared/record_drive.hpp"
+#include "scenarios/analyses/shared/record_zeros.hpp"
 #include "scenarios/format/excitations.hpp"
 #include "scenarios/format/law_values.hpp"
 #include "scenarios/format/values.hpp"
@@ -97,7 +98,7 @@ void check_laws(CheckedFile& file) {
 void check_predict(CheckedFile& file) {
   read_data_list(file, "data");
   const bool assumes_drive = file.values().at("analysis").value("drive_of_fit", false);
-  if (assumes_drive || file.entry("excitation") == nullptr) take_recorded_drive(file);
+  take_recorded_drives(file, assumes_drive || leaves_drive_open(file));
   check_laws(file);
   // A loop compares forces: a constant that the fit lacked has no part in them.
   const auto is_loop = [&](const DataItem& item) {
@@ -130,9 +131,13 @@ std::string assumed_drive(const CheckedValues& values, const std::vector<DataIte
   const sim::Excitation& drive = values.model.excitation;
   const bool is_assumed = std::ranges::any_of(items, [&](const DataItem& item) {
     if (item.keys.is_object() && item.keys.value("loop", false)) return false;
-    return std::ranges::any_of(item.data.record.histories, [&](const identify::History& history) {
-      return drive.type == sim::ExcitationType::none || (drive.moves_base() ? history.y : history.force).empty();
-    });
+    const std::vector<identify::History>& histories = item.data.record.histories;
+    for (std::size_t h = 0; h < histories.size(); ++h) {
+      if (item.drive_of(h) != nullptr) continue;
+      const bool is_none = drive.type == sim::ExcitationType::none;
+      if (is_none || (drive.moves_base() ? histories[h].y : histories[h].force).empty()) return true;
+    }
+    return false;
   });
   return is_assumed ? drive_text(values.excitation, drive) : std::string();
 }
@@ -170,7 +175,7 @@ std::string undriven_record(const identify::Rig& rig, const identify::Prediction
       return data[e]->label + ": nothing states the drive of this record. Under the drive of the fit (" + drive +
              ") the prediction misses by " + core::format_number(100.0 * with[e], 3) +
              " %, and without a drive by " + core::format_number(100.0 * without[e], 3) +
-             " %: excitation: {type: none}, on the command line --set excitation='{type: none}', or state its drive";
+             " %: excitation: {type: none}, on the command line --set excitation='{type: none}', or state its drive (beside other records 'drive: none')";
   return {};
 }
 
@@ -190,7 +195,7 @@ std::string driven_record(const identify::Prediction& prediction, const identify
     const double predicted = size_of(prediction.fit.outputs.segment(fitted.rows.end - quarter, quarter));
     if (last > part * size_of(measured.head(quarter)) && predicted < part * last)
       return experiment.label +
-             ": nothing states the drive of this record, and the fit had none; the record goes on where the rig "
+             ": nothing states the drive of this record, nor did the fit for such a record; the record goes on where the rig "
              "without a drive comes to rest: a drive seems to be missing. State it by --frequency and --amplitude or "
              "--set excitation='{...}', or '{type: none}' if there was none";
   }
@@ -204,6 +209,11 @@ std::unique_ptr<const Question> ask_predict(CheckedValues&& values) {
   std::vector<DataItem> items = items_of(values.analysis, values.files, "data");
   std::vector<std::string> warnings = remove_zeros(items, values.model, {});
   identify::Experiments data = experiments_from(items, "data", values.model, {}, faults);
+  // The drive of the fit is not assumed for a record that seems to hold another.
+  const bool assumes_base = values.analysis.value("drive_of_fit", false) && values.model.excitation.moves_base();
+  for (const DataItem& item : items)
+    if (assumes_base && std::ranges::all_of(item.data.record.histories, [](const auto& h) { return h.y.empty(); }))
+      if (std::string idle = idle_drive(item, {}); !idle.empty()) faults.push_back({"data", std::move(idle)});
   refuse_other_drives(items, "data", values.model, values.drive_start, {}, faults);
   refuse(faults);
   std::ranges::move(drive_warnings(values.model), std::back_inserter(warnings));

@@ -14,6 +14,7 @@
 #include "scenarios/format/keys.hpp"
 #include "scenarios/format/needs.hpp"
 #include "scenarios/format/reader.hpp"
+#include "sim/excitation.hpp"
 #include "sim/sampled_signal.hpp"
 
 namespace dualdamp::scenarios {
@@ -28,12 +29,19 @@ struct DataPlace {
   const DataTexts& texts;  ///< looked through first
 };
 
+/// The drive of one history of a data file, in place of the excitation of the scenario.
+struct RecordDrive {
+  sim::Excitation drive;  ///< its samples begin with the history
+  Json section;           ///< `excitation` of a scenario with this drive
+};
+
 /// A data file of an analysis that takes several.
 struct DataFile {
   std::string name;
   std::string key;       ///< of `analysis` that names it
   std::size_t item = 0;  ///< of the list there
   identify::MeasuredRecord data;
+  std::vector<std::optional<RecordDrive>> drives = {};  ///< of each history; empty: none has its own
 };
 
 class CheckedFile {

@@ -182,6 +182,10 @@ Field data_list(const std::string& name, std::string meaning) {
   fields.push_back(boolean("loop",
                            "true: a friction loop, in which force is what moves the mass along the measured "
                            "motion; otherwise force acts on the oscillator"));
+  fields.push_back(words("drive", {"y", "force", "none"},
+                         "what drove the histories of the file: its column y, the motion of the base, or force, on "
+                         "the mass, by cubic splines; none: free vibration. By default that of 'excitation', or y, "
+                         "if nothing else drives and the file holds no force"));
   for (const auto& [signal, unit] :
        {std::pair{"x", "m"}, {"v", "m/s"}, {"a", "m/s^2"}, {"force", "N"}, {"phase", "rad"}})
     fields.push_back(quantity(std::string("sigma_") + signal, {unit},

@@ -104,7 +104,7 @@ void ask_for_motion(const identify::Fit& fit, const identify::Experiment& experi
   const identify::OwnValues& own = fit.own[index];
   const std::vector<double>& t = experiment.signals.front().at;
   const double rate = static_cast<double>(t.size() - 1) / (t.back() - t.front());
-  if (scenario.contains("excitation"))
+  if (scenario.contains("excitation") && !experiment.drive)
     begin_at(fit.rig.known.excitation, t.front(), t.back() - t.front(), scenario["excitation"]);
   scenario["initial"] = {{"position", own[static_cast<std::size_t>(Own::position)]},
                          {"velocity", own[static_cast<std::size_t>(Own::velocity)]}};
@@ -137,12 +137,11 @@ Json system_json(const identify::Rig& rig) {
 }
 
 /// Title, system and drive, with the fitted numbers.
-Json rig_json(const identify::Fit& fit, const RigText& text) {
+Json rig_json(const identify::Fit& fit, const RigText& text, const sim::Excitation& drive) {
   Json rig = {{"schema", "dualdamp/1"}, {"title", text.title}, {"system", system_json(fit.rig)}};
   if (!text.excitation.is_object()) return rig;
   Json& excitation = rig["excitation"] = text.excitation;
   excitation.erase("frequency_uncertainty");
-  const sim::Excitation& drive = fit.rig.known.excitation;
   if (drive.is_harmonic()) excitation["phase"] = drive.phase;
   if (drive.type == sim::ExcitationType::force_harmonic) excitation["offset"] = drive.offset;
   return rig;
@@ -160,12 +159,14 @@ bool fill_in_constants(Json& system) {
 
 }  // namespace
 
-std::string rig_text(const identify::Fit& fit, const RigText& text) { return yaml(rig_json(fit, text)); }
+std::string rig_text(const identify::Fit& fit, const RigText& text) {
+  return yaml(rig_json(fit, text, fit.rig.known.excitation));
+}
 
 std::string scenario_text(const identify::Fit& fit, const identify::Experiments& experiments, std::size_t index,
                           const RigText& text) {
   const identify::Experiment& experiment = *experiments[index];
-  Json scenario = rig_json(fit, text);
+  Json scenario = rig_json(fit, text, experiment.drive ? *experiment.drive : fit.rig.known.excitation);
   const bool is_friction_alone = fill_in_constants(scenario["system"]);
   const identify::OwnValues& own = fit.own[index];
   switch (experiment.kind) {

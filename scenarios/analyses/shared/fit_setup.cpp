@@ -14,8 +14,6 @@
 #include "core/numbers.hpp"
 #include "core/units.hpp"
 #include "friction_models/registry.hpp"
-#include "identify/records/derived_records.hpp"
-#include "identify/records/sensor_zero.hpp"
 #include "identify/statistics/noise_level.hpp"
 #include "scenarios/analyses/shared/record_drive.hpp"
 #include "scenarios/format/law_values.hpp"
@@ -113,7 +111,13 @@ void refuse_without_scale(const identify::Rig& rig, const std::vector<FitParamet
   const auto seeks = [&](Owner owner) {
     return std::ranges::find(parameters, owner, &FitParameter::owner) != parameters.end();
   };
-  const bool forced = rig.known.excitation.type != sim::ExcitationType::none && !rig.known.excitation.moves_base();
+  const auto is_force = [](const sim::Excitation& drive) {
+    return drive.type != sim::ExcitationType::none && !drive.moves_base();
+  };
+  const bool forced =
+      is_force(rig.known.excitation) || std::ranges::any_of(experiments, [&](const auto& experiment) {
+        return experiment->drive && is_force(*experiment->drive);
+      });
   if (seeks(Owner::mass) && seeks(Owner::stiffness) && !forced && !is_loop_alone(experiments))
     faults.push_back({"data",
                       "neither the mass nor the stiffness is known, and no force was measured: a motion "
@@ -122,12 +126,18 @@ void refuse_without_scale(const identify::Rig& rig, const std::vector<FitParamet
 
 }  // namespace
 
+bool DataItem::takes_drive_of_model() const {
+  for (std::size_t h = 0; is_motion() && h < data.record.histories.size(); ++h)
+    if (drive_of(h) == nullptr) return true;
+  return false;
+}
+
 std::vector<DataItem> items_of(const Json& analysis, const std::vector<DataFile>& files, const std::string& key) {
   std::vector<DataItem> items;
   for (const DataFile& file : files) {
     if (file.key != key) continue;
     const Json& list = analysis.at(key);
-    items.push_back({file.name, list.is_array() ? list.at(file.item) : list, file.data});
+    items.push_back({file.name, list.is_array() ? list.at(file.item) : list, file.data, file.drives});
   }
   return items;
 }
@@ -208,18 +218,21 @@ void refuse_idle_drive(const std::vector<DataItem>& items, const sim::Model& mod
                        std::vector<SetupFault>& faults) {
   const sim::Excitation& drive = model.excitation;
   if (drive.type == sim::ExcitationType::none) return;
-  const bool drives = std::ranges::any_of(items, &DataItem::is_motion);
+  const bool drives = std::ranges::any_of(items, &DataItem::takes_drive_of_model);
   bool needs = false;  // some reading does not state its frequency
   bool differs = false;
+  bool has_pairs = false;
   for (const DataItem& item : items) {
     if (!item.data.record.pairs) continue;
+    has_pairs = true;
     for (const identify::Pair& pair : item.data.record.pairs->pairs) {
       constexpr double far = 0.01;
       needs = needs || std::isnan(pair.omega);
       differs = differs || std::abs(pair.omega / drive.frequency - 1.0) > far;
     }
   }
-  const std::string wanted = ": the data hold no history";
+  const bool own = std::ranges::any_of(items, &DataItem::is_motion);
+  const std::string wanted = own ? ": every history has its own drive" : ": the data hold no history";
   const bool loops = std::ranges::all_of(items, &DataItem::is_loop);
   if (!drives && (loops || !drive.is_harmonic())) {
     faults.push_back({"data", "'excitation' is the drive of histories" + wanted +
@@ -228,9 +241,9 @@ void refuse_idle_drive(const std::vector<DataItem>& items, const sim::Model& mod
   }
   if (drive.amplitude > 0.0 && !drives)
     faults.push_back({"data", "'excitation.amplitude' is the drive of histories" + wanted});
-  if (drive.frequency > 0.0 && !drives && !needs && differs)
+  if (drive.frequency > 0.0 && !drives && !needs && (differs || !has_pairs))
     faults.push_back({"data", "'excitation.frequency' is for readings without a frequency of their own" + wanted +
-                                  ", and every reading has its own"});
+                                  (has_pairs ? ", and every reading has its own" : ", and no x-Y pairs")});
 }
 
 std::vector<std::string> drive_warnings(const sim::Model& model) {
@@ -252,57 +265,6 @@ std::vector<std::string> drive_warnings(const sim::Model& model) {
       core::format_number(100.0 * smooth / std::sqrt(square), 2) +
       " % on average, and the estimates may be wrong by as much or more: if the drive is smooth, use interpolation: "
       "cubic"};
-}
-
-namespace {
-
-/// Mean and amplitude of the drive of the model [m]; nothing if it does not oscillate or the spring is unknown.
-std::optional<std::pair<double, double>> swing_of(const sim::Model& model) {
-  const sim::Excitation& drive = model.excitation;
-  double rest = drive.offset;
-  double amplitude = drive.amplitude;
-  if (drive.samples) {
-    const std::vector<double>& y = drive.samples->values();
-    rest = std::reduce(y.begin(), y.end()) / static_cast<double>(y.size());
-    double square = 0.0;
-    for (const double value : y) square += (value - rest) * (value - rest) / static_cast<double>(y.size());
-    amplitude = std::sqrt(2.0 * square);
-  } else if (!drive.is_harmonic() && !drive.is_chirp()) {
-    return std::nullopt;
-  }
-  const double spring = drive.moves_base() ? 1.0 : model.oscillator.stiffness;
-  if (!(spring > 0.0)) return std::nullopt;
-  return std::pair{rest / spring, amplitude / spring};
-}
-
-std::string remove_zero_of(identify::History& history, const sim::Model& model) {
-  if (!history.y.empty() || !history.force.empty())
-    return identify::remove_zero(history, model.oscillator.stiffness);
-  if (model.excitation.type == sim::ExcitationType::none) {
-    identify::DerivedDecay decay = identify::decay_of(history);
-    return identify::remove_zero(history, decay.record);
-  }
-  const auto swing = swing_of(model);
-  return swing ? identify::remove_zero(history, swing->first, swing->second) : std::string();
-}
-
-}  // namespace
-
-std::vector<std::string> remove_zeros(std::vector<DataItem>& items, const sim::Model& model, const Sought& sought) {
-  std::vector<std::string> warnings;
-  // The numbers of records are those of experiments, which are not made yet.
-  if (std::ranges::any_of(sought.free, [](const std::string& name) { return name.starts_with("offset"); }))
-    return {};
-  for (DataItem& item : items)
-    for (std::size_t h = 0; h < item.data.record.histories.size(); ++h) {
-      identify::History& history = item.data.record.histories[h];
-      const std::string done = history.x.empty() ? std::string() : remove_zero_of(history, model);
-      if (done.empty()) continue;
-      item.zeroed.push_back(h);
-      warnings.push_back(item.file + ": " + (history.sweep.empty() ? "" : "test '" + history.sweep + "': ") + done +
-                         "; the rest is fitted as offset");
-    }
-  return warnings;
 }
 
 namespace {
@@ -366,6 +328,10 @@ identify::Experiments experiments_from(const std::vector<DataItem>& items, const
                                       {"sigma_force", &options.sigma_force},
                                       {"sigma_phase", &options.sigma_phase}})
       *value = number_or(keys, name, 0.0);
+    for (std::size_t h = 0; h < items[i].drives.size(); ++h) {
+      const RecordDrive* own = items[i].drive_of(h);
+      options.drives.push_back(own == nullptr ? std::optional<sim::Excitation>() : own->drive);
+    }
     std::string fault;
     identify::Experiments found = identify::experiments_of(items[i].data.record, options, fault);
     const std::string place = key + (items.size() > 1 ? "[" + std::to_string(i) + "]" : "");
@@ -374,9 +340,10 @@ identify::Experiments experiments_from(const std::vector<DataItem>& items, const
     for (const std::size_t h : items[i].zeroed)
       if (found.size() == items[i].data.record.histories.size()) found[h]->own_free.push_back(Own::offset);
     for (auto& experiment : found) {
-      if (experiment->kind == identify::ExperimentKind::history && drive.is_harmonic() && !(drive.amplitude > 0.0))
-        faults.push_back(
-            {place, items[i].file + ": a history under a harmonic drive needs 'excitation.amplitude'"});
+      if (experiment->kind == identify::ExperimentKind::history && !experiment->drive && drive.is_harmonic() &&
+          !(drive.amplitude > 0.0))
+        faults.push_back({place, items[i].file + ": a history under a harmonic drive needs 'excitation.amplitude'; "
+                                                 "'drive: none' beside 'file' in a scenario, if nothing drove it"});
       if (sought.initial_is_known && experiment->kind == identify::ExperimentKind::history) {
         experiment->own_start[static_cast<std::size_t>(Own::position)] = model.initial.position;
         experiment->own_start[static_cast<std::size_t>(Own::velocity)] = model.initial.velocity;

@@ -16,11 +16,17 @@ struct DataItem {
   std::string file;
   Json keys;  ///< of its item
   identify::MeasuredRecord data;
+  std::vector<std::optional<RecordDrive>> drives{};  ///< own drives of the histories; empty: none
   std::vector<std::size_t> zeroed{};  ///< histories whose zero was subtracted: the remaining zero is fitted
 
   [[nodiscard]] bool is_loop() const { return keys.is_object() && keys.value("loop", false); }
-  /// It moves from a first state under the drive of the model. A loop moves as it was measured.
+  /// It moves from a first state. A loop moves as it was measured.
   [[nodiscard]] bool is_motion() const { return !is_loop() && !data.record.histories.empty(); }
+  [[nodiscard]] const RecordDrive* drive_of(std::size_t history) const {
+    return history < drives.size() && drives[history] ? &*drives[history] : nullptr;
+  }
+  /// A history moves under the drive of the model.
+  [[nodiscard]] bool takes_drive_of_model() const;
 };
 
 [[nodiscard]] std::vector<DataItem> items_of(const Json& analysis, const std::vector<DataFile>& files,
@@ -63,11 +69,6 @@ void refuse(const std::vector<SetupFault>& faults);
 [[nodiscard]] identify::Experiments experiments_from(const std::vector<DataItem>& items, const std::string& key,
                                                      const sim::Model& model, const Sought& sought,
                                                      std::vector<SetupFault>& faults);
-
-/// Subtracts zeros of x that are larger than the displacement at which friction can hold the mass, as `identify`
-/// does, except for records whose `offset` is fitted. Returns warnings.
-[[nodiscard]] std::vector<std::string> remove_zeros(std::vector<DataItem>& items, const sim::Model& model,
-                                                    const Sought& sought);
 
 /// Complains about a stated first state at which no item begins, because the fit would ignore it.
 void refuse_idle_initial(const std::vector<DataItem>& items, std::vector<SetupFault>& faults);

@@ -3,12 +3,17 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <numbers>
+#include <optional>
+#include <utility>
 
 #include "core/numbers.hpp"
 #include "identify/fit/drive_values.hpp"
 #include "identify/statistics/noise_level.hpp"
+#include "scenarios/format/limits.hpp"
 #include "scenarios/measurements/drives.hpp"
+#include "sim/sampled_signal.hpp"
 
 namespace dualdamp::scenarios {
 
@@ -71,8 +76,7 @@ double difference(const sim::Model& model, const History& history, const std::ve
   return std::sqrt(std::max(0.0, square - noise * noise) / (here.squaredNorm() / static_cast<double>(here.size())));
 }
 
-std::string other_drive(const DataItem& item, const History& history, const sim::Model& model,
-                        bool phase_is_sought) {
+std::string other_drive(const History& history, const sim::Model& model, bool phase_is_sought) {
   const bool base = model.excitation.moves_base();
   const std::vector<double>& measured = base ? history.y : history.force;
   constexpr std::size_t least = 8;
@@ -83,9 +87,8 @@ std::string other_drive(const DataItem& item, const History& history, const sim:
   if (miss <= far) return {};
   const std::string column = base ? "y" : "force";
   return "the record holds " + column + ", and it differs from the drive by " +
-         core::format_number(100.0 * miss, 2) + " % of " + column + ": 'excitation: {type: measured_" +
-         (base ? "base" : "force") + ", file: " + item.file + ", column: " + column +
-         ", interpolation: cubic}', on the command line --set excitation='{...}', or leave out the column";
+         core::format_number(100.0 * miss, 2) + " % of " + column + ": if it drove the mass, 'drive: " + column +
+         "' beside 'file', on the command line --drive " + column + "; or leave out the column";
 }
 
 }  // namespace
@@ -101,62 +104,225 @@ void refuse_other_drives(const std::vector<DataItem>& items, const std::string& 
     const DataItem& item = items[i];
     if (item.keys.is_object() && item.keys.value("loop", false)) continue;
     const std::string place = key + (items.size() > 1 ? "[" + std::to_string(i) + "]" : "");
-    for (const History& history : item.data.record.histories) {
+    for (std::size_t h = 0; h < item.data.record.histories.size(); ++h) {
+      if (item.drive_of(h) != nullptr) continue;
+      const History& history = item.data.record.histories[h];
       const std::string name = item.file + (history.sweep.empty() ? "" : ", test '" + history.sweep + "'");
       std::string fault = other_clock(history, drive, drive_start);
-      if (fault.empty()) fault = other_drive(item, history, model, phase_is_sought);
+      if (fault.empty()) fault = other_drive(history, model, phase_is_sought);
       if (!fault.empty()) faults.push_back({place, name + ": " + fault});
     }
   }
 }
 
 std::string idle_drive(const DataItem& item, const sim::Model& model) {
-  if (item.is_loop() || model.excitation.type != sim::ExcitationType::none) return {};
+  if (!item.takes_drive_of_model() || model.excitation.type != sim::ExcitationType::none) return {};
   const std::vector<History>& histories = item.data.record.histories;
-  const auto drive = [&](const char* type, const char* column, const std::string& what) {
-    return item.file + ": the file holds " + what + ", and nothing drives the model: 'excitation: {type: " + type +
-           ", file: " + item.file + ", column: " + column +
-           ", interpolation: cubic}', on the command line --set excitation='{...}'";
+  const auto drive = [&](const std::string& column, const std::string& what) {
+    return item.file + ": the file holds " + what + ", and nothing drives the model: 'drive: " + column +
+           "' beside 'file', on the command line --drive " + column;
   };
   const bool has_y = std::ranges::any_of(histories, [](const History& h) { return moves(h.y); });
   const bool has_force = std::ranges::any_of(histories, [](const History& h) { return moves(h.force); });
-  if ((has_y || has_force) && histories.size() > 1)
-    return item.file + ": each of its " + std::to_string(histories.size()) + " tests holds a drive of its own, " +
-           (has_y ? "y" : "force") + ", and a fit has one: keep one test in the file";
   if (has_y)
-    return drive("measured_base", "y", "y, the motion of the base") + (has_force ? "; or leave out y" : "");
-  if (has_force) return drive("measured_force", "force", "force") + "; or --loop for a friction loop";
+    return drive("y", "y, the motion of the base") +
+           (has_force ? ", or 'drive: force', if only one of the two drove the mass; or leave out y"
+                      : "; 'drive: none' if y is to be ignored");
+  if (has_force) return drive("force", "force") + "; or --loop for a friction loop";
   return {};
 }
 
-void take_recorded_drive(CheckedFile& file) {
-  const std::vector<DataItem> items = items_of(file.values().at("analysis"), file.files, "data");
-  if (items.size() != 1 || !items.front().is_motion()) return;
-  const DataItem& item = items.front();
-  const std::vector<History>& histories = item.data.record.histories;
-  if (histories.size() != 1 || !moves(histories.front().y) || moves(histories.front().force)) return;
-  Json drive = {{"type", "measured_base"}, {"file", item.file}, {"interpolation", "cubic"},
-                {"repeat", false},         {"detrend", "none"}, {"offset", 0.0}};
-  const auto take = [&](const char* key, const char* list, const char* column) {
-    if (item.keys.is_object() && item.keys.contains(list) && item.keys.at(list).contains(column))
-      drive[key] = item.keys.at(list).at(column);
+namespace {
+
+/// What the file states about its drive: y, force, none; empty: nothing.
+std::string stated_drive(const Json& keys) {
+  return keys.is_object() && keys.contains("drive") ? keys.at("drive").get<std::string>() : std::string();
+}
+
+/// The column that drives a history; empty: nothing of its own.
+std::string driving_column(const std::string& stated, const History& history, bool is_open) {
+  if (stated == "none") return {};
+  if (!stated.empty() && moves(stated == "y" ? history.y : history.force)) return stated;
+  return is_open && moves(history.y) && !moves(history.force) ? "y" : "";
+}
+
+/// `excitation` of a scenario with this column of the file.
+Json measured_section(const DataItem& item, const std::string& column) {
+  Json drive = {{"type", column == "y" ? "measured_base" : "measured_force"},
+                {"file", item.file},
+                {"interpolation", "cubic"},
+                {"repeat", false},
+                {"detrend", "none"},
+                {"offset", 0.0}};
+  const auto take = [&](const char* key, const char* list, const std::string& of) {
+    if (item.keys.is_object() && item.keys.contains(list) && item.keys.at(list).contains(of))
+      drive[key] = item.keys.at(list).at(of);
   };
-  take("column", "columns", "y");
-  take("unit", "units", "y");
-  take("scale", "scale", "y");
+  take("column", "columns", column);
+  take("unit", "units", column);
+  take("scale", "scale", column);
   take("time_column", "columns", "t");
   take("time_unit", "units", "t");
   for (const char* key : {"decimal", "no_header"})
     if (item.keys.is_object() && item.keys.contains(key)) drive[key] = item.keys.at(key);
-  file.values()["excitation"] = std::move(drive);
+  return drive;
+}
+
+bool begin_together(const History& history, double drive_start) {
+  return std::abs(history.start - drive_start) * history.sample_rate <= 0.5;
+}
+
+RecordDrive drive_by(const std::string& column, std::shared_ptr<const sim::SampledSignal> samples, Json section) {
+  return {{.type = column == "y" ? sim::ExcitationType::base_samples : sim::ExcitationType::force_samples,
+           .samples = std::move(samples)},
+          std::move(section)};
+}
+
+/// The drive from the samples of the history itself: those of a test among others, or of the part that was used.
+RecordDrive listed_drive(CheckedFile& file, const DataItem& item, const History& history,
+                         const std::string& column) {
+  const std::vector<double>& values = column == "y" ? history.y : history.force;
+  std::vector<double> times = times_of(history, values.size());
+  Json section = {{"type", column == "y" ? "base_table" : "force_table"},
+                  {"times", times},
+                  {"values", values},
+                  {"interpolation", "cubic"},
+                  {"repeat", false}};
+  if (static_cast<double>(values.size()) > max_table) {
+    section = measured_section(item, column);
+    file.warnings.push_back(item.file + ": the fitted scenario of this record needs a file that holds it alone, " +
+                            "from its first sample on: a scenario lists at most " + core::format_number(max_table) +
+                            " values of a drive");
+  }
+  return drive_by(column,
+                  std::make_shared<const sim::SampledSignal>(std::move(times), values, sim::Interpolation::cubic),
+                  std::move(section));
+}
+
+/// The drive of a history of several; its samples are those of its file, if it begins with the file.
+RecordDrive own_drive(CheckedFile& file, const DataItem& item, const std::string& place, const History& history,
+                      const std::string& column) {
+  const bool in_memory = file.data_place().texts.contains(item.file);
+  if (item.data.record.histories.size() > 1 || in_memory) return listed_drive(file, item, history, column);
+  Json section = measured_section(item, column);
+  const std::size_t warned = file.warnings.size();
+  std::optional<identify::MeasuredSignal> signal = read_signal(file, place, section, column);
+  // The reader of the record has given the same warnings.
+  file.warnings.resize(std::min(warned, file.warnings.size()));
+  if (!signal || !begin_together(history, signal->times.front())) return listed_drive(file, item, history, column);
+  const double start = signal->times.front();
+  for (double& time : signal->times) time -= start;
+  return drive_by(column,
+                  std::make_shared<const sim::SampledSignal>(std::move(signal->times), std::move(signal->values),
+                                                             sim::Interpolation::cubic),
+                  std::move(section));
+}
+
+/// The drive of the only history as the excitation of the scenario. False: it does not begin with its file.
+bool take_as_excitation(CheckedFile& file, const DataItem& item, const History& history,
+                        const std::string& column) {
+  const Json before = file.values().value("excitation", Json());
+  const auto samples_before = file.drive;
+  const double start_before = file.drive_start;
+  file.values()["excitation"] = measured_section(item, column);
   read_drive(file);
-  const History& history = histories.front();
-  if (file.drive != nullptr && std::abs(history.start - file.drive_start) * history.sample_rate > 0.5)
-    file.complain(
-        "analysis.data",
-        item.file + ": only the rows from t = " + seconds(history.start) +
-            " on are used, because the times have gaps, and y drives from t = " + seconds(file.drive_start) + " on",
-        "a file that holds this part alone");
+  if (file.drive == nullptr || begin_together(history, file.drive_start)) return true;
+  if (before.is_null())
+    file.values().erase("excitation");
+  else
+    file.values()["excitation"] = before;
+  file.drive = samples_before;
+  file.drive_start = start_before;
+  return false;
+}
+
+/// One option states the drive for all files: the others need not hold it.
+void refuse_idle_statements(CheckedFile& file, const std::vector<DataItem>& items,
+                            const std::vector<std::string>& places) {
+  for (std::size_t i = 0; i < items.size(); ++i)
+    if (items[i].is_loop() && !stated_drive(items[i].keys).empty())
+      file.complain(places[i],
+                    items[i].file +
+                        ": 'drive' is what drove a motion, and a loop compares the force along its "
+                        "measured motion",
+                    "one of drive and loop");
+  for (const std::string column : {"y", "force"}) {
+    const auto states = [&](const DataItem& item) { return stated_drive(item.keys) == column; };
+    const auto holds = [&](const DataItem& item) {
+      return states(item) && std::ranges::any_of(item.data.record.histories, [&](const History& history) {
+               return moves(column == "y" ? history.y : history.force);
+             });
+    };
+    const auto first = std::ranges::find_if(items, states);
+    if (first == items.end() || std::ranges::any_of(items, holds)) continue;
+    file.complain(places[static_cast<std::size_t>(first - items.begin())],
+                  first->file + ": 'drive: " + column + "', and no history of the file has a column " + column +
+                      " that changes",
+                  "a file with " + column + ", or 'excitation'");
+  }
+}
+
+}  // namespace
+
+bool leaves_drive_open(const CheckedFile& file) {
+  if (file.entry("excitation") == nullptr) return true;
+  return file.text_at("excitation", "type") == "base_harmonic" && !file.has("excitation", "amplitude");
+}
+
+void take_recorded_drives(CheckedFile& file, bool is_open) {
+  const Json& analysis = file.values().at("analysis");
+  std::vector<DataItem> items;
+  std::vector<std::string> places;
+  for (const DataFile& data : file.files) {
+    const Json& list = analysis.at(data.key);
+    items.push_back({data.name, list.is_array() ? list.at(data.item) : list, data.data});
+    places.push_back("analysis." + data.key + (list.is_array() ? "[" + std::to_string(data.item) + "]" : ""));
+  }
+  refuse_idle_statements(file, items, places);
+  const bool is_one = std::ranges::count(file.files, "data", &DataFile::key) == 1;
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    const DataItem& item = items[i];
+    if (!item.is_motion()) continue;
+    const std::string stated = stated_drive(item.keys);
+    const std::vector<History>& histories = item.data.record.histories;
+    std::vector<std::optional<RecordDrive>>& drives = file.files[i].drives;
+    drives.resize(histories.size());
+    for (std::size_t h = 0; h < histories.size(); ++h) {
+      const std::string column = driving_column(stated, histories[h], is_open);
+      const bool alone = is_one && histories.size() == 1 && file.files[i].key == "data" && is_open &&
+                         file.text_at("excitation", "type") != "base_harmonic";
+      if (stated == "none") {
+        drives[h] = RecordDrive{{}, {{"type", "none"}}};
+        file.files[i].data.record.histories[h].y.clear();
+        file.files[i].data.record.histories[h].force.clear();
+      } else if (!column.empty() && !(alone && take_as_excitation(file, item, histories[h], column))) {
+        drives[h] = own_drive(file, item, places[i], histories[h], column);
+      }
+    }
+  }
+}
+
+std::vector<std::string> undriven_warnings(const std::vector<DataItem>& items, const sim::Model& model) {
+  std::vector<std::string> warnings;
+  if (model.excitation.type != sim::ExcitationType::none) return warnings;
+  const auto has_own = [](const DataItem& item) {
+    return std::ranges::any_of(item.drives, [](const auto& own) { return own && own->drive.samples != nullptr; });
+  };
+  if (std::ranges::none_of(items, has_own)) return warnings;
+  for (const DataItem& item : items)
+    if (item.takes_drive_of_model())
+      warnings.push_back(item.file +
+                         ": the file holds no drive and is fitted as a free vibration, beside records with drives "
+                         "of their own; 'drive: none' states that");
+  return warnings;
+}
+
+Json excitation_of(const identify::Experiment& experiment, const std::vector<DataItem>& items, const Json& shared) {
+  if (!experiment.drive) return shared;
+  for (const DataItem& item : items)
+    for (const std::optional<RecordDrive>& own : item.drives)
+      if (own && own->drive.samples == experiment.drive->samples) return own->section;
+  return shared;
 }
 
 }  // namespace dualdamp::scenarios

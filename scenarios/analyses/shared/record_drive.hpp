@@ -18,8 +18,21 @@ void refuse_other_drives(const std::vector<DataItem>& items, const std::string& 
 /// What to do about a drive that the file holds and the model lacks; empty if there is none.
 [[nodiscard]] std::string idle_drive(const DataItem& item, const sim::Model& model);
 
-/// Makes the motion y of the base the excitation of the scenario, if the data are one file that holds it. A loop, a
-/// file of several tests, and one that also holds a force have none.
-void take_recorded_drive(CheckedFile& file);
+/// The drives that the records themselves hold, by cubic splines: the columns that `drive` of the data files names;
+/// without it y, the motion of the base, of a file without force, if nothing else drives histories (`is_open`). A
+/// single history makes its drive the excitation of the scenario. Each of several gets its own
+/// (`DataFile::drives`), and so does one that does not begin with its file.
+void take_recorded_drives(CheckedFile& file, bool is_open);
+
+/// Whether the scenario states nothing that drives histories: no excitation, or the frequency of x-Y pairs alone.
+[[nodiscard]] bool leaves_drive_open(const CheckedFile& file);
+
+/// Warns of histories that nothing drives beside histories with drives of their own.
+[[nodiscard]] std::vector<std::string> undriven_warnings(const std::vector<DataItem>& items,
+                                                         const sim::Model& model);
+
+/// `excitation` of a scenario of this experiment; `shared`: that of the scenario of the fit.
+[[nodiscard]] Json excitation_of(const identify::Experiment& experiment, const std::vector<DataItem>& items,
+                                 const Json& shared);
 
 }  // namespace dualdamp::scenarios
