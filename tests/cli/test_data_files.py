@@ -14,6 +14,7 @@ import sys
 import tempfile
 import threading
 import unittest
+import zlib
 from pathlib import Path
 
 from case import PATIENCE
@@ -37,6 +38,23 @@ def mat4(name, values, imaginary=0, rows=None):
 
 def mat5(*elements):
     return b"MATLAB 5.0 MAT-file".ljust(124) + b"\x00\x01IM" + b"".join(elements)
+
+
+def element5(kind, content):
+    return struct.pack("<2I", kind, len(content)) + content + bytes(-len(content) % 8)
+
+
+def array5(kind, shape, name, content):
+    head = element5(6, struct.pack("<2I", kind, 0)) + element5(5, struct.pack("<2i", *shape)) + element5(1, name.encode())
+    return element5(14, head + content)
+
+
+def labels5(kind):
+    """A history with labels in a compressed cell array of arrays of signed bytes; `kind`: 4 characters, 8 numbers."""
+    cells = b"".join(array5(kind, (1, 2), "", element5(1, b"up")) for _ in range(20))
+    x = element5(9, struct.pack("<20d", *(i % 7 for i in range(20))))
+    packed = [zlib.compress(part) for part in (array5(6, (20, 1), "x", x), array5(6, (1, 1), "dt", element5(9, struct.pack("<d", 0.1))), array5(1, (20, 1), "sweep", cells))]
+    return mat5(*(struct.pack("<2I", 15, len(part)) + part for part in packed))
 
 
 def uff58(kind=1, count=20, values=20, form=2, number="    58"):
@@ -87,6 +105,8 @@ REFUSED = {
     "many_rows.csv": ("x\n" + "1\n" * 20_000_001, "more than 20 million rows"),
     "many_columns.csv": (",".join(f"c{i}" for i in range(2000)) + "\n1\n", "more than 1000 fields"),
     "empty.mat": (mat5(), "it holds no variables"),
+    "signed_labels.mat": (labels5(4), "save the file without compression (save -v6), or number the tests"),
+    "number_labels.mat": (labels5(8), "cellfun(@char, sweep, 'UniformOutput', false), or a vector of numbers"),
     "cut.mat": (mat5(struct.pack("<2I", 14, 5000), bytes(100)), "damaged or cut off"),
     "garbage.mat": (mat5(struct.pack("<2I", 14, 96), random.Random(2).randbytes(96)), "MATLAB file"),
     "cut_73.mat": (b"MATLAB 7.3 MAT-file".ljust(124) + b"\x00\x02IM" + bytes(384) + b"\x89HDF\r\n\x1a\n" + bytes(20), "damaged or cut off"),

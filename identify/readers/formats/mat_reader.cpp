@@ -337,7 +337,7 @@ class Reader {
     const matio_classes type = entry.variable->class_type;
     if (!labels && (type == MAT_C_CHAR || type == MAT_C_CELL))
       return complain("variable '" + to_utf8(entry.name) + "' holds no text that can be read",
-                      "a text or a number for the test, or for each row", describe(*entry.variable));
+                      instead_of_labels(*entry.variable), describe(*entry.variable));
     if (!labels) {
       const auto values = vector(entry);
       if (!values) return;

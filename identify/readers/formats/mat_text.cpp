@@ -115,6 +115,22 @@ std::optional<std::vector<std::string>> texts(const matvar_t& variable) {
   return result;
 }
 
+std::string instead_of_labels(const matvar_t& variable) {
+  const auto cells = parts_of(variable);
+  // Of characters in a compressed cell array matio has read zeros, or nothing.
+  if (variable.compression == MAT_COMPRESSION_ZLIB && holds_signed_text(variable))
+    return "characters of a compressed cell array that are not stored as signed integers: save the file without "
+           "compression (save -v6), or number the tests";
+  const auto is_number = [](const matvar_t* cell) {
+    return cell != nullptr && cell->class_type != MAT_C_CHAR && cell->class_type != MAT_C_CELL &&
+           cell->class_type != MAT_C_STRUCT && size_of(*cell) > 0;
+  };
+  if (std::ranges::any_of(cells, is_number))
+    return "texts in the cell array, cellfun(@char, " + std::string(variable.name) +
+           ", 'UniformOutput', false), or a vector of numbers";
+  return "a text or a number for the test, or for each row";
+}
+
 std::vector<LabelRun> runs_of(const std::vector<std::string>& labels) {
   std::vector<LabelRun> runs;
   for (std::size_t row = 0; row < labels.size(); ++row)

@@ -22,6 +22,9 @@ namespace dualdamp::identify {
 /// text.
 [[nodiscard]] matvar_t* with_signed_texts(_mat_t* file, const matvar_t& variable);
 
+/// What a variable without `texts` should be to label rows or tests.
+[[nodiscard]] std::string instead_of_labels(const matvar_t& variable);
+
 /// The labels of rows, alike neighbours together.
 [[nodiscard]] std::vector<LabelRun> runs_of(const std::vector<std::string>& labels);
 
