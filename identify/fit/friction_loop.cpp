@@ -7,6 +7,7 @@
 #include "identify/records/signals.hpp"
 #include "identify/statistics/noise_level.hpp"
 #include "sim/conformance/law_host.hpp"
+#include "sim/work_limit.hpp"
 
 namespace dualdamp::identify {
 
@@ -128,7 +129,7 @@ class FrictionLoop final : public Experiment {
       return true;
     }
     sim::LawHost host(law, instant(0, offset));
-    host.limit_steps(most_steps());
+    host.limit_steps(std::min(most_steps(), sim::WorkLimit::most()));
     host.change_direction(direction_of(law_v_[0]));
     force[0] += host.force();
     for (std::size_t i = 1; i < force.size() && !host.broken(); ++i) {
@@ -136,7 +137,7 @@ class FrictionLoop final : public Experiment {
       force[i] += host.force();
     }
     *work += host.steps();
-    return !host.broken();
+    return sim::WorkLimit::allows(host.steps()) && !host.broken();
   }
 
   /// As for a history: a loop that needs ten times the usual number has parameters far off.

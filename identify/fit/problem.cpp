@@ -9,6 +9,7 @@
 #include "core/diagnostics.hpp"
 #include "friction_models/law_fault.hpp"
 #include "sim/parallel.hpp"
+#include "sim/work_limit.hpp"
 
 namespace dualdamp::identify {
 
@@ -112,6 +113,16 @@ long FitProblem::work() const {
   return sum;
 }
 
+bool FitProblem::within_limit(std::size_t e, const std::function<bool()>& motions) const {
+  const long left = std::max(0L, *most_work_ - work());
+  const sim::WorkLimit limit(left);
+  const bool ok = guarded(motions);
+  if (!limit.is_exceeded()) return ok;
+  // Not every kind of experiment counts all of its work.
+  *experiments_[e]->work += left + 1;
+  return false;
+}
+
 void FitProblem::limit(long most) const {
   constexpr long largest = std::numeric_limits<long>::max();
   const long begun = work();
@@ -197,7 +208,7 @@ bool FitProblem::outputs(const Eigen::VectorXd& q, Eigen::VectorXd& result) cons
     std::atomic<bool> ok = true;
     sim::in_parts(experiments_.size(), 1, 0, [&](std::size_t e, std::size_t) {
       Eigen::VectorXd part;
-      if (!guarded([&] { return experiments_[e]->predict(*model, owned[e], part); }))
+      if (!within_limit(e, [&] { return experiments_[e]->predict(*model, owned[e], part); }))
         ok = false;
       else
         result.segment(begins_[e], part.size()) = part;
@@ -237,7 +248,7 @@ bool FitProblem::column(const Eigen::VectorXd& q, const Eigen::VectorXd& middle,
       Eigen::VectorXd part;
       for (std::size_t e = 0; e < experiments_.size(); ++e) {
         if (parameter.owner == Owner::record && parameter.index != e) continue;
-        if (!neighbours[e]->predict(*model, owned[e], part)) return false;
+        if (!within_limit(e, [&] { return neighbours[e]->predict(*model, owned[e], part); })) return false;
         outputs[side].segment(begins_[e], part.size()) = part;
       }
       return true;
@@ -258,11 +269,12 @@ bool FitProblem::derivatives(const Eigen::VectorXd& q, Eigen::VectorXd& result, 
   const std::optional<sim::Model> middle = model_at(values(q));
   if (!middle) return false;
   All neighbours(experiments_.size());
-  if (!guarded([&] {
-        for (std::size_t e = 0; e < experiments_.size(); ++e) neighbours[e] = experiments_[e]->neighbours(*middle);
-        return true;
-      }))
-    return false;
+  for (std::size_t e = 0; e < experiments_.size(); ++e)
+    if (!within_limit(e, [&] {
+          neighbours[e] = experiments_[e]->neighbours(*middle);
+          return true;
+        }))
+      return false;
   jacobian.resize(rows_, q.size());
   std::atomic<bool> ok = true;
   sim::in_parts(static_cast<std::size_t>(q.size()), 1, 0, [&](std::size_t number, std::size_t) {

@@ -9,6 +9,7 @@
 /// Newton's method from the orbit of the unchanged model.
 
 #include <Eigen/Core>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -59,7 +60,7 @@ class FitProblem {
   [[nodiscard]] std::optional<FitProblem> tied(double strength) const;
 
   /// Begins to count the work of the motions (`Experiment::work`), also those of the problems made from this one.
-  /// Beyond `most` there are no motions any more.
+  /// Beyond `most` there are no motions any more, and a single motion ends there.
   void limit(long most) const;
   [[nodiscard]] bool is_exhausted() const { return work() > *most_work_; }
 
@@ -107,6 +108,9 @@ class FitProblem {
   FitProblem(const FitProblem& whole, Experiments parts);
   void number_rows();
   [[nodiscard]] long work() const;
+  /// The answer of `motions` of experiment `e`, of which none runs past the limit of the work. False beyond it, or
+  /// if a law or an engine refuses the values.
+  [[nodiscard]] bool within_limit(std::size_t e, const std::function<bool()>& motions) const;
   const Rig& rig_;
   Accuracy accuracy_{};
   const std::vector<FitParameter>& parameters_;

@@ -3,12 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
+#include <utility>
 
 #include "core/cancellation.hpp"
 #include "core/numbers.hpp"
 #include "sim/engine/exact_engine.hpp"
 #include "sim/engine/smooth_engine.hpp"
 #include "sim/validate.hpp"
+#include "sim/work_limit.hpp"
 
 namespace dualdamp::sim {
 
@@ -21,6 +24,12 @@ namespace {
 constexpr double most_digits = 1e12;
 /// Margin of the recommended stiffness: the motion may grow by this factor after it was refused.
 constexpr double margin = 10.0;
+
+core::Outcome check_work(long work) {
+  if (WorkLimit::allows(work)) return {};
+  return {core::OutcomeKind::event_limit,
+          "the motion takes more than " + std::to_string(WorkLimit::most()) + " steps"};
+}
 
 /// Ends the motion if a state is far larger than its size in the law: the rounding of x then stretches a stiff
 /// spring noticeably.
@@ -98,6 +107,10 @@ void Engine::place() {
 
 const Interval* Engine::next(double horizon) {
   core::stop_if_cancelled();
+  if (core::Outcome limited = check_work(work()); !limited.ok()) {
+    outcome_ = std::move(limited);
+    return nullptr;
+  }
   // Not earlier, because the last interval, still valid until this call, lies in the piece before.
   if (drive_.has_pieces() && drive_.piece() != periods_passed_) {
     local_time_ = 0.0;
@@ -113,6 +126,10 @@ const Interval* Engine::next(double horizon) {
 
 const Interval* Engine::next_in_period() {
   core::stop_if_cancelled();
+  if (core::Outcome limited = check_work(work()); !limited.ok()) {
+    outcome_ = std::move(limited);
+    return nullptr;
+  }
   return step(drive_.period() - local_time_, true);
 }
 

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <string>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -221,4 +222,49 @@ TEST_CASE("search: a search that takes too much work is cut short, and says so",
                                                  {test::loop_alone(rig), loop, true}})
       CHECK_THAT(outcome_of(model, record, is_loop).reason, Catch::StartsWith("search cut short"));
   }
+}
+
+TEST_CASE("search: no single motion runs past the limit of the work", "[identify][fit]") {
+  // The work of one motion whose fit may do `most`, and whether there is a motion.
+  const auto work_of = [](identify::Rig rig, const identify::Record& record, bool is_loop, long most) {
+    std::string fault;
+    const identify::Experiments experiments =
+        identify::experiments_of(record, {.name = "record", .loop = is_loop}, fault);
+    REQUIRE(fault.empty());
+    const std::vector<identify::FitParameter> parameters = test::sought_in(rig, {"kinetic"}, 1.0);
+    const std::vector<double> sizes = {1.0};
+    const identify::FitProblem problem(rig, parameters, experiments, sizes);
+    problem.limit(most);
+    Eigen::VectorXd outputs;
+    const bool ok = problem.outputs(problem.coordinates(Eigen::VectorXd::Ones(1)), outputs);
+    CHECK(problem.is_exhausted() == !ok);
+    return std::pair{ok, experiments.front()->work->load()};
+  };
+  const auto check = [&](const identify::Rig& rig, const identify::Record& record, bool is_loop) {
+    const auto [moves, whole] = work_of(rig, record, is_loop, 100'000'000);
+    CHECK(moves);
+    const long most = whole / 10;
+    const auto [still_moves, limited] = work_of(rig, record, is_loop, most);
+    CAPTURE(whole, most);
+    CHECK(whole > 50);
+    CHECK_FALSE(still_moves);
+    // The motion up to the limit, and as much again as a mark that nothing is left.
+    CHECK(limited < whole / 2);
+  };
+  const identify::Rig exact = test::rig_with(test::law_case_of("coulomb"));
+  const identify::Rig smooth = test::rig_with(test::law_case_of("dahl"));
+  check(exact, test::history_of(exact, {.duration = 8.0}, 6), false);
+  check(smooth, test::history_of(smooth, {}, 6), false);
+  identify::Record decay;
+  decay.decay = identify::DecayRecord{};
+  for (int i = 0; i < 40; ++i) decay.decay->extremes.push_back((i % 2 == 0 ? 1.0 : -1.0) * 0.2 / (1.0 + 0.1 * i));
+  for (identify::Rig free : {exact, smooth}) {
+    free.known.excitation = {};
+    check(free, decay, false);
+  }
+  identify::Record pairs;
+  pairs.pairs.emplace();
+  pairs.pairs->pairs.push_back({.Y = 5e-3, .x = 5e-3, .omega = smooth.known.excitation.frequency});
+  check(smooth, pairs, false);
+  check(test::loop_alone(smooth), test::loop_of(test::loop_alone(smooth), 0.01, 0.01, 4), true);
 }
