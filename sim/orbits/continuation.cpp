@@ -7,6 +7,8 @@
 #include <optional>
 #include <utility>
 
+#include "core/numbers.hpp"
+#include "sim/engine/drive.hpp"
 #include "sim/orbits/continuation_steps.hpp"
 #include "sim/orbits/orbit_account.hpp"
 #include "sim/validate.hpp"
@@ -21,8 +23,22 @@ namespace {
 /// Closure of a failed step over the rounding of an orbit, up to which the step failed by rounding.
 constexpr double lost_by_rounding = 100.0;
 
+/// Floquet multiplier from which on a failed step does not prove that the branch ends.
+constexpr double lost_by_parting = 1e4;
+
+/// Size of the motion, relative to the displacement by the drive's force, from which on it grows without bound: no
+/// damping ratio above 1e-8 allows it.
+constexpr double without_bound = 1e8;
+
 /// Most changes of the sequence between two points of a branch that are located.
 constexpr int most_changes = 64;
+
+/// The displacement by the drive's force against the spring or the inertia, whichever is less [m].
+double driven_displacement(const Model& model) {
+  const double w = model.excitation.frequency;
+  const double stiffness = std::max(model.oscillator.stiffness, model.oscillator.mass * w * w);
+  return Drive(model.oscillator, model.excitation).force_scale() / stiffness;
+}
 
 /// Whether b is a, perhaps with another start in the forcing period.
 bool same_sequence(const std::vector<EventKind>& a, const std::vector<EventKind>& b) {
@@ -90,11 +106,14 @@ void Continuation::add_change(ChangeKind kind, const BranchPoint& before, const 
 template <class Changed>
 void Continuation::bisect(BranchPoint& low, BranchPoint& high, const State& guess, const Changed& changed) const {
   const double scale = std::max(std::abs(from_), std::abs(to_));
+  constexpr double farthest = 30.0;  // the branch may make a detour where the sequence changes
+  const State begin = low.state.start;
+  const State end = high.state.start;
   while (std::abs(high.parameter - low.parameter) > options_.location * scale) {
     const double middle = 0.5 * (low.parameter + high.parameter);
     std::optional<Node> node = orbit(middle, low.state.start);
     if (!node) node = orbit(middle, guess);
-    if (!node) return;
+    if (!node || !lies_between(begin, *node, end, farthest)) return;
     BranchPoint point = describe(*node);
     (changed(point) ? high : low) = std::move(point);
   }
@@ -196,6 +215,33 @@ bool Continuation::was_passed(const Node& node) const {
   return false;
 }
 
+/// The orbit exactly at the end of the range, between the last node inside and the first one outside, which is
+/// `step` further on. Where neighbouring motions part fast, Newton's method needs a good start: the two nodes are
+/// brought nearer to the end, step by step along the branch.
+std::optional<Node> Continuation::at_edge(Node inner, Node outer, double step) const {
+  constexpr int attempts = 30;
+  const double edge = std::abs(outer.parameter - from_) < std::abs(outer.parameter - to_) ? from_ : to_;
+  for (int i = 0; i < attempts && !is_exhausted(); ++i) {
+    const double part = (edge - inner.parameter) / (outer.parameter - inner.parameter);
+    State guess = inner.period.begin;
+    if (same_mode(guess, outer.period.begin))
+      guess = displaced(guess, part * (coordinates(outer.period.begin) - coordinates(guess)));
+    std::optional<Node> last = orbit(edge, guess);
+    if (last && lies_between(inner.period.begin, *last, outer.period.begin, 2.0)) {
+      last->tangent = inner.tangent;
+      return last;
+    }
+    double shorter = step * std::clamp(part, 0.1, 0.9);
+    const double whole = shorter;
+    std::optional<Node> nearer = advance(inner, shorter);
+    if (!nearer) return std::nullopt;
+    const bool outside = !inside(nearer->parameter);
+    step = outside || shorter < whole ? shorter : step - shorter;
+    (outside ? outer : inner) = std::move(*nearer);
+  }
+  return std::nullopt;
+}
+
 Branch Continuation::run() {
   const Model first = at(from_);
   const SteadyState start = steady_state(first, {.tolerance = options_.tolerance, .full_account = false});
@@ -217,10 +263,12 @@ Branch Continuation::run() {
   while (static_cast<int>(branch_.points.size()) < options_.max_points) {
     std::optional<Node> next = advance(node, step);
     if (is_exhausted())
-      return ended(BranchEnd::work,
-                   "the branch is not complete: it stops where the search for its orbits takes too long");
-    if (!next && nearest_ < lost_by_rounding)
-      return ended(BranchEnd::step, "the branch is not complete: it stops where no step converges to an orbit");
+      return ended(
+          BranchEnd::work,
+          "the branch is not complete: it stops where the search for its orbits takes too long" + parting_at(node));
+    if (!next && ((nearest_ < lost_by_rounding && !ends_ahead(node)) || !parting_at(node).empty()))
+      return ended(BranchEnd::step,
+                   "the branch is not complete: it stops where no step converges to an orbit" + parting_at(node));
     if (!next) {
       add_change(ChangeKind::end, branch_.points.back(), branch_.points.back());
       return ended(BranchEnd::orbit, "the branch ends inside the range: no orbit continues it");
@@ -231,12 +279,9 @@ Branch Continuation::run() {
     }
     const bool left = !inside(next->parameter);
     if (left) {
-      // The last point is put exactly at the end of the range.
-      const double edge = std::abs(next->parameter - from_) < std::abs(next->parameter - to_) ? from_ : to_;
-      std::optional<Node> last = orbit(edge, node.period.begin);
+      std::optional<Node> last = at_edge(node, *next, step);
       if (!last)
         return ended(BranchEnd::edge, "the branch ends short of the end of the range: no orbit found there");
-      last->tangent = node.tangent;
       next = std::move(last);
     }
     record(node, *next);
@@ -244,10 +289,34 @@ Branch Continuation::run() {
       return ended(BranchEnd::range, "the branch turns back and leaves the range where it began");
     if (left) return std::move(branch_);
     node = std::move(*next);
+    if (node.period.size > without_bound * driven_displacement(at(node.parameter)))
+      return ended(BranchEnd::growth, "the branch ends inside the range: its amplitude grows without bound");
     step = std::min(1.5 * step, options_.largest_step);
   }
   return ended(BranchEnd::points,
                "the branch is not complete: it stops after " + std::to_string(options_.max_points) + " points");
+}
+
+/// Whether the largest Floquet multiplier grows without bound towards a place just ahead, as it does where a
+/// release or the yield of a contact becomes a grazing: the branch ends there.
+bool Continuation::ends_ahead(const Node& node) const {
+  constexpr double steps = 64.0;
+  if (branch_.points.size() < 2) return false;
+  const BranchPoint& before = branch_.points[branch_.points.size() - 2];
+  double last = 0.0;
+  for (const std::complex<double>& value : before.state.multipliers) last = std::max(last, std::abs(value));
+  Node previous{before.parameter, {}, {}};
+  previous.period.begin = before.state.start;
+  const double growth = node.period.radius() - last;
+  return growth > 0.0 && way(node, previous).norm() * last < steps * options_.smallest_step * growth;
+}
+
+/// If neighbouring motions part too fast for a failed step to prove that the branch ends: words that say so.
+std::string Continuation::parting_at(const Node& node) const {
+  const double factor = node.period.radius();
+  if (!(factor > lost_by_parting) || !std::isfinite(factor) || ends_ahead(node)) return {};
+  return ": neighbouring motions part too fast, the largest Floquet multiplier is " +
+         core::format_number(factor, 3);
 }
 
 Branch Continuation::ended(BranchEnd end, const std::string& warning) {
@@ -290,6 +359,8 @@ std::string_view name_of(BranchEnd end) {
       return "edge";
     case BranchEnd::step:
       return "step";
+    case BranchEnd::growth:
+      return "growth";
     case BranchEnd::work:
       return "work";
   }

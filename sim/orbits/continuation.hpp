@@ -58,11 +58,13 @@ enum class BranchEnd {
   orbit,   ///< no orbit continues it: an interval of the orbit disappears, or it would go back over its own orbits
   points,  ///< it has max_points points
   edge,    ///< it left the range, but no orbit was found exactly at the end of the range
-  step,    ///< orbits nearly close beyond the last point, but no step along the branch converged
+  step,    ///< orbits nearly close beyond the last point, or neighbouring motions part too fast to tell, but no
+           ///< step along the branch converged
+  growth,  ///< its amplitude grows without bound: an undamped resonance
   work,    ///< the search for its orbits took too long
 };
 
-/// "range", "orbit", "points", "edge", "step", "work".
+/// "range", "orbit", "points", "edge", "step", "growth", "work".
 [[nodiscard]] std::string_view name_of(BranchEnd end);
 
 struct Branch {

@@ -21,6 +21,8 @@ constexpr int max_corrections = 12;
 constexpr int settling_periods = 4;
 /// Closure at which rounding leaves too little of an orbit.
 constexpr double lost_in_rounding = 1e-7;
+/// Amplification of a period from which on the derivative by the parameter is taken along the branch.
+constexpr double far_apart = 10.0;
 
 /// Derivative of (end - begin) by the coordinates and the parameter. A slider that never slips keeps its position.
 MatrixXd closing(const ForcingPeriod& period, const VectorXd& by_parameter) {
@@ -69,9 +71,20 @@ bool Continuation::closes(const Node& node, double before) const {
   const Model model = at(node.parameter);
   const double closure = node.period.closure(model.excitation.frequency);
   if (closure <= closure_.tolerance) return true;
-  const double rounding = std::max(closure_.rounding, rounding_of_forces(model, node.period));
+  // The period map also amplifies the rounding of its start.
+  const double least = std::min(closure_.rounding * std::max(1.0, amplification(node)), lost_in_rounding);
+  const double rounding = std::max(least, rounding_of_forces(model, node.period));
   nearest_ = std::min(nearest_, closure / rounding);
   return closure > 0.5 * before && closure <= std::max(closure_.rounding, std::min(rounding, lost_in_rounding));
+}
+
+/// The largest factor by which a period stretches a perturbation of its start, in scaled coordinates.
+double Continuation::amplification(const Node& node) const {
+  const Index n = node.period.monodromy.cols();
+  const MatrixXd& matrix = node.period.monodromy;
+  if (n == 0 || matrix.rows() != n || !matrix.allFinite()) return 1.0;
+  const VectorXd size = scale(node).head(n);
+  return (size.cwiseInverse().asDiagonal() * matrix * size.asDiagonal()).norm();
 }
 
 Model Continuation::at(double parameter) const {
@@ -103,20 +116,42 @@ VectorXd Continuation::scale(const Node& node) const {
   return result;
 }
 
-/// d(end)/d(parameter), by a difference; none if the changed parameter leads to another mode.
-std::optional<VectorXd> Continuation::by_parameter(const Node& node) const {
-  for (const double step : {nudge_ * node.parameter, -nudge_ * node.parameter}) {
-    CountedMap map(at(node.parameter + step), ratio_, effort_);
-    const ForcingPeriod moved = map.from(node.period.begin, Monodromy::without);
-    if (map.outcome().ok() && same_mode(moved.end, node.period.end))
-      return (coordinates(moved.end) - coordinates(node.period.end)) / step;
+/// d(end)/d(parameter), by a difference; none if the changed parameter leads to another mode. Where neighbouring
+/// motions part fast, the start moves on along the branch, too: orbits near each other stay near each other, so the
+/// difference has no large terms of second order. The monodromy matrix then takes the motion of the start out
+/// again.
+std::optional<VectorXd> Continuation::by_parameter(const Node& node, const VectorXd& along) const {
+  const Index n = node.period.monodromy.cols();
+  VectorXd moved_start = VectorXd::Zero(n);
+  double length = nudge_ * node.parameter;
+  constexpr double flattest = 1e-3;  // part of the tangent along the parameter; less: at a fold
+  if (along.size() == n + 1 && std::abs(along[n]) > flattest && amplification(node) > far_apart) {
+    const VectorXd step = nudge_ * along.cwiseProduct(scale(node));
+    moved_start = step.head(n);
+    length = step[n];
+  }
+  for (const double sense : {1.0, -1.0}) {
+    CountedMap map(at(node.parameter + sense * length), ratio_, effort_);
+    const ForcingPeriod moved = map.from(displaced(node.period.begin, sense * moved_start), Monodromy::without);
+    if (!map.outcome().ok() || !same_mode(moved.end, node.period.end)) continue;
+    const VectorXd start = coordinates(moved.begin) - coordinates(node.period.begin);
+    return (coordinates(moved.end) - coordinates(node.period.end) - node.period.monodromy * start) /
+           (sense * length);
   }
   return std::nullopt;
 }
 
 /// Unit tangent in scaled coordinates, in the direction of `along`.
 std::optional<VectorXd> Continuation::tangent(const Node& node, const VectorXd& along) const {
-  const std::optional<VectorXd> slope = by_parameter(node);
+  std::optional<VectorXd> direction = tangent_near(node, along, along);
+  if (direction && amplification(node) > far_apart) direction = tangent_near(node, along, *direction);
+  return direction;
+}
+
+/// The same; `guess`: a direction near the tangent.
+std::optional<VectorXd> Continuation::tangent_near(const Node& node, const VectorXd& along,
+                                                   const VectorXd& guess) const {
+  const std::optional<VectorXd> slope = by_parameter(node, guess);
   const Index n = node.period.monodromy.cols();
   if (!slope || along.size() != n + 1) return std::nullopt;
   const VectorXd size = scale(node);
@@ -157,9 +192,10 @@ std::optional<Node> Continuation::correct(const Node& from, double step) const {
     if (!trial || !trial->ends_in_its_mode()) return std::nullopt;
     node.period = std::move(*trial);
     const VectorXd gap = coordinates(node.period.end) - coordinates(node.period.begin);
-    if (closes(node, before)) return node;
+    const bool is_near = way(from, node).norm() <= farthest(step) * step;
+    if (closes(node, before)) return is_near ? std::optional(std::move(node)) : std::nullopt;
     before = node.period.closure(omega(node.parameter));
-    const std::optional<VectorXd> slope = by_parameter(node);
+    const std::optional<VectorXd> slope = by_parameter(node, from.tangent);
     if (!slope) return std::nullopt;
     VectorXd distance(n + 1);
     distance.head(n) = coordinates(start) - coordinates(from.period.begin);
@@ -196,19 +232,38 @@ std::optional<Node> Continuation::cross_modes(const Node& from, double step) con
   return std::nullopt;
 }
 
-/// Whether `node` continues the branch: x, v and the parameter, which all modes share, go on by about a step.
-/// Another branch, or a part of this one that lies behind, does not.
-bool Continuation::is_ahead(const Node& from, const Node& node, double step) const {
-  // In steps. At a corner of the branch (a release passes t = 0) the state changes by many small steps.
-  const double farthest = step > 16.0 * options_.smallest_step ? 4.0 : 100.0;
-  constexpr double least = 0.1;
+/// The way from one node to another along x, v and the parameter, which all modes share; scaled.
+Eigen::Vector3d Continuation::way(const Node& from, const Node& node) const {
   const VectorXd size = scale(from);
-  const VectorXd before = coordinates(from.period.begin);
-  const VectorXd after = coordinates(node.period.begin);
-  const Eigen::Vector3d change((after[0] - before[0]) / size[0], (after[1] - before[1]) / size[1],
-                               (node.parameter - from.parameter) / parameter_scale(from.parameter));
+  const State& before = from.period.begin;
+  const State& after = node.period.begin;
+  return {(after.x - before.x) / size[0], (after.v - before.v) / size[1],
+          (node.parameter - from.parameter) / parameter_scale(from.parameter)};
+}
+
+/// Most steps' lengths that one step may take the state along. At a corner of the branch (a release passes t = 0)
+/// the state changes by many small steps.
+double Continuation::farthest(double step) const { return step > 16.0 * options_.smallest_step ? 4.0 : 100.0; }
+
+/// Whether `node` continues the branch: x, v and the parameter go on by about a step. Another branch, or a part of
+/// this one that lies behind, does not.
+bool Continuation::is_ahead(const Node& from, const Node& node, double step) const {
+  constexpr double least = 0.1;
+  const Eigen::Vector3d change = way(from, node);
   const Eigen::Vector3d along = common_part(from.tangent);
-  return change.norm() <= farthest * step && change.dot(along) >= least * step * along.norm();
+  return change.norm() <= farthest(step) * step && change.dot(along) >= least * step * along.norm();
+}
+
+/// Whether an orbit lies on the piece of the branch between two others: from either at most `farthest` times as far
+/// away as they are from each other.
+bool Continuation::lies_between(const State& low, const Node& node, const State& high, double farthest) const {
+  constexpr double rounding = 1e-9;
+  const VectorXd size = scale(node);
+  const auto distance = [&](const State& a, const State& b) {
+    return std::hypot((a.x - b.x) / size[0], (a.v - b.v) / size[1]);
+  };
+  const double most = farthest * distance(low, high) + rounding;
+  return distance(low, node.period.begin) <= most && distance(node.period.begin, high) <= most;
 }
 
 /// Whether the branch turns so far between both points that the direction of the tangent is uncertain: a step over

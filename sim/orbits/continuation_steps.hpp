@@ -79,18 +79,27 @@ class Continuation {
   [[nodiscard]] double omega(double parameter) const;
   [[nodiscard]] double parameter_scale(double parameter) const;
   [[nodiscard]] Eigen::VectorXd scale(const Node& node) const;
-  [[nodiscard]] std::optional<Eigen::VectorXd> by_parameter(const Node& node) const;
+  [[nodiscard]] std::optional<Eigen::VectorXd> by_parameter(const Node& node, const Eigen::VectorXd& along) const;
+  [[nodiscard]] double amplification(const Node& node) const;
   [[nodiscard]] std::optional<Eigen::VectorXd> tangent(const Node& node, const Eigen::VectorXd& along) const;
+  [[nodiscard]] std::optional<Eigen::VectorXd> tangent_near(const Node& node, const Eigen::VectorXd& along,
+                                                            const Eigen::VectorXd& guess) const;
   [[nodiscard]] std::optional<Node> orbit(double parameter, const State& guess) const;
   [[nodiscard]] std::optional<Node> correct(const Node& from, double step) const;
   [[nodiscard]] std::optional<Node> cross_modes(const Node& from, double step) const;
   [[nodiscard]] bool turns_too_far(const Node& from, const Node& node, const Eigen::VectorXd& tangent) const;
+  [[nodiscard]] Eigen::Vector3d way(const Node& from, const Node& node) const;
+  [[nodiscard]] double farthest(double step) const;
   [[nodiscard]] bool is_ahead(const Node& from, const Node& node, double step) const;
+  [[nodiscard]] bool lies_between(const State& low, const Node& node, const State& high, double farthest) const;
+  [[nodiscard]] std::optional<Node> at_edge(Node inner, Node outer, double step) const;
   [[nodiscard]] bool was_passed(const Node& node) const;
   [[nodiscard]] std::optional<Node> advance(const Node& from, double& step) const;
   [[nodiscard]] BranchPoint describe(const Node& node) const;
   [[nodiscard]] bool inside(double parameter) const;
   [[nodiscard]] bool is_exhausted() const { return effort_.work > options_.most_work; }
+  [[nodiscard]] bool ends_ahead(const Node& node) const;
+  [[nodiscard]] std::string parting_at(const Node& node) const;
   [[nodiscard]] Branch ended(BranchEnd end, const std::string& warning);
   void record(const Node& before, const Node& after);
   void locate_stability(const Node& before, const BranchPoint& last);

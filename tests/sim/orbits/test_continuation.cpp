@@ -279,3 +279,47 @@ TEST_CASE("attempts that run away over the hilltop of a softening spring do not 
   REQUIRE(count(branch, ChangeKind::fold) == 1);
   CHECK(branch.changes[0].parameter == Approx(8.0905).epsilon(1e-4));
 }
+
+TEST_CASE("a branch goes on where neighbouring motions part thousandfold in a period") {
+  // Four slips with static friction above kinetic: each passes on the place of its release. The orbit beyond the
+  // fold does not attract; its largest Floquet multiplier is 19,010 at the end of the range.
+  sim::Model model = coulomb_driven(0.1, 0.2, 0.6, 0.2);
+  model.excitation.type = sim::ExcitationType::force_harmonic;
+  model.friction = {friction::Law(friction::Coulomb(0.2, 0.3))};
+  const sim::Branch branch = continue_branch(model, BranchParameter::frequency, 0.2, 1.5);
+  REQUIRE(branch.outcome.ok());
+  CHECK(branch.end == sim::BranchEnd::range);
+  REQUIRE(branch.changes.size() == 1);
+  CHECK(branch.changes[0].kind == ChangeKind::fold);
+  CHECK(branch.points.size() < 150);
+  const sim::BranchPoint& last = branch.points.back();
+  CHECK(last.parameter == 0.2);
+  CHECK(last.state.stops_per_cycle == 4);
+  CHECK(std::abs(last.state.multipliers[0]) == Approx(19010.0).epsilon(1e-3));
+  // It is the orbit of the points before, not another one at the same frequency.
+  const sim::BranchPoint& before = branch.points[branch.points.size() - 2];
+  CHECK(last.state.amplitude == Approx(before.state.amplitude).epsilon(1e-3));
+}
+
+TEST_CASE("a branch that stops because neighbouring motions part too fast says how fast") {
+  sim::Model model = coulomb_driven(0.1, 0.2, 1.0, 0.2);
+  model.friction = {friction::Law(friction::Coulomb(0.2, 0.5))};
+  const sim::Branch branch = continue_branch(model, BranchParameter::frequency, 0.2, 1.5);
+  REQUIRE(branch.outcome.ok());
+  CHECK(branch.points.back().state.multipliers.size() == 2);
+  CHECK(std::abs(branch.points.back().state.multipliers[0]) > 1e6);
+  CHECK(branch.end == sim::BranchEnd::step);
+  REQUIRE(branch.warnings.size() == 1);
+  CHECK(branch.warnings[0].find("largest Floquet multiplier is") != std::string::npos);
+}
+
+TEST_CASE("an undamped resonance ends a branch because its amplitude grows without bound") {
+  const sim::Branch branch =
+      continue_branch(coulomb_driven(0.0, 0.2, 1.0, 1.5), BranchParameter::frequency, 1.5, 0.5);
+  REQUIRE(branch.outcome.ok());
+  CHECK(branch.end == sim::BranchEnd::growth);
+  CHECK(branch.points.back().parameter == Approx(1.0).epsilon(1e-7));
+  CHECK(branch.points.back().state.amplitude > 1e7);
+  REQUIRE(branch.warnings.size() == 1);
+  CHECK(branch.warnings[0].find("grows without bound") != std::string::npos);
+}

@@ -8,6 +8,7 @@
 #include "friction_models/laws/coulomb.hpp"
 #include "friction_models/laws/dahl.hpp"
 #include "friction_models/laws/lugre.hpp"
+#include "friction_models/laws/stribeck.hpp"
 #include "sim/orbits/continuation.hpp"
 
 using namespace dualdamp;
@@ -111,4 +112,21 @@ TEST_CASE("a branch that rounding stops does not say that no orbit continues it"
   CHECK(branch.changes.empty());
   REQUIRE(branch.warnings.size() == 1);
   CHECK(branch.warnings[0].find("no step converges") != std::string::npos);
+}
+
+TEST_CASE("a steep branch under a falling friction law keeps its tangent") {
+  // Static friction falls within 0.01 m/s. Neighbouring motions part by a factor of 24 in a period, and the
+  // amplitude changes 200 times as fast as the frequency. A wrong tangent made a hundred steps of 1e-6 rad/s.
+  sim::Model model;
+  model.oscillator = {.mass = 1.0, .stiffness = 1.0, .damping = 0.1};
+  model.excitation = {.type = sim::ExcitationType::base_harmonic, .amplitude = 1.0, .frequency = 0.2488};
+  model.friction.emplace_back(friction::Stribeck(friction::StribeckCurve(0.2, 0.3, 0.01)));
+  const sim::Branch branch =
+      continue_branch(model, sim::BranchParameter::frequency, 0.2488, 1.5, {.max_points = 40});
+  REQUIRE(branch.outcome.ok());
+  CHECK(branch.end == sim::BranchEnd::points);
+  REQUIRE(branch.changes.size() == 5);
+  CHECK(branch.changes[0].kind == sim::ChangeKind::flip);
+  CHECK(branch.changes[4].kind == sim::ChangeKind::fold);
+  CHECK(branch.changes[4].parameter == Approx(0.25560071).epsilon(1e-6));
 }
