@@ -52,6 +52,8 @@ class Law {
   explicit Law(std::shared_ptr<const LawModel> model) : model_(std::move(model)), abilities_(model_->abilities()) {}
 
   [[nodiscard]] const Abilities& abilities() const { return abilities_; }
+  /// Of a law from a plugin; else empty.
+  [[nodiscard]] std::string_view name() const { return model_->name(); }
 
   /// N
   [[nodiscard]] double force(const Memory& memory, const Instant& now, Direction direction) const {

@@ -120,6 +120,8 @@ class LawModel {
   [[nodiscard]] virtual double force(const Memory& memory, const Instant& now, Direction direction) const = 0;
   /// The same at every call.
   [[nodiscard]] virtual Abilities abilities() const { return {}; }
+  /// Of a law from a plugin; else empty.
+  [[nodiscard]] virtual std::string_view name() const { return {}; }
 };
 
 }  // namespace dualdamp::friction

@@ -71,6 +71,7 @@ class PluginLaw final : public LawModel,
             .dissipation = table_.dissipation != nullptr ? this : nullptr};
   }
 
+  [[nodiscard]] std::string_view name() const override { return table_.name; }
   [[nodiscard]] double force(const Memory& memory, const Instant& now, Direction direction) const override {
     std::array<double, max_plugin_states> rates{};
     return respond(memory, now, direction, std::span(rates).first(table_.states));

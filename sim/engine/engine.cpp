@@ -205,6 +205,7 @@ EventKind Engine::act(StickEnd end) {
 
 EventKind Engine::act(LawGuard guard) {
   jump(guard.law, {guard.guard});
+  changed_last_ = guard.law;
   return EventKind::switching;
 }
 
@@ -225,11 +226,21 @@ void Engine::act_on_schedule(double due) {
   if (direction_ == Direction::none) settle();
 }
 
+std::string Engine::name_in_list(std::size_t law) const {
+  const std::string place =
+      model_.friction.size() == 1 ? "friction" : "item " + std::to_string(law + 1) + " of system.friction";
+  const std::string_view name = model_.friction[law].name();
+  return name.empty() ? place : place + " (law '" + std::string(name) + "' of a plugin)";
+}
+
 bool Engine::comes_to_an_end(bool takes_no_time) {
   repeats_ = takes_no_time ? repeats_ + 1 : 0;
   if (repeats_ <= max_repeats * std::max(1, static_cast<int>(model_.friction.size()))) return true;
+  const std::string changes = changed_last_ < model_.friction.size()
+                                  ? "the mode changes of " + name_in_list(changed_last_)
+                                  : "a friction law's mode changes";
   outcome_ = {core::OutcomeKind::jump_cycle,
-              "a friction law's mode changes did not come to an end at t = " + std::to_string(time()) + " s"};
+              changes + " did not come to an end at t = " + std::to_string(time()) + " s"};
   return false;
 }
 

@@ -12,7 +12,9 @@
 /// exact in long runs.
 
 #include <Eigen/Core>
+#include <limits>
 #include <memory>
+#include <string>
 #include <variant>
 #include <vector>
 
@@ -118,6 +120,8 @@ class Engine {
   EventKind act(LawGuard guard);
   void act_on_schedule(double due);
   [[nodiscard]] double next_schedule() const;
+  /// Words for a law: its place in system.friction, and its name if it is from a plugin.
+  [[nodiscard]] std::string name_in_list(std::size_t law) const;
   /// Counts events in a row that take no time. False, and an outcome is set, if they do not come to an end.
   [[nodiscard]] bool comes_to_an_end(bool takes_no_time);
 
@@ -145,6 +149,7 @@ class Engine {
   [[nodiscard]] bool turns_freely() const;
 
   int repeats_ = 0;
+  std::size_t changed_last_ = std::numeric_limits<std::size_t>::max();  ///< the law that changed its mode last
 };
 
 /// The engine for this model: exact if every law is affine in every mode and the spring is linear, unless the model

@@ -344,9 +344,10 @@ double SmoothEngine::crossing(std::size_t watch, double before, double negative)
   }
   const double value_negative = guard(watch, negative);
   if (value_negative > 0.0) {
-    throw friction::LawFault(
-        "a guard of a friction law changed its sign between two calls for the same instant, t = " +
-        std::to_string(time() + negative * taken_) + " s");
+    const auto* of = std::get_if<LawGuard>(&watches_[watch].ending);
+    throw friction::LawFault("a guard of " + (of != nullptr ? name_in_list(of->law) : "a friction law") +
+                             " changed its sign between two calls for the same instant, t = " +
+                             std::to_string(time() + negative * taken_) + " s");
   }
   std::uintmax_t iterations = 60;
   const auto [left, right] =

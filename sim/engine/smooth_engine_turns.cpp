@@ -146,9 +146,7 @@ std::string SmoothEngine::infinite_force() {
     for (std::size_t i = 0; i < memories.size(); ++i) {
       if (!std::isfinite(there.v) || std::isfinite(model_.friction[i].force(memories[i], there, direction_)))
         continue;
-      const std::string which =
-          memories.size() == 1 ? "friction" : "item " + std::to_string(i + 1) + " of system.friction";
-      return ": the force of " + which + " is not finite at x = " + core::format_number(there.x, 6) +
+      return ": the force of " + name_in_list(i) + " is not finite at x = " + core::format_number(there.x, 6) +
              " m, v = " + core::format_number(there.v, 6) + " m/s";
     }
   }

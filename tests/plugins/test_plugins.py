@@ -63,7 +63,7 @@ FAILED = {
     "throws a number": "respond() threw an exception, which no C function may",
     "create throws": "create() threw an exception, which no C function may: out of memory",
     "NaN": "respond() gave a value that is no number, at t = 0.1",
-    "infinite": "the force of friction is not finite at x = 0.05",
+    "infinite": "the force of friction (law 'test_slider' of a plugin) is not finite at x = 0.05",
     "rate NaN": "respond() gave a value that is no number",
     "guard NaN": "guard() gave a value that is no number",
     "jump NaN": "jump() left a state that is no number",
@@ -71,8 +71,8 @@ FAILED = {
     "start mode": "start() went to mode -1, but the table declares modes 0 to 2",
     "scale": "scales() gave a size that is not above 0",
     "limit": "static_limit() gave -1, which is below 0",
-    "guard lies": "a guard of a friction law changed its sign between two calls",
-    "endless": "a friction law's mode changes did not come to an end at t = ",
+    "guard lies": "a guard of friction (law 'test_slider' of a plugin) changed its sign between two calls",
+    "endless": "the mode changes of friction (law 'test_slider' of a plugin) did not come to an end at t = ",
 }
 
 
