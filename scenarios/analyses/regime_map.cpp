@@ -49,6 +49,10 @@ ResultFields regime_map_fields() {
        {"boundary[].x", "m", "output amplitude there"},
        {"boundary[].Y_closed_form", "m or N",
         "smallest input amplitude by Den Hartog's closed form; missing if it does not hold"},
+       {"boundary[].Y_sticks", "m or N",
+        "if no boundary was found: the largest input amplitude found below it, whose steady state sticks"},
+       {"boundary[].Y_slides", "m or N",
+        "likewise the smallest one found above it, whose steady state never sticks"},
        {"boundary[].reason", "", "if no boundary was found: the reason"}},
       certificate_fields());
 }
@@ -163,9 +167,17 @@ void add_boundary(Answer& answer, const std::vector<sim::BoundaryPoint>& boundar
     table.columns.push_back(column("Y_closed_form", unit, boundary, [](const sim::BoundaryPoint& point) {
       return point.closed_form.value_or(none);
     }));
-  if (!std::ranges::all_of(boundary, [](const sim::BoundaryPoint& point) { return point.outcome.ok(); }))
+  const auto is_open = [](const sim::BoundaryPoint& point) { return !point.outcome.ok(); };
+  const auto side = [is_open](double sim::BoundaryPoint::* value) {
+    return
+        [=](const sim::BoundaryPoint& point) { return is_open(point) && point.*value > 0.0 ? point.*value : none; };
+  };
+  if (std::ranges::any_of(boundary, is_open)) {
+    table.columns.push_back(column("Y_sticks", unit, boundary, side(&sim::BoundaryPoint::sticks)));
+    table.columns.push_back(column("Y_slides", unit, boundary, side(&sim::BoundaryPoint::slides)));
     table.columns.push_back(
         text_column("reason", boundary, [](const sim::BoundaryPoint& point) { return point.outcome.reason; }));
+  }
   answer.result["boundary"] = nullptr;
   answer.tables.push_back(std::move(table));
 }

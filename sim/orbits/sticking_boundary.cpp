@@ -18,6 +18,7 @@ constexpr double precision = 1e-12;
 constexpr double close = 1e-10;          // likewise relative to the amplitude
 constexpr int patience_if_close = 1000;  // forcing periods
 constexpr int max_doublings = 60;
+constexpr int most_unknown = 3;  // amplitudes without a steady state in a row
 
 /// Force limits of all laws together at the start [N].
 struct ForceLimits {
@@ -84,9 +85,22 @@ struct Bracket {
   SteadyState above;  ///< at `high`
 };
 
-/// Doubles the amplitude while the mass sticks, or halves it while the mass does not.
-core::Outcome bracket(Model& model, double amplitude, Bracket& found) {
+/// The steady state at `amplitude`, or at the next of the amplitudes `factor` apart that has one.
+SteadyState next_known(Model& model, double& amplitude, double factor) {
   SteadyState state = at(model, amplitude);
+  for (int i = 0; i < most_unknown && !state.outcome.ok(); ++i) {
+    SteadyState next = at(model, amplitude * std::pow(factor, i + 1));
+    if (!next.outcome.ok()) continue;
+    amplitude *= std::pow(factor, i + 1);
+    return next;
+  }
+  return state;
+}
+
+/// Doubles the amplitude while the mass sticks, or halves it while the mass does not. Amplitudes without a steady
+/// state are passed over.
+core::Outcome bracket(Model& model, double amplitude, Bracket& found) {
+  SteadyState state = next_known(model, amplitude, 2.0);
   const bool up = sticks(state);
   for (int i = 0; i < max_doublings && state.outcome.ok(); ++i) {
     if (sticks(state)) {
@@ -97,7 +111,7 @@ core::Outcome bracket(Model& model, double amplitude, Bracket& found) {
     }
     if (sticks(state) != up) return {};
     amplitude *= up ? 2.0 : 0.5;
-    state = at(model, amplitude);
+    state = next_known(model, amplitude, up ? 2.0 : 0.5);
   }
   if (!state.outcome.ok()) return state.outcome;
   return {core::OutcomeKind::no_steady_state,
@@ -137,6 +151,8 @@ BoundaryPoint find(Model model, const ForceLimits& limits, double omega) {
   point.outcome = bracket(model, first_amplitude(model, limits), found);
   if (point.outcome.ok()) point.outcome = narrow(model, found);
   point.amplitude = found.high;
+  point.sticks = found.low;
+  point.slides = found.high;
   point.x = found.above.amplitude;
   if (point.outcome.ok()) point.closed_form = den_hartogs(model, limits);
   return point;

@@ -23,6 +23,8 @@ struct BoundaryPoint {
   core::Outcome outcome;                ///< not ok(): no boundary was found
   double omega = 0.0;                   ///< rad/s
   double amplitude = 0.0;               ///< m (base) or N (force), to 2e-11; 1e-10 if motions hardly settle there
+  double sticks = 0.0;                  ///< the largest amplitude found at which the mass sticks; 0: none
+  double slides = 0.0;                  ///< the smallest one found at which it does not stick; 0: none
   double x = 0.0;                       ///< output amplitude at the boundary [m]
   std::optional<double> closed_form{};  ///< Den Hartog's amplitude, if his oscillator is this one
 };

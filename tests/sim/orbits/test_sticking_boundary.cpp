@@ -118,3 +118,23 @@ TEST_CASE("a mass that slides at the weakest drive has no sticking boundary, and
   const sim::BoundaryPoint free = sim::sticking_boundary(play, std::vector{0.67})[0];
   CHECK(free.outcome.reason == "even the weakest drive moves the mass without a stick");
 }
+
+TEST_CASE(
+    "where no steady state is found at the boundary, it is between an amplitude that sticks and one that slides") {
+  // With static friction three times kinetic, motions at some amplitudes are aperiodic or hardly settle.
+  const auto boundary = [](double zeta, double holding, double omega) {
+    return sim::sticking_boundary(model(zeta, 0.2, holding), std::vector{omega})[0];
+  };
+  const sim::BoundaryPoint narrow = boundary(0.0, 0.6, 0.6525);
+  REQUIRE_FALSE(narrow.outcome.ok());
+  CHECK(narrow.sticks > 0.0);
+  CHECK(narrow.slides > narrow.sticks);
+  CHECK(narrow.slides < narrow.sticks * (1.0 + 1e-6));
+  CHECK(sticks(model(0.0, 0.2, 0.6), 0.6525, narrow.sticks));
+  CHECK_FALSE(sticks(model(0.0, 0.2, 0.6), 0.6525, narrow.slides));
+
+  // The first amplitudes of the search have no steady state: it goes on to larger ones.
+  const sim::BoundaryPoint wide = boundary(0.0, 0.6, 0.35);
+  CHECK(wide.sticks > 0.0);
+  CHECK(wide.slides > wide.sticks);
+}
