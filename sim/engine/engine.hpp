@@ -61,6 +61,9 @@ class Engine {
   /// Work of all motions so far, in units of 0.3 to 2 us; the number is the same on every machine. It counts
   /// searches for events, their panels and splits; under the smooth engine also steps, accepted or not.
   [[nodiscard]] virtual long work() const { return count_.searches + count_.panels + count_.splits; }
+  /// Words for a vibration that swings very often in a forcing period, hardly damped, so that following it costs
+  /// most of the work; empty: there is none.
+  [[nodiscard]] virtual std::string fast_vibration() const { return {}; }
   /// Grazings within the last interval.
   [[nodiscard]] const std::vector<core::Grazing>& grazings() const { return grazings_; }
   /// Forcing period, or duration of the present piece of the drive [s]; else infinite.

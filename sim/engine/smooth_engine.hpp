@@ -40,6 +40,7 @@ class SmoothEngine final : public Engine {
   ~SmoothEngine() override;
 
   [[nodiscard]] double accuracy() const override { return 10.0 * model_.solver.tolerance; }
+  [[nodiscard]] std::string fast_vibration() const override;
   [[nodiscard]] long work() const override;
   [[nodiscard]] bool has_past() const override { return reach_ > 0.0; }
   [[nodiscard]] State state() const override;

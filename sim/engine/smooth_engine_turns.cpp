@@ -93,6 +93,12 @@ bool SmoothEngine::passes_over_turn(bool at_stop) {
 
 /// What changes too fast: a vibration of its own that nearly nothing damps, or else friction.
 std::string SmoothEngine::too_fast() const {
+  const std::string vibration = standing_ > max_standing ? std::string() : fast_vibration();
+  return vibration.empty() ? "friction changes too fast there to be integrated" : vibration;
+}
+
+std::string SmoothEngine::fast_vibration() const {
+  if (X_.empty()) return {};
   const auto n = static_cast<Eigen::Index>(X_.size());
   std::vector<double> columns(X_.size() * X_.size());
   flow_.jacobian(X_, local_time_, columns);
@@ -102,8 +108,7 @@ std::string SmoothEngine::too_fast() const {
   const double rate = std::abs(fastest);
   const double swings = rate * shortest_period() / (2.0 * std::numbers::pi);
   const bool is_damped = !(std::abs(fastest.real()) < soon_gone * rate);
-  if (standing_ > max_standing || is_damped || !(swings > many_swings) || !std::isfinite(rate))
-    return "friction changes too fast there to be integrated";
+  if (is_damped || !(swings > many_swings) || !std::isfinite(rate)) return {};
   const double slower = swings / many_swings;
   return "a second vibration at " + core::format_number(rate, 3) +
          " rad/s, which hardly anything damps, swings too often to be followed; it can be up to " +

@@ -272,9 +272,11 @@ core::Outcome Approach::failure() const {
             " forcing periods, and the mass stays within " + core::format_number(size_, 3) + " m of zero"};
   }
   if (is_followed_enough()) {
+    const std::string vibration = map_.engine().fast_vibration();
     return {core::OutcomeKind::no_steady_state,
             "no steady state found: the motion has not become periodic within " + std::to_string(passed_) +
-                " forcing periods, and it has so many events or steps in each that it is followed no longer"};
+                " forcing periods, and it has so many events or steps in each that it is followed no longer" +
+                (vibration.empty() ? "" : ": " + vibration)};
   }
   if (motions_ == Motions::meet_sliding) {
     return {core::OutcomeKind::no_steady_state,
