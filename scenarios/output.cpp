@@ -258,6 +258,7 @@ std::vector<OutputFile> output_files(std::shared_ptr<const Scenario> scenario,
       files.push_back({table.name + ".csv",
                        [result, &table](std::ostream& out) { write_csv(out, table, result->provenance); },
                        std::make_shared<std::string>()});
+  for (const TextFile& file : result->files) files.push_back({file.name, text_writer(sealed(file.text))});
   // Last: if result.json exists, the tables are complete.
   files.push_back({"result.json", json_document(std::move(scenario), std::move(result), files)});
   return files;

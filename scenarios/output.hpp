@@ -33,7 +33,7 @@ namespace dualdamp::scenarios {
 
 void write_csv(std::ostream& out, const Table& table, const core::Provenance& provenance);
 
-/// The tables, and result.json, whose digests show whether a table was changed later.
+/// The tables, the texts, and result.json, whose digests show whether a table was changed later.
 [[nodiscard]] std::vector<OutputFile> output_files(std::shared_ptr<const Scenario> scenario,
                                                    std::shared_ptr<const RunResult> result);
 

@@ -90,6 +90,7 @@ RunResult result_of(const Scenario& scenario, Answer answer) {
       if (answer.result.contains(sentence)) result.sentence = answer.result.at(sentence).get<std::string>();
     summarise(scenario, answer.result, result.summary);
     result.tables = std::move(answer.tables);
+    result.files = std::move(answer.files);
     for (Table& table : result.tables)
       for (Column& column : table.columns)
         column.unit = core::unit_for(scenario.model.oscillator.coordinate, column.unit);

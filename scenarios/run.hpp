@@ -38,6 +38,7 @@ struct RunResult {
                  {.name = "value", .kind = CellKind::text},
                  {.name = "unit", .kind = CellKind::text}}};
   std::vector<Table> tables;  ///< its lists; each becomes a file
+  std::vector<TextFile> files;
   std::string sentence;       ///< the meaning as a sentence: a verdict, an advice
   std::vector<Check> checks;
   std::optional<Verification> verification;  ///< if the scenario requests one

@@ -26,16 +26,6 @@ bool is_data(const fs::path& path, const std::vector<std::string>& data_sha256) 
   return std::ranges::find(data_sha256, sum) != data_sha256.end();
 }
 
-void remove_stale(const fs::path& directory, const StoredResult& before,
-                  const std::vector<std::string>& data_sha256, const std::vector<scenarios::OutputFile>& files) {
-  for (const std::string& name : before.tables) {
-    const bool is_written = std::ranges::find(files, name, &scenarios::OutputFile::name) != files.end();
-    if (is_written || is_data(directory / name, data_sha256)) continue;
-    std::error_code error;
-    fs::remove(directory / name, error);  // if it cannot be removed, its provenance still shows the other run
-  }
-}
-
 /// The text with which every file of this kind begins, if the program wrote it.
 std::string_view mark_of(const fs::path& path) {
   if (path.extension() == ".csv") return "# program: dualdamp ";
@@ -47,9 +37,36 @@ std::string_view mark_of(const fs::path& path) {
 }
 
 bool is_ours(const fs::path& path) {
+  if (path.extension() == ".yaml")
+    return scenarios::is_sealed(scenarios::read_file(path.string(), std::numeric_limits<std::size_t>::max()));
   std::string begin(mark_of(path).size(), '\0');
   std::ifstream(path, std::ios::binary).read(begin.data(), static_cast<std::streamsize>(begin.size()));
   return begin == mark_of(path);
+}
+
+/// Scenarios that a fit has written into the directory and nobody has changed.
+std::vector<std::string> fitted_scenarios(const fs::path& directory) {
+  std::vector<std::string> names;
+  std::error_code error;  // a directory that cannot be read cannot be written either; the write reports it
+  for (const fs::directory_entry& entry : fs::directory_iterator(directory, error)) {
+    const std::string name = entry.path().filename().string();
+    if (name.starts_with("fitted") && entry.path().extension() == ".yaml" && entry.is_regular_file(error) &&
+        is_ours(entry.path()))
+      names.push_back(name);
+  }
+  return names;
+}
+
+void remove_stale(const fs::path& directory, const StoredResult& before,
+                  const std::vector<std::string>& data_sha256, const std::vector<scenarios::OutputFile>& files) {
+  std::vector<std::string> names = fitted_scenarios(directory);
+  names.insert(names.end(), before.tables.begin(), before.tables.end());
+  for (const std::string& name : names) {
+    const bool is_written = std::ranges::find(files, name, &scenarios::OutputFile::name) != files.end();
+    if (is_written || is_data(directory / name, data_sha256)) continue;
+    std::error_code error;
+    fs::remove(directory / name, error);  // if it cannot be removed, its provenance still shows the other run
+  }
 }
 
 /// Gives a file a new name that is not in use. Returns a message.

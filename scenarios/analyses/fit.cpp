@@ -212,11 +212,14 @@ Answer FitQuestion::run(const RunContext& /*context*/) const {
     answer.result["verdict"] = prediction.text;
   }
   answer.result["rig"] = rig_text(best, {laws_text(best.rig) + " fitted to " + data_.front()->label, excitation_});
+  std::vector<RigText> texts;
   answer.result["scenarios"] = Json::array();
-  for (std::size_t e = 0; e < data_.size(); ++e)
-    answer.result["scenarios"].push_back(
-        scenario_text(best, data_, e, {laws_text(best.rig) + " fitted to " + data_[e]->label, excitations_[e]}));
+  for (std::size_t e = 0; e < data_.size(); ++e) {
+    texts.push_back({laws_text(best.rig) + " fitted to " + data_[e]->label, excitations_[e]});
+    answer.result["scenarios"].push_back(scenario_text(best, data_, e, texts.back()));
+  }
   answer.result["scenario"] = answer.result["scenarios"].front();
+  add_scenario_files(best, data_, texts, answer);
   return answer;
 }
 

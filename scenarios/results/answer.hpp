@@ -10,6 +10,12 @@
 
 namespace dualdamp::scenarios {
 
+/// A text that becomes a file beside the tables, such as a scenario.
+struct TextFile {
+  std::string name;
+  std::string text;
+};
+
 struct Answer {
   Json result;  ///< null: there is no result; a null inside: the list is the table with that key
   /// Status of a run with a result: done, some_cases_failed, or numerical_failure if the result has all parts
@@ -18,6 +24,7 @@ struct Answer {
   std::string failure;  ///< why there is no result, or no answer in it
   std::vector<std::string> warnings;
   std::vector<Table> tables;
+  std::vector<TextFile> files = {};
 };
 
 /// No result, and why.

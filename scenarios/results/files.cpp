@@ -118,6 +118,20 @@ void write_file(const std::string& path, const OutputFile& content) {
 
 }  // namespace
 
+namespace {
+
+constexpr std::string_view seal = "# Written by dualdamp. SHA-256 of the lines below, before any change: ";
+
+}  // namespace
+
+std::string sealed(const std::string& text) { return std::string(seal) + core::sha256(text) + "\n" + text; }
+
+bool is_sealed(std::string_view text) {
+  const std::size_t end = text.find('\n');
+  if (!text.starts_with(seal) || end == std::string_view::npos) return false;
+  return text.substr(seal.size(), end - seal.size()) == core::sha256(std::string(text.substr(end + 1)));
+}
+
 std::string read_file(const std::string& path, std::size_t limit) {
   const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
   if (file.number() < 0) refuse_input(path, std::string("cannot be opened: ") + std::strerror(errno));

@@ -7,6 +7,7 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace dualdamp::scenarios {
@@ -22,6 +23,11 @@ struct OutputFile {
   Writer write;
   std::shared_ptr<std::string> sha256 = {};  ///< if not null: receives the digest of the written bytes
 };
+
+/// A text that a user may edit later, below a line with its digest: the program overwrites it only as long as
+/// nobody has.
+[[nodiscard]] std::string sealed(const std::string& text);
+[[nodiscard]] bool is_sealed(std::string_view text);
 
 /// Creates `directory` if necessary and writes the files there. Each file is written under another name and renamed
 /// when complete. Errors: `OutputError`; files written before the error stay.

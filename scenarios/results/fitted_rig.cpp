@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/coordinate.hpp"
 #include "core/numbers.hpp"
 #include "identify/fit/drive_values.hpp"
 #include "scenarios/format/law_values.hpp"
@@ -157,6 +158,32 @@ bool fill_in_constants(Json& system) {
   return is_friction_alone;
 }
 
+/// Whether the drive of a scenario is a file, or the samples of a record.
+bool is_recorded(const identify::Experiment& experiment, const RigText& text) {
+  if (experiment.kind != ExperimentKind::history) return false;
+  if (experiment.drive) return experiment.drive->samples != nullptr;
+  return text.excitation.is_object() && text.excitation.value("type", "").starts_with("measured_");
+}
+
+/// The samples of a drive. Their times begin at 0, as those of the scenario.
+Table drive_table(const std::string& name, const sim::Excitation& drive, core::Coordinate coordinate) {
+  const bool of_base = drive.moves_base();
+  return {name,
+          {{.name = "t", .unit = "s", .numbers = drive.samples->times()},
+           {.name = of_base ? "y" : "force",
+            .unit = core::unit_for(coordinate, of_base ? "m" : "N"),
+            .numbers = drive.samples->values()}},
+          true};
+}
+
+Json section_of(const std::string& file, const sim::Excitation& drive) {
+  const bool is_cubic = drive.samples->interpolation() == sim::Interpolation::cubic;
+  return {{"type", drive.moves_base() ? "measured_base" : "measured_force"},
+          {"file", file},
+          {"interpolation", is_cubic ? "cubic" : "linear"},
+          {"repeat", drive.samples->repeats()}};
+}
+
 }  // namespace
 
 std::string rig_text(const identify::Fit& fit, const RigText& text) {
@@ -191,6 +218,20 @@ std::string scenario_text(const identify::Fit& fit, const identify::Experiments&
               ? "# A loop shows the friction alone: replace mass, stiffness and initial by those of your rig.\n"
               : "") +
          yaml(scenario);
+}
+
+void add_scenario_files(const identify::Fit& fit, const identify::Experiments& experiments,
+                        const std::vector<RigText>& texts, Answer& answer) {
+  for (std::size_t e = 0; e < experiments.size(); ++e) {
+    const std::string number = experiments.size() == 1 ? "" : "_" + std::to_string(e);
+    RigText text = texts[e];
+    if (is_recorded(*experiments[e], text)) {
+      const sim::Excitation& drive = experiments[e]->drive ? *experiments[e]->drive : fit.rig.known.excitation;
+      answer.tables.push_back(drive_table("drive" + number, drive, fit.rig.known.oscillator.coordinate));
+      text.excitation = section_of("drive" + number + ".csv", drive);
+    }
+    answer.files.push_back({"fitted" + number + ".yaml", scenario_text(fit, experiments, e, text)});
+  }
 }
 
 }  // namespace dualdamp::scenarios

@@ -190,9 +190,10 @@ RecordDrive listed_drive(CheckedFile& file, const DataItem& item, const History&
                   {"repeat", false}};
   if (static_cast<double>(values.size()) > max_table) {
     section = measured_section(item, column);
-    file.warnings.push_back(item.file + ": the fitted scenario of this record needs a file that holds it alone, " +
-                            "from its first sample on: a scenario lists at most " + core::format_number(max_table) +
-                            " values of a drive");
+    file.warnings.push_back(
+        item.file + ": the text of the fitted scenario in the result names the whole file for the " +
+        "drive of a part of it, because a scenario lists at most " + core::format_number(max_table) +
+        " values; the file fitted.yaml has a drive of its own beside it");
   }
   return drive_by(column,
                   std::make_shared<const sim::SampledSignal>(std::move(times), values, sim::Interpolation::cubic),

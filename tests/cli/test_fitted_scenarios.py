@@ -1,0 +1,77 @@
+#!/usr/bin/env python3
+"""The scenarios that a fit writes run where they lie, and give the fitted curves.
+
+usage: test_fitted_scenarios.py PROGRAM [TEST...]
+"""
+
+import csv
+import math
+import sys
+import unittest
+
+import case
+
+CONSTANTS = ("--mass", "1 kg", "--stiffness", "1000 N/m")
+
+
+class FittedScenarios(case.Case):
+    def table(self, name):
+        """Columns of a table by their names without units."""
+        with open(self.folder / name) as file:
+            rows = list(csv.DictReader(line for line in file if not line.startswith("#")))
+        return {key.split(" ")[0]: [float(row[key]) for row in rows] for key in rows[0]}
+
+    def record(self, name, frequency, system="", drive="y [m]", size=0.005):
+        """A response to a drive that the file holds, 250 samples a second, with a rough error."""
+        samples = [(i / 250, size * math.sin(2 * math.pi * frequency * i / 250) * min(1.0, i / 100)) for i in range(400)]
+        kind, unit = ("base", "m") if drive.startswith("y") else ("force", "N")
+        if "angle" in system:
+            unit = {"m": "rad", "N": "N.m"}[unit]
+        self.write("made/drive.csv", "\n".join([f"t [s],{drive}", *(f"{t!r},{y!r}" for t, y in samples)]) + "\n")
+        constants = "mass: 1 kg.m^2, stiffness: 1000 N.m/rad, damping: 2 N.m.s/rad, friction: {law: coulomb, kinetic: 0.5 N.m}" if "angle" in system else (
+            "mass: 1 kg, stiffness: 1000 N/m, damping: 2 N.s/m, friction: {law: coulomb, kinetic: 0.5 N}")
+        self.write("made/motion.yaml", f"schema: dualdamp/1\nsystem: {{{system}{constants}}}\nexcitation: {{type: measured_{kind}, file: drive.csv, interpolation: cubic}}\n"
+                   "analysis: {type: simulate, duration: 1.596 s, sample_rate: 250 Hz}\n")
+        self.run_program("run", "made/motion.yaml", "--out", "made/motion")
+        motion = self.table("made/motion/history.csv")
+        length = "rad" if "angle" in system else "m"
+        lines = [f"t [s],x [{length}],{drive}"]
+        lines += [f"{t!r},{x + 1e-5 * math.sin(977.0 * i * i)!r},{y!r}" for i, (t, x, (_, y)) in enumerate(zip(motion["t"], motion["x"], samples))]
+        return self.write(name, "\n".join(lines) + "\n")
+
+    def assert_gives_the_fitted_curve(self, directory, scenario, curve):
+        """Also after the directory was moved, and without the record."""
+        self.run_program("run", f"{directory}/{scenario}", "--out", "again")
+        fitted, motion = self.table(f"{directory}/{curve}")["fitted"], self.table("again/history.csv")["x"]
+        self.assertEqual(len(fitted), len(motion))
+        largest = max(abs(x) for x in fitted)
+        self.assertLess(max(abs(a - b) for a, b in zip(fitted, motion)), 1e-11 * largest)
+
+    def test_of_a_record_elsewhere_with_its_drive(self):
+        path = self.record("data/far/run.csv", 4.0)
+        self.run_program("fit", "coulomb", path, *CONSTANTS, "--no-profile", "--out", "fit")
+        path.unlink()
+        (self.folder / "fit").rename(self.folder / "moved")
+        self.assert_gives_the_fitted_curve("moved", "fitted.yaml", "fit_0_x.csv")
+
+    def test_of_a_driving_torque(self):
+        path = self.record("data/turn.csv", 4.0, "coordinate: angle, ", "force [N.m]", 5.0)
+        self.run_program("fit", "coulomb", path, "--mass", "1 kg.m^2", "--stiffness", "1000 N.m/rad", "--drive", "force", "--no-profile", "--out", "fit")
+        self.assert_gives_the_fitted_curve("fit", "fitted.yaml", "fit_0_x.csv")
+
+    def test_of_several_records_and_what_a_later_fit_leaves_of_them(self):
+        paths = [self.record("data/a.csv", 4.0), self.record("data/b.csv", 7.0)]
+        self.run_program("fit", "coulomb", *paths, *CONSTANTS, "--no-profile", "--out", "fit")
+        for number in range(2):
+            self.assert_gives_the_fitted_curve("fit", f"fitted_{number}.yaml", f"fit_{number}_x.csv")
+        changed = (self.folder / "fit/fitted_1.yaml").read_text().replace("duration", "duration ")
+        self.write("fit/fitted_1.yaml", changed)
+        for files, kept in ((paths, "fitted_1.yaml~"), (paths[:1], "fitted_1.yaml~")):
+            self.run_program("fit", "coulomb", *files, *CONSTANTS, "--no-profile", "--out", "fit")
+            self.assertEqual((self.folder / "fit" / kept).read_text(), changed)
+        self.assertEqual(sorted(path.name for path in (self.folder / "fit").glob("fitted*")), ["fitted.yaml", "fitted_1.yaml~"])
+        self.assertEqual(sorted(path.name for path in (self.folder / "fit").glob("drive*")), ["drive.csv"])
+
+
+if __name__ == "__main__":
+    unittest.main(argv=[sys.argv[0], *sys.argv[2:]], verbosity=1)
