@@ -39,7 +39,7 @@ struct RunResult {
                  {.name = "unit", .kind = CellKind::text}}};
   std::vector<Table> tables;  ///< its lists; each becomes a file
   std::vector<TextFile> files;
-  std::string sentence;       ///< the meaning as a sentence: a verdict, an advice
+  std::string sentence;  ///< the meaning as a sentence: a verdict, an advice
   std::vector<Check> checks;
   std::optional<Verification> verification;  ///< if the scenario requests one
   core::Provenance provenance;
