@@ -183,6 +183,12 @@ std::string said_of_zero(const FittedSignal& fitted, Own zero, const std::string
          std::string(own_names[static_cast<std::size_t>(zero)]);
 }
 
+/// Whether samples of a sensor drive the motion.
+bool has_recorded_drive(const Experiment& experiment, const Fit& fit) {
+  if (experiment.kind != ExperimentKind::history) return false;
+  return (experiment.drive ? *experiment.drive : fit.rig.known.excitation).samples != nullptr;
+}
+
 }  // namespace
 
 std::vector<std::string> contradictions_of_stated(const Experiments& experiments, const Fit& fit) {
@@ -216,8 +222,12 @@ void warn_of_residuals(const Experiments& experiments, bool robust, Fit& fit) {
         std::string(signal.is_sampled
                         ? " are not noise: they hold motion that the fitted rig does not have."
                         : " are not noise: they are too large or too similar from reading to reading.") +
-        " The law is not that of the rig, a constant is wrong, or the search missed the best fit (try more starts, "
-        "bounds, stated values); the intervals hold only for the right law";
+        " The law is not that of the rig, a constant is wrong, " +
+        (has_recorded_drive(*experiments[fitted.rows.experiment], fit)
+             ? "the measured drive has noise, to which the rig responds, "
+             : "") +
+        "or the search missed the best fit (try more starts, bounds, stated values); the intervals hold only for the "
+        "right law";
     fit.warnings.push_back(std::move(text));
   }
 }

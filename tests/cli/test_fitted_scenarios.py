@@ -21,8 +21,8 @@ class FittedScenarios(case.Case):
             rows = list(csv.DictReader(line for line in file if not line.startswith("#")))
         return {key.split(" ")[0]: [float(row[key]) for row in rows] for key in rows[0]}
 
-    def record(self, name, frequency, system="", drive="y [m]", size=0.005):
-        """A response to a drive that the file holds, 250 samples a second, with a rough error."""
+    def record(self, name, frequency, system="", drive="y [m]", size=0.005, rough=0.0):
+        """A response to a drive that the file holds, 250 samples a second, with a rough error; `rough`: error of the recorded drive."""
         samples = [(i / 250, size * math.sin(2 * math.pi * frequency * i / 250) * min(1.0, i / 100)) for i in range(400)]
         kind, unit = ("base", "m") if drive.startswith("y") else ("force", "N")
         if "angle" in system:
@@ -36,7 +36,7 @@ class FittedScenarios(case.Case):
         motion = self.table("made/motion/history.csv")
         length = "rad" if "angle" in system else "m"
         lines = [f"t [s],x [{length}],{drive}"]
-        lines += [f"{t!r},{x + 1e-5 * math.sin(977.0 * i * i)!r},{y!r}" for i, (t, x, (_, y)) in enumerate(zip(motion["t"], motion["x"], samples))]
+        lines += [f"{t!r},{x + 1e-5 * math.sin(977.0 * i * i)!r},{y + rough * math.sin(613.0 * i * i)!r}" for i, (t, x, (_, y)) in enumerate(zip(motion["t"], motion["x"], samples))]
         return self.write(name, "\n".join(lines) + "\n")
 
     def assert_gives_the_fitted_curve(self, directory, scenario, curve):
@@ -53,6 +53,12 @@ class FittedScenarios(case.Case):
         path.unlink()
         (self.folder / "fit").rename(self.folder / "moved")
         self.assert_gives_the_fitted_curve("moved", "fitted.yaml", "fit_0_x.csv")
+
+    def test_noise_of_a_measured_drive_is_named_as_a_cause_of_residuals_that_are_not_noise(self):
+        path = self.record("data/rough.csv", 4.0, rough=1e-4)
+        result = self.run_program("fit", "coulomb", path, *CONSTANTS, "--no-profile", "--out", "fit")
+        self.assertIn("are not noise", result.stderr)
+        self.assertIn("the measured drive has noise, to which the rig responds", result.stderr)
 
     def test_of_a_driving_torque(self):
         path = self.record("data/turn.csv", 4.0, "coordinate: angle, ", "force [N.m]", 5.0)
