@@ -45,10 +45,16 @@ ResultFields regime_map_fields() {
        {"regimes[].Y_from", "m or N", "their smallest input amplitude"},
        {"regimes[].Y_to", "m or N", "their largest input amplitude"},
        {"boundary[].omega", "rad/s", "forcing frequency"},
-       {"boundary[].Y", "m or N", "smallest input amplitude whose steady state never sticks"},
+       {"boundary[].Y", "m or N",
+        "smallest input amplitude whose steady state never sticks; beyond plain Coulomb friction under one harmonic: "
+        "the smallest that a scan of 32 steps a factor of two and the amplitudes of the map show"},
        {"boundary[].x", "m", "output amplitude there"},
        {"boundary[].Y_closed_form", "m or N",
         "smallest input amplitude by Den Hartog's closed form; missing if it does not hold"},
+       {"boundary[].Y_sticks_again_from", "m or N",
+        "smallest amplitude above Y at which the mass was seen to stick again; missing if it was not"},
+       {"boundary[].Y_sticks_again_to", "m or N",
+        "largest such amplitude; between both it need not stick everywhere"},
        {"boundary[].Y_sticks", "m or N",
         "if no boundary was found: the largest input amplitude found below it, whose steady state sticks"},
        {"boundary[].Y_slides", "m or N",
@@ -153,6 +159,32 @@ Table regime_table(const sim::Curve& map, const std::string& unit) {
           .key = "regimes"};
 }
 
+/// Where the boundary is not the whole answer.
+void warn_of_boundary(Answer& answer, const std::vector<sim::BoundaryPoint>& boundary, const std::string& unit) {
+  const auto warn = [&](const auto& concerns, const std::string& what, const auto& detail) {
+    const auto first = std::ranges::find_if(boundary, concerns);
+    if (first == boundary.end()) return;
+    answer.warnings.push_back("sticking boundary: at " + std::to_string(std::ranges::count_if(boundary, concerns)) +
+                              " of " + std::to_string(boundary.size()) + " frequencies " + what +
+                              "; the first is " + core::format_number(first->omega, 6) +
+                              " rad/s: " + detail(*first));
+  };
+  const auto is_ok = [](const sim::BoundaryPoint& point) { return point.outcome.ok(); };
+  warn([&](const sim::BoundaryPoint& point) { return is_ok(point) && point.sticks_again.has_value(); },
+       "the mass sticks again at amplitudes above it",
+       [&](const sim::BoundaryPoint& point) {
+         return "it slides above " + core::format_number(point.amplitude, 6) + " " + unit +
+                ", and sticks again somewhere from " + core::format_number(point.sticks_again->first, 6) + " to " +
+                core::format_number(point.sticks_again->second, 6) + " " + unit;
+       });
+  warn([&](const sim::BoundaryPoint& point) { return is_ok(point) && point.unknown_below > 0; },
+       "some amplitudes below it have no steady state, so that it need not be the smallest",
+       [](const sim::BoundaryPoint& point) {
+         return std::to_string(point.unknown_below) +
+                (point.unknown_below == 1 ? " such amplitude" : " such amplitudes");
+       });
+}
+
 /// The sticking boundary beside a map.
 void add_boundary(Answer& answer, const std::vector<sim::BoundaryPoint>& boundary, const std::string& unit) {
   const auto when_ok = [](double sim::BoundaryPoint::* value) {
@@ -167,6 +199,18 @@ void add_boundary(Answer& answer, const std::vector<sim::BoundaryPoint>& boundar
     table.columns.push_back(column("Y_closed_form", unit, boundary, [](const sim::BoundaryPoint& point) {
       return point.closed_form.value_or(none);
     }));
+  if (std::ranges::any_of(boundary,
+                          [](const sim::BoundaryPoint& point) { return point.sticks_again.has_value(); })) {
+    const auto limit = [](double std::pair<double, double>::* value) {
+      return [value](const sim::BoundaryPoint& point) {
+        return point.sticks_again ? *point.sticks_again.*value : none;
+      };
+    };
+    table.columns.push_back(
+        column("Y_sticks_again_from", unit, boundary, limit(&std::pair<double, double>::first)));
+    table.columns.push_back(column("Y_sticks_again_to", unit, boundary, limit(&std::pair<double, double>::second)));
+  }
+  warn_of_boundary(answer, boundary, unit);
   const auto is_open = [](const sim::BoundaryPoint& point) { return !point.outcome.ok(); };
   const auto side = [is_open](double sim::BoundaryPoint::* value) {
     return
@@ -229,7 +273,7 @@ std::optional<Sampled> RegimeMapQuestion::sampled() const {
     }
     return result;
   };
-  return Sampled{std::make_unique<RegimeMapQuestion>(frequencies, amplitudes, with_boundary_), part,
+  return Sampled{std::make_unique<RegimeMapQuestion>(frequencies, amplitudes, with_boundary_, scanned_), part,
                  std::to_string(some) + " of " + std::to_string(all) + " points"};
 }
 
@@ -243,7 +287,7 @@ Answer RegimeMapQuestion::run(const RunContext& context) const {
   answer.result["regimes"] = nullptr;
   answer.tables.push_back(map_table(map, unit));
   answer.tables.push_back(regime_table(map, unit));
-  if (with_boundary_) add_boundary(answer, sim::sticking_boundary(model, frequencies_), unit);
+  if (with_boundary_) add_boundary(answer, sim::sticking_boundary(model, frequencies_, scanned_), unit);
   return answer;
 }
 

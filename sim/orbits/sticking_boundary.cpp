@@ -1,11 +1,14 @@
 #include "sim/orbits/sticking_boundary.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
 
 #include "sim/analytic/den_hartog.hpp"
+#include "sim/engine/drive.hpp"
 #include "sim/orbits/steady_state.hpp"
+#include "sim/parallel.hpp"
 #include "sim/validate.hpp"
 
 namespace dualdamp::sim {
@@ -18,7 +21,13 @@ constexpr double precision = 1e-12;
 constexpr double close = 1e-10;          // likewise relative to the amplitude
 constexpr int patience_if_close = 1000;  // forcing periods
 constexpr int max_doublings = 60;
-constexpr int most_unknown = 3;  // amplitudes without a steady state in a row
+constexpr int most_unknown = 3;     // amplitudes without a steady state in a row
+constexpr int scan_steps = 32;      // in a factor of two of the amplitude
+constexpr int deepest_moving = 10;  // halvings below break-away to which a mass that still moves is scanned
+constexpr int blind_doublings = 5;  // above break-away, if no doubled amplitude slides
+constexpr int most_failures = 8;    // amplitudes without a steady state: each may take seconds
+constexpr const char* always_sticks = "the mass sticks at every amplitude";
+constexpr const char* always_slides = "even the weakest drive moves the mass without a stick";
 
 /// Force limits of all laws together at the start [N].
 struct ForceLimits {
@@ -46,17 +55,24 @@ ForceLimits limits_of(const Model& model) {
   return limits;
 }
 
+/// Whether one amplitude divides sticking from sliding: under Coulomb friction, viscous or structural damping and
+/// one harmonic there is one motion, and it slides the better the larger the drive.
+bool has_one_boundary(const Model& model, const ForceLimits& limits) {
+  const Oscillator& o = model.oscillator;
+  const Excitation& drive = model.excitation;
+  return is_linear(o) && o.damping >= 0.0 && limits.coulomb && limits.kinetic == limits.holding &&
+         drive.is_harmonic() && drive.harmonics.empty() && drive.offset == 0.0;
+}
+
 /// Nothing if the model is not Den Hartog's oscillator. A driving force acts as a base that moves by force/k.
 std::optional<double> den_hartogs(const Model& model, const ForceLimits& limits) {
   const Oscillator& o = model.oscillator;
-  const Excitation& drive = model.excitation;
-  const bool is_force = drive.type == ExcitationType::force_harmonic;
-  const bool his = is_linear(o) && o.damping >= 0.0 && o.loss_factor == 0.0 && limits.coulomb &&
-                   limits.kinetic == limits.holding && (is_force || o.damper_to == DamperTo::ground) &&
-                   drive.is_harmonic() && drive.harmonics.empty() && drive.offset == 0.0;
+  const bool is_force = model.excitation.type == ExcitationType::force_harmonic;
+  const bool his =
+      has_one_boundary(model, limits) && o.loss_factor == 0.0 && (is_force || o.damper_to == DamperTo::ground);
   if (!his) return std::nullopt;
   const double zeta = o.damping / (2.0 * std::sqrt(o.mass * o.stiffness));
-  const double r = drive.frequency / natural_frequency(o);
+  const double r = model.excitation.frequency / natural_frequency(o);
   const double force = limits.kinetic / analytic::non_sticking_boundary(analytic::den_hartog(zeta, r));
   return is_force ? force : force / o.stiffness;
 }
@@ -68,14 +84,11 @@ SteadyState at(Model& model, double amplitude, int max_periods = SteadyStateOpti
 
 bool sticks(const SteadyState& state) { return !state.sticks.empty(); }
 
-/// Where the search begins: the amplitude whose spring or drive force equals the friction. No bound: a damper to
-/// the base, harmonics or an offset move the mass at less. A law without force at the start (free play) says
-/// nothing.
+/// Where the direct search begins: the amplitude whose spring or drive force equals the friction. No bound: a
+/// damper to the base moves the mass at less.
 double first_amplitude(const Model& model, const ForceLimits& limits) {
   const bool base = model.excitation.type == ExcitationType::base_harmonic;
-  const double force = limits.holding > 0.0 ? limits.holding : limits.kinetic;
-  if (force > 0.0) return force / (base ? model.oscillator.stiffness : 1.0);
-  return model.excitation.amplitude > 0.0 ? model.excitation.amplitude : 1.0;
+  return limits.holding / (base ? model.oscillator.stiffness : 1.0);
 }
 
 /// Two amplitudes with the boundary between them.
@@ -114,8 +127,7 @@ core::Outcome bracket(Model& model, double amplitude, Bracket& found) {
     state = next_known(model, amplitude, up ? 2.0 : 0.5);
   }
   if (!state.outcome.ok()) return state.outcome;
-  return {core::OutcomeKind::no_steady_state,
-          up ? "the mass sticks at every amplitude" : "even the weakest drive moves the mass without a stick"};
+  return {core::OutcomeKind::no_steady_state, up ? always_sticks : always_slides};
 }
 
 /// Halves the bracket. Where a steady state at its middle is not found, one beside the middle will do. Motions may
@@ -144,11 +156,127 @@ core::Outcome narrow(Model& model, Bracket& found) {
   return {};
 }
 
-BoundaryPoint find(Model model, const ForceLimits& limits, double omega) {
+/// Looks at amplitudes from where the mass first moves upwards, for models of which several amplitudes may divide
+/// sticking from sliding.
+class Scan {
+ public:
+  Scan(Model& model, std::span<const double> asked, BoundaryPoint& point)
+      : model_(model), asked_(asked), point_(point) {}
+
+  /// The first change from sticking to sliding among the amplitudes that are looked at.
+  core::Outcome bracket(const ForceLimits& limits, Bracket& found);
+
+ private:
+  enum class Motion { none, rest, sticks, slides };
+
+  Motion motion_at(double amplitude);
+  [[nodiscard]] double break_away(const ForceLimits& limits) const;
+  std::optional<double> bottom_below(double amplitude);
+  double top_above(double amplitude, Bracket& found);
+  [[nodiscard]] std::vector<double> between(double bottom, double top) const;
+  [[nodiscard]] bool gives_up() const { return failures_ >= most_failures; }
+
+  Model& model_;
+  std::span<const double> asked_;
+  BoundaryPoint& point_;
+  SteadyState state_;      ///< the last one
+  core::Outcome failure_;  ///< of the first amplitude without a steady state
+  int failures_ = 0;
+};
+
+Scan::Motion Scan::motion_at(double amplitude) {
+  state_ = at(model_, amplitude);
+  if (!state_.outcome.ok()) {
+    if (failures_++ == 0) failure_ = state_.outcome;
+    return Motion::none;
+  }
+  if (!sticks(state_)) return Motion::slides;
+  return state_.peak == state_.trough ? Motion::rest : Motion::sticks;
+}
+
+/// The amplitude whose force equals the friction, if there are neither harmonics nor an offset. A law without force
+/// at the start (free play) says nothing: then the largest amplitude that is asked for, or that of the model.
+double Scan::break_away(const ForceLimits& limits) const {
+  Excitation unit = model_.excitation;
+  unit.harmonics.clear();
+  unit.amplitude = 1.0;
+  const double force = limits.holding > 0.0 ? limits.holding : limits.kinetic;
+  if (force > 0.0) return force / std::abs(Drive(model_.oscillator, unit).force_phasor(0));
+  const double asked = asked_.empty() ? model_.excitation.amplitude : std::ranges::max(asked_);
+  return asked > 0.0 ? asked : 1.0;
+}
+
+/// An amplitude at which the mass never moves, or a small one at which it moves and sticks. None: the weakest drive
+/// moves it without a stick.
+std::optional<double> Scan::bottom_below(double amplitude) {
+  for (int i = 0; i < max_doublings && !gives_up(); ++i, amplitude *= 0.5) {
+    const Motion motion = motion_at(amplitude);
+    if (motion == Motion::rest || (motion == Motion::sticks && i >= deepest_moving)) return amplitude;
+  }
+  return std::nullopt;
+}
+
+/// The first doubled amplitude that slides, with its state in `found`; an amplitude above break-away if none does.
+double Scan::top_above(double amplitude, Bracket& found) {
+  const double blind = std::ldexp(amplitude, blind_doublings);
+  for (int i = 0; i < max_doublings && !gives_up(); ++i, amplitude *= 2.0) {
+    if (motion_at(amplitude) != Motion::slides) continue;
+    found.high = amplitude;
+    found.above = std::move(state_);
+    return amplitude;
+  }
+  return blind;
+}
+
+/// The amplitudes to look at, upwards: those of the scan and those that are asked for.
+std::vector<double> Scan::between(double bottom, double top) const {
+  std::vector<double> list;
+  for (int i = 0; list.empty() || list.back() < top; ++i)
+    list.push_back(bottom * std::exp2(i / double{scan_steps}));
+  list.back() = top;
+  std::ranges::copy_if(asked_, std::back_inserter(list), [&](double amplitude) { return amplitude > bottom; });
+  std::ranges::sort(list);
+  list.erase(std::ranges::unique(list).begin(), list.end());
+  return list;
+}
+
+core::Outcome Scan::bracket(const ForceLimits& limits, Bracket& found) {
+  const double begin = break_away(limits);
+  const std::optional<double> bottom = bottom_below(begin);
+  if (!bottom && gives_up()) return failure_;
+  if (!bottom) return {core::OutcomeKind::no_steady_state, always_slides};
+  const double top = top_above(begin, found);
+  found.low = *bottom;
+  failures_ = 0;  // those of the scan itself
+  bool is_below = true;
+  for (const double amplitude : between(*bottom, top)) {
+    if (gives_up()) break;
+    const Motion motion = motion_at(amplitude);
+    if (motion == Motion::none) {
+      point_.unknown_below += is_below ? 1 : 0;
+    } else if (motion == Motion::slides) {
+      if (!is_below) continue;
+      is_below = false;
+      found.high = amplitude;
+      found.above = std::move(state_);
+    } else if (is_below) {
+      found.low = amplitude;
+    } else {
+      if (!point_.sticks_again) point_.sticks_again = {amplitude, amplitude};
+      point_.sticks_again->second = amplitude;
+    }
+  }
+  if (found.high > 0.0) return {};
+  if (!failure_.ok()) return failure_;
+  return {core::OutcomeKind::no_steady_state, always_sticks};
+}
+
+BoundaryPoint find(Model model, const ForceLimits& limits, double omega, std::span<const double> asked) {
   model.excitation.frequency = omega;
   BoundaryPoint point{.omega = omega};
   Bracket found;
-  point.outcome = bracket(model, first_amplitude(model, limits), found);
+  point.outcome = has_one_boundary(model, limits) ? bracket(model, first_amplitude(model, limits), found)
+                                                  : Scan(model, asked, point).bracket(limits, found);
   if (point.outcome.ok()) point.outcome = narrow(model, found);
   point.amplitude = found.high;
   point.sticks = found.low;
@@ -167,11 +295,15 @@ Model driven(Model model) {
 
 }  // namespace
 
-std::vector<BoundaryPoint> sticking_boundary(const Model& model, std::span<const double> frequencies) {
+std::vector<BoundaryPoint> sticking_boundary(const Model& model, std::span<const double> frequencies,
+                                             std::span<const double> amplitudes) {
   require_in(friction::positive, "analysis.frequencies", frequencies, "rad/s");
   const ForceLimits limits = limits_of(valid_harmonic(driven(model), "sticking_boundary"));
-  std::vector<BoundaryPoint> boundary;
-  for (const double omega : frequencies) boundary.push_back(find(model, limits, omega));
+  std::vector<BoundaryPoint> boundary(frequencies.size());
+  in_parts(frequencies.size(), 1, 0, [&](std::size_t first, std::size_t count) {
+    for (std::size_t i = first; i < first + count; ++i)
+      boundary[i] = find(model, limits, frequencies[i], amplitudes);
+  });
   return boundary;
 }
 

@@ -1,5 +1,6 @@
 #include "scenarios/analyses/regime_map.hpp"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <map>
 #include <utility>
@@ -31,4 +32,23 @@ TEST_CASE("regime_map: the regimes count its points, and the boundary stands bes
       if (other.at("omega") == point.at("omega"))
         CHECK((other.at("Y") > point.at("Y")) == (other.at("sticks") == 0));
   }
+}
+
+TEST_CASE("regime_map: where the mass sticks again above the boundary, columns and a warning say so",
+          "[scenarios][regime_map]") {
+  const scenarios::RunResult run = scenarios::run(scenarios::parse_scenario(
+      "schema: dualdamp/1\n"
+      "system: {mass: 1 kg, stiffness: 100 N/m, damping_ratio: 0.02, friction: [{law: coulomb, kinetic: 0.5 N}, "
+      "{law: gap_spring, stiffness: 300 N/m, gap: 20 mm}]}\n"
+      "excitation: {type: base_harmonic}\n"
+      "analysis: {type: regime_map, frequencies: [1.7176304102843905 rad/s], amplitudes: [60 mm, 120 mm, 212.5 mm], "
+      "sticking_boundary: true}\n",
+      "test.yaml"));
+  const auto boundary = testing::result_of(run).at("boundary")[0];
+  CHECK(boundary.at("Y").get<double>() == Approx(0.1155).epsilon(1e-3));
+  CHECK(boundary.at("Y_sticks_again_from").get<double>() == Approx(0.125).epsilon(0.03));
+  CHECK(boundary.at("Y_sticks_again_to") == 0.2125);  // an amplitude of the map, between two of the scan
+  CHECK(std::ranges::any_of(run.warnings, [](const std::string& warning) {
+    return warning.find("sticks again somewhere from") != std::string::npos;
+  }));
 }

@@ -6,6 +6,7 @@
 
 #include "friction_models/laws/coulomb.hpp"
 #include "friction_models/laws/free_play.hpp"
+#include "friction_models/laws/gap_spring.hpp"
 #include "sim/orbits/steady_state.hpp"
 
 using namespace dualdamp;
@@ -137,4 +138,42 @@ TEST_CASE(
   const sim::BoundaryPoint wide = boundary(0.0, 0.6, 0.35);
   CHECK(wide.sticks > 0.0);
   CHECK(wide.slides > wide.sticks);
+}
+
+TEST_CASE("where sticking and sliding alternate over amplitude, the boundary is the first change") {
+  sim::Model beside_gap;
+  beside_gap.oscillator = {.mass = 1.0, .stiffness = 100.0, .damping = 0.4};
+  beside_gap.excitation = {.type = sim::ExcitationType::base_harmonic, .frequency = 1.0};
+  beside_gap.friction.emplace_back(friction::Coulomb(0.5, 0.5));
+  beside_gap.friction.emplace_back(friction::GapSpring(300.0, 0.02));
+  const double omega = 1.7176304102843905;
+  check_sides(beside_gap, omega);
+  const sim::BoundaryPoint first = sim::sticking_boundary(beside_gap, std::vector{omega})[0];
+  CHECK(first.amplitude == Approx(0.1155).epsilon(1e-3));  // the doubled amplitudes lead to 0.2128
+  REQUIRE(first.sticks_again.has_value());
+  CHECK(first.sticks_again->first == Approx(0.125).epsilon(0.03));
+  CHECK(first.sticks_again->second == Approx(0.2128).epsilon(0.03));
+
+  sim::Model distorted;
+  distorted.oscillator = {.mass = 1.0, .stiffness = 100.0, .damping = 0.1};
+  distorted.excitation = {.type = sim::ExcitationType::base_harmonic,
+                          .frequency = 1.0,
+                          .harmonics = {{.order = 2, .amplitude = 0.02, .phase = 1.0}}};
+  distorted.friction.emplace_back(friction::Coulomb(0.5, 0.5));
+  const sim::BoundaryPoint second = sim::sticking_boundary(distorted, std::vector{2.2})[0];
+  CHECK(second.amplitude == Approx(0.08357).epsilon(1e-3));  // the doubled amplitudes lead to 0.2253
+  CHECK(second.sticks_again.has_value());
+}
+
+TEST_CASE("a scan also looks at the amplitudes of the caller; plain Coulomb friction is not scanned") {
+  const std::vector<double> frequency = {0.62};
+  const std::vector<double> far = {40.0};
+  sim::Model hardening = model(0.05, 1.0, 1.0);
+  hardening.oscillator.cubic_stiffness = 0.1;
+  const auto alone = sim::sticking_boundary(hardening, frequency)[0];
+  const auto beside = sim::sticking_boundary(hardening, frequency, far)[0];
+  REQUIRE(alone.outcome.ok());
+  CHECK(alone.amplitude == beside.amplitude);
+  CHECK(sim::sticking_boundary(model(0.05, 1.0, 1.0), frequency)[0].amplitude ==
+        sim::sticking_boundary(model(0.05, 1.0, 1.0), frequency, far)[0].amplitude);
 }
