@@ -87,7 +87,7 @@ std::optional<Orbit> Approach::find(SteadyState& result) {
     period = map_.next(Monodromy::without);
   }
   if (!orbit && map_.outcome().ok()) orbit = nearly_there(result);
-  if (!orbit) result.outcome = map_.outcome().ok() ? failure() : map_.outcome();
+  if (!orbit) result.outcome = failure();
   return orbit;
 }
 
@@ -254,10 +254,14 @@ double Approach::divergence(const State& state) {
 
 /// Why the integration found no orbit.
 core::Outcome Approach::failure() const {
-  if (growth_.has_grown()) {
+  const core::Outcome& followed = map_.outcome();
+  // Work grows with the amplitude, so it may end before the growth is certain.
+  const bool is_cut_short = is_followed_enough() || followed.kind == core::OutcomeKind::event_limit;
+  if ((followed.ok() && growth_.has_grown()) || (is_cut_short && growth_.goes_on_now())) {
     return {core::OutcomeKind::no_steady_state,
             "no steady state: the amplitude still grows; damping limits it at a much larger amplitude, or never"};
   }
+  if (!followed.ok()) return followed;
   if (divergence_ > diverging) {
     return {core::OutcomeKind::no_steady_state,
             "no steady state: the motion is aperiodic: it has not come back within " + std::to_string(passed_) +

@@ -7,9 +7,10 @@
 /// over the last doubling of time, n to 2 n, as over the doubling before; growth in proportion to time gains 2
 /// times as much. An amplitude that tends to a limit as 1 - exp(-n/tau) or as tanh(n/tau) gains 1.7 times as much
 /// only for n below tau/4.5 or tau/3.4, and would then not settle within 20,000 periods. A beating amplitude has
-/// been larger before.
+/// been larger before. A motion that is followed no longer is judged by the same rule over its last two doublings.
 
 #include <algorithm>
+#include <vector>
 
 namespace dualdamp::sim {
 
@@ -24,13 +25,11 @@ class Growth {
     runs_away_ = early_ > 0.0 && amplitude > runaway * early_;
     last_seen_ = amplitude;
     largest_ = std::max(largest_, amplitude);
+    seen_.push_back(amplitude);
     if (period != next_) return;
     next_ *= 2;
-    constexpr double gained_more = 1.7;
-    constexpr double beating = 0.9;
-    constexpr double at_least = 0.1;  // of the amplitude; growth in proportion to time gains 1/2
     const double gain = amplitude < beating * largest_ ? 0.0 : amplitude - last_;
-    goes_on_ = gain_ > 0.0 && gain > gained_more * gain_ && gain > at_least * amplitude;
+    goes_on_ = is_growth(gain_, gain, amplitude);
     gain_ = last_ > 0.0 ? gain : 0.0;
     last_ = amplitude;
   }
@@ -40,6 +39,15 @@ class Growth {
 
   /// Whether growth does not slow down, or the amplitude is beyond all bounds.
   [[nodiscard]] bool is_endless() const { return goes_on_ || runs_away_; }
+  /// Whether growth did not slow down up to now, of a motion that is followed no longer.
+  [[nodiscard]] bool goes_on_now() const {
+    constexpr std::size_t fewest = 32;  // periods
+    if (seen_.size() < fewest) return is_endless();
+    const double now = seen_.back();
+    const double half = seen_[seen_.size() / 2 - 1];
+    const double quarter = seen_[seen_.size() / 4 - 1];
+    return is_endless() || (now >= beating * largest_ && is_growth(half - quarter, now - half, now));
+  }
   /// Whether the motion grew up to the end.
   [[nodiscard]] bool has_grown() const {
     return is_endless() || second_half_ > 1.5 * first_half_ || last_seen_ > 1.5 * first_half_;
@@ -48,6 +56,14 @@ class Growth {
  private:
   /// An amplitude that is this many times that of the first period is beyond all bounds.
   static constexpr double runaway = 1e9;
+  static constexpr double beating = 0.9;  ///< of the largest amplitude: one below it has been larger before
+
+  /// `before`, `gain`: over the last two doublings of time, up to `amplitude`.
+  static bool is_growth(double before, double gain, double amplitude) {
+    constexpr double gained_more = 1.7;
+    constexpr double at_least = 0.1;  // of the amplitude; growth in proportion to time gains 1/2
+    return before > 0.0 && gain > gained_more * before && gain > at_least * amplitude;
+  }
 
   int half_;
   int period_ = 0;
@@ -61,6 +77,7 @@ class Growth {
   double second_half_ = 0.0;
   bool goes_on_ = false;
   bool runs_away_ = false;
+  std::vector<double> seen_;  ///< the amplitude of each period
 };
 
 /// Tells a motion that creeps from one that approaches an orbit.

@@ -6,6 +6,7 @@
 
 #include "friction_models/laws/contact_compliance.hpp"
 #include "friction_models/laws/coulomb.hpp"
+#include "friction_models/laws/dahl.hpp"
 #include "friction_models/laws/viscous_saturating.hpp"
 #include "sim/analytic/den_hartog.hpp"
 #include "sim/motion/simulate.hpp"
@@ -175,6 +176,15 @@ TEST_CASE("no number is returned where there is none") {
     CHECK(state.outcome.kind == core::OutcomeKind::no_steady_state);
     CHECK(state.outcome.reason.find("grows") != std::string::npos);
     CHECK(state.transient_periods < 4010);
+  }
+  SECTION("the same beside a smooth law, whose work ends before growth is certain") {
+    sim::Model model = base_driven(1.0, 100.0, 0.0, 0.0, 0.0, 0.3, 10.0);
+    model.friction.clear();
+    model.friction.emplace_back(friction::Dahl(3.0, 1000.0, 1.0));
+    const sim::SteadyState state = sim::steady_state(model);
+    CHECK(state.outcome.kind == core::OutcomeKind::no_steady_state);
+    CHECK(state.outcome.reason.find("grows") != std::string::npos);
+    CHECK(state.transient_periods < 2000);
   }
   SECTION("just above that limit it is bounded") {
     CHECK(sim::steady_state(base_driven(1.0, 1.0, 0.0, 0.79, 0.79, 1.0, 1.0)).outcome.ok());
