@@ -66,6 +66,9 @@ ChangeKind crossing_of(const SteadyState& a, const SteadyState& b) {
   return nearest.real() < 0.0 ? ChangeKind::flip : ChangeKind::stability;
 }
 
+/// Whether the mass never moves.
+bool is_held(const SteadyState& state) { return state.peak == state.trough && !state.sticks.empty(); }
+
 }  // namespace
 
 BranchPoint Continuation::describe(const Node& node) const {
@@ -256,6 +259,7 @@ Branch Continuation::run() {
   }
   Node node{from_, std::move(*begin), {}};
   branch_.points.push_back(describe(node));
+  if (is_held(start)) return ended(BranchEnd::rest, where_held(from_, to_));
   const Index n = node.period.monodromy.cols();
   const VectorXd onward = (to_ >= from_ ? 1.0 : -1.0) * VectorXd::Unit(n + 1, n);
   node.tangent = tangent(node, onward).value_or(onward);
@@ -319,6 +323,29 @@ std::string Continuation::parting_at(const Node& node) const {
          core::format_number(factor, 3);
 }
 
+/// Why a branch does not begin at a mass that friction holds, and where the mass begins to move, by bisection.
+std::string Continuation::where_held(double held, double other) {
+  constexpr double precision = 1e-4;
+  const auto holds_at = [&](double parameter) {
+    const SteadyState state = steady_state(at(parameter), {.full_account = false});
+    effort_.count += state.certificate;
+    return state.outcome.ok() && is_held(state);
+  };
+  const std::string reason =
+      "no branch: the mass never moves at the first value, so any rest position that friction can hold is an orbit";
+  if (holds_at(other)) return reason + "; nor does it move at the last value";
+  double moves = other;
+  while (std::abs(moves - held) > precision * std::max(moves, held)) {
+    const double middle = std::sqrt(held * moves);
+    (holds_at(middle) ? held : moves) = middle;
+  }
+  const std::string unit =
+      quantity_ == &Excitation::frequency ? " rad/s" : (model_.excitation.moves_base() ? " m" : " N");
+  const bool up = to_ > from_;
+  return reason + "; it moves " + (up ? "above " : "below ") + core::format_number(moves, 4) + unit +
+         ": begin beyond that, or at the other end of the range";
+}
+
 Branch Continuation::ended(BranchEnd end, const std::string& warning) {
   branch_.end = end;
   branch_.warnings.push_back(warning);
@@ -363,6 +390,8 @@ std::string_view name_of(BranchEnd end) {
       return "growth";
     case BranchEnd::work:
       return "work";
+    case BranchEnd::rest:
+      return "rest";
   }
   return "";
 }

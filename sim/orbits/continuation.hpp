@@ -62,9 +62,10 @@ enum class BranchEnd {
            ///< step along the branch converged
   growth,  ///< its amplitude grows without bound: an undamped resonance
   work,    ///< the search for its orbits took too long
+  rest,    ///< the mass never moves at the first value: any rest position that friction can hold is an orbit
 };
 
-/// "range", "orbit", "points", "edge", "step", "growth", "work".
+/// "range", "orbit", "points", "edge", "step", "growth", "work", "rest".
 [[nodiscard]] std::string_view name_of(BranchEnd end);
 
 struct Branch {

@@ -100,6 +100,7 @@ class Continuation {
   [[nodiscard]] bool is_exhausted() const { return effort_.work > options_.most_work; }
   [[nodiscard]] bool ends_ahead(const Node& node) const;
   [[nodiscard]] std::string parting_at(const Node& node) const;
+  [[nodiscard]] std::string where_held(double held, double other);
   [[nodiscard]] Branch ended(BranchEnd end, const std::string& warning);
   void record(const Node& before, const Node& after);
   void locate_stability(const Node& before, const BranchPoint& last);

@@ -54,7 +54,7 @@ ResultFields branch_fields(const ResultField& parameter) {
         "why the branch ends: it leaves the range (range), no orbit continues it (orbit), it has the "
         "largest number of points (points), no orbit was found at the end of the range (edge), orbits nearly close but no "
         "step to them converged, or neighbouring motions part too fast (step), its amplitude grows without bound (growth), "
-        "or the search took too long (work); all but range give a warning"},
+        "the search took too long (work), or the mass never moves at the first value (rest); all but range give a warning"},
        {"points[]." + parameter.path, parameter.unit, parameter.meaning},
        {"points[].x", "m", "output amplitude (peak - trough)/2"},
        {"points[].peak", "m", "max x"},

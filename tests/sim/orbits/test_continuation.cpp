@@ -260,6 +260,29 @@ TEST_CASE("a branch that is cut short says so") {
   CHECK(branch.warnings[0].find("7 points") != std::string::npos);
 }
 
+TEST_CASE("a branch that begins at a mass at rest says so, and where the mass begins to move") {
+  sim::Model model;
+  model.oscillator = {.mass = 1.0, .stiffness = 100.0, .damping = 4.0};
+  model.excitation = {.type = sim::ExcitationType::base_harmonic, .amplitude = 0.019, .frequency = 10.0};
+  model.oscillator.damper_to = sim::DamperTo::base;
+  const auto check_rest = [&](double holding, BranchParameter parameter, double from, double to,
+                              const std::string& where) {
+    model.friction.clear();
+    model.friction.emplace_back(friction::Coulomb(2.0, holding));
+    const sim::Branch branch = continue_branch(model, parameter, from, to);
+    REQUIRE(branch.outcome.ok());
+    CHECK(branch.end == sim::BranchEnd::rest);
+    CHECK(branch.points.size() == 1);
+    REQUIRE(branch.warnings.size() == 1);
+    CHECK_THAT(branch.warnings[0], Catch::Contains(where));
+  };
+  // k Y |1 + 0.4 i| = the holding force.
+  check_rest(2.0, BranchParameter::amplitude, 0.005, 0.1, "moves above 0.01857 m");
+  check_rest(3.0, BranchParameter::amplitude, 0.005, 0.1, "moves above 0.02785 m");
+  check_rest(2.0, BranchParameter::amplitude, 0.005, 0.01, "nor does it move at the last value");
+  check_rest(2.0, BranchParameter::frequency, 2.0, 12.0, "moves above 8.217 rad/s");
+}
+
 TEST_CASE("a branch whose search takes too long ends with a warning") {
   const sim::Branch branch = continue_branch(coulomb_driven(0.1, 1.0, 1.0, 0.5), BranchParameter::amplitude, 4.0,
                                              1.05, {.most_work = 500});
