@@ -9,6 +9,9 @@ namespace dualdamp::scenarios {
 
 namespace {
 
+/// In a sweep the numbers of a point begin so.
+constexpr const char* of_point = "sweep[].result.";
+
 /// Checks indices whose bound is known before the run.
 void check_index(CheckedFile& file, const Expectable& result, Place place, const ResultPath& path) {
   const std::size_t bracket = path.pattern.find("[]");
@@ -60,8 +63,10 @@ void check_expectations(CheckedFile& file, const Expectable& result) {
     const auto text = expectation.at("value").get<std::string>();
     const auto path = parse_result_path(text);
     if (!path || std::ranges::find(patterns, path->pattern) == patterns.end()) {
+      const bool is_of_point = path && std::ranges::find(patterns, of_point + path->pattern) != patterns.end();
       file.complain(place, "the result of " + result.subject + " has no number '" + text + "'",
-                    core::joined(patterns), {}, nearest(path ? path->pattern : text, patterns));
+                    core::joined(patterns), {},
+                    is_of_point ? "sweep[0].result." + text : nearest(path ? path->pattern : text, patterns));
     } else {
       check_index(file, result, place, *path);
     }

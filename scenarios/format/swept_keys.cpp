@@ -92,7 +92,7 @@ class SweepReader {
       return complain(node.place, "'sweep." + key.path + "' has the wrong number of values",
                       "1 to " + core::format_number(max_swept, 6), std::to_string(node.items.size()));
     for (const Node& item : node.items)
-      if (is_number(item, key, &item == &node.items.front())) key.values.push_back(item);
+      if (is_number(item, key, key.values.empty())) key.values.push_back(item);
   }
 
   void read_range(const Node& node, SweptKey& key) {

@@ -204,6 +204,9 @@ TEST_CASE("sweep: what cannot be swept", "[scenarios][sweep]") {
   CHECK(problem_of("sweep: {system.friction.law: [coulomb]}").message.find("takes numbers only") !=
         std::string::npos);
   CHECK(problem_of("sweep: {system.mass: [1 kg, 200 g]}").message.find("different units") != std::string::npos);
+  // The first value is no number: it sets no unit for the second.
+  CHECK(problem_of("sweep: {excitation.frequency: [natural, 10 rad/s]}").message.find("takes numbers only") !=
+        std::string::npos);
   CHECK(problem_of("sweep: {system.mass: [1 kg +- 1 %]}").message.find("takes no uncertainty") !=
         std::string::npos);
   CHECK(problem_of("sweep: {system.mass: 1 kg}").message.find("has one value only") != std::string::npos);
@@ -246,6 +249,7 @@ TEST_CASE("sweep: expectations are of its own result", "[scenarios][sweep]") {
   CHECK(result.checks.front().ok);
   CHECK(problem_of(sweep + "expect: [{value: peak, equals: 1}]").message.find("has no number 'peak'") !=
         std::string::npos);
+  CHECK(problem_of(sweep + "expect: [{value: peak, equals: 1}]").suggestion == "sweep[0].result.peak");
   CHECK(problem_of(sweep + "expect: [{value: \"sweep[2].result.peak\", equals: 1}]").message.find("no such item") !=
         std::string::npos);
 }
