@@ -62,15 +62,29 @@ std::string aligned(const std::vector<Block>& blocks) {
   return text;
 }
 
+/// Where all rows of a printed table are: in its own file, or in that with the same first column; nullptr: in none.
+const scenarios::Table* file_with_rows_of(const scenarios::Table& table,
+                                          const std::vector<scenarios::Table>& tables) {
+  if (table.is_file) return &table;
+  const auto same = std::ranges::find_if(tables, [&](const scenarios::Table& other) {
+    return other.is_file && !other.columns.empty() && other.columns.front().texts == table.columns.front().texts &&
+           other.columns.front().numbers == table.columns.front().numbers && other.size() == table.size();
+  });
+  return same == tables.end() ? nullptr : &*same;
+}
+
 /// The headings and the first rows of a table.
-std::string table_text(const scenarios::Table& table, const scenarios::ShownUnits& units) {
+std::string table_text(const scenarios::Table& table, const std::vector<scenarios::Table>& tables,
+                       const scenarios::ShownUnits& units) {
   const std::size_t all = table.columns.empty() ? 0 : table.columns.front().size();
   const std::size_t rows = std::min(all, max_rows);
   std::vector<Block> blocks;
   for (const scenarios::Column& column : table.columns) blocks.push_back(block(column, rows, units));
   std::string text = aligned(blocks);
-  if (rows < all) text += "  ... " + std::to_string(all - rows) + " more rows in " + table.name + ".csv\n";
-  return text;
+  if (rows == all) return text;
+  const scenarios::Table* file = file_with_rows_of(table, tables);
+  return text + "  ... " + std::to_string(all - rows) + " more row" + (all - rows == 1 ? "" : "s") +
+         (file == nullptr ? "" : " in " + file->name + ".csv") + "\n";
 }
 
 constexpr std::string_view certificate = "certificate.";
@@ -154,7 +168,7 @@ std::string readable(const scenarios::Scenario& scenario, const scenarios::RunRe
   if (!result.sentence.empty()) text += "\n" + folded(result.sentence) + "\n";
   text += numbers_text(result.summary);
   for (const scenarios::Table& table : result.tables)
-    if (!table.is_long && table.columns.front().size() > 0) text += "\n" + table_text(table, units);
+    if (!table.is_long && table.columns.front().size() > 0) text += "\n" + table_text(table, result.tables, units);
   if (!result.checks.empty()) text += "\n" + checks_text(result.checks);
   if (result.verification) text += "\n" + folded(verification_text(*result.verification)) + "\n";
   text += certificate_text(result.summary);

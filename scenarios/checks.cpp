@@ -242,9 +242,25 @@ void check_verification(CheckedFile& file, const Analysis& analysis, const Analy
                 core::joined(names));
 }
 
+/// An uncertainty as large as the value is refused: a constant that may be zero or negative is not known, and no
+/// interval can contain its effect.
+void check_size_of_uncertainties(CheckedFile& file) {
+  for (const auto& [section, key] :
+       {std::pair{"system", "mass"}, {"system", "stiffness"}, {"excitation", "frequency"}}) {
+    const std::optional<double> uncertainty = file.number_at(section, uncertainty_key(key));
+    const std::optional<double> value = file.number_at(section, key);
+    if (!uncertainty || !value || *value == 0.0 || *uncertainty < std::abs(*value)) continue;
+    const std::string path = std::string(section) + "." + key;
+    file.complain(std::string(section) + "." + uncertainty_key(key),
+                  "the uncertainty of '" + path + "' is too large",
+                  "less than 100 % of its value; without a value the methods that do not need it are used",
+                  core::format_number(100.0 * *uncertainty / std::abs(*value), 3) + " %");
+  }
+}
+
 /// An uncertainty that affects no number of the result is refused.
 void check_uncertainties(CheckedFile& file, const Analysis& analysis, const AnalysisList& analyses) {
-  if (analysis.uses_uncertainties) return;
+  if (analysis.uses_uncertainties) return check_size_of_uncertainties(file);
   std::vector<std::string> names;
   for (const Analysis* other : analyses)
     if (other->uses_uncertainties) names.emplace_back(other->name);

@@ -13,10 +13,10 @@
 
 #include "identify/ledger/amplitude_noise.hpp"
 #include "identify/ledger/amplitude_terms.hpp"
+#include "identify/ledger/stated_noise.hpp"
 #include "identify/methods/amplitudes/steady_states.hpp"
 #include "identify/statistics/decompositions.hpp"
 #include "identify/statistics/statistics.hpp"
-#include "sim/analytic/den_hartog.hpp"
 
 namespace dualdamp::identify {
 
@@ -59,7 +59,9 @@ using Taken = std::vector<std::size_t>;
 
 class SteadyStates {
  public:
-  SteadyStates(std::vector<SteadyPoint> points, bool with_phases) : points_(std::move(points)) {
+  /// `known`: stated deviations of amplitudes, in the unit of the points.
+  SteadyStates(std::vector<SteadyPoint> points, bool with_phases, const KnownDeviations& known)
+      : points_(std::move(points)), known_(known) {
     for (const SteadyPoint& point : points_) {
       true_x_.push_back(point.x);
       frequencies_.insert(std::lround(1e4 * point.r));
@@ -79,6 +81,7 @@ class SteadyStates {
   /// The true amplitude of a state at the last linearisation.
   [[nodiscard]] double true_x(std::size_t i) const { return true_x_[i]; }
   [[nodiscard]] bool with_phases() const { return with_phases_; }
+  [[nodiscard]] const KnownDeviations& known() const { return known_; }
   [[nodiscard]] const Deviations& largest() const { return largest_; }
   [[nodiscard]] std::size_t frequencies() const { return frequencies_.size(); }
   [[nodiscard]] Eigen::Index smooth_columns() const {
@@ -212,6 +215,7 @@ class SteadyStates {
 
   std::vector<SteadyPoint> points_;
   std::vector<double> true_x_;
+  KnownDeviations known_;
   Deviations largest_;
   std::set<long> frequencies_;
   std::vector<const AmplitudeTerm*> terms_;
@@ -225,6 +229,7 @@ struct AmplitudeFit {
   Deviations deviations;
   Rows rows;
   double deviance = std::numeric_limits<double>::infinity();  ///< -2 log-likelihood
+  double scatter = 1.0;  ///< of the amplitudes about a smooth curve, over their deviation
 };
 
 /// The noise of one channel: what a smooth curve leaves of its residuals. A departure is smooth, so it is not taken
@@ -266,7 +271,9 @@ AmplitudeFit fit_with(SteadyStates states, const PlainFriction& begin, const Tak
   AmplitudeFit fit;
   fit.at = {begin, states.none_relaxed()};
   for (const std::size_t j : taken) fit.at.g[static_cast<Eigen::Index>(j)] = relaxed;
+  const KnownDeviations& known = states.known();
   fit.deviations = {ratio > 1e3 ? 0.0 : 1e-3, ratio > 1e3 ? 1e-3 : 1e-3 * ratio, 1e-2};
+  if (is_stated(known)) fit.deviations = {known.sigma_x, known.sigma_Y, 1e-2};
   constexpr int iterations = 14;
   for (int i = 0; i < iterations; ++i) {
     fit.rows = states.linearise(fit.at, fit.deviations, taken);
@@ -277,13 +284,17 @@ AmplitudeFit fit_with(SteadyStates states, const PlainFriction& begin, const Tak
     if (i + 1 == iterations) break;
     const Eigen::VectorXd left = fit.rows.residuals - columns * step;
     const double amplitude = scale_of(states, left, 0, states.amplitudes());
-    fit.deviations.x *= amplitude;
-    fit.deviations.Y *= amplitude;
+    fit.scatter = amplitude;
+    if (!is_stated(known)) {
+      fit.deviations.x *= amplitude;
+      fit.deviations.Y *= amplitude;
+    }
     if (states.tells_phase_noise())
       fit.deviations.phase *= scale_of(states, left, states.amplitudes(), states.phases());
     else
       fit.deviations.phase = std::max(fit.deviations.x, fit.deviations.Y);
     limit(fit.deviations, states.largest());
+    if (is_stated(known)) fit.deviations.x = known.sigma_x, fit.deviations.Y = known.sigma_Y;
   }
   Taken all(static_cast<std::size_t>(fit.at.g.size()));
   std::iota(all.begin(), all.end(), 0);
@@ -300,6 +311,7 @@ AmplitudeFit fit_with(SteadyStates states, const PlainFriction& begin, const Tak
 /// record does not determine it at all, because the gain of Y on x hardly varies: only x has errors then.
 AmplitudeFit best_fit(const SteadyStates& states, const PlainFriction& begin, const Taken& taken,
                       double relaxed = 0.0) {
+  if (is_stated(states.known())) return fit_with(states, begin, taken, 1.0, relaxed);
   if (states.frequencies() < 2 && states.phases() == 0) return fit_with(states, begin, taken, 0.0, relaxed);
   double Y = 0.0;
   double x = 0.0;
@@ -319,19 +331,6 @@ AmplitudeFit best_fit(const SteadyStates& states, const PlainFriction& begin, co
     }
   }
   return best;
-}
-
-bool drop_sticking(std::vector<SteadyPoint>& points, const PlainFriction& friction,
-                   std::vector<std::string>& said) {
-  if (!(friction.x_f > 0.0)) return false;
-  const std::size_t before = points.size();
-  std::erase_if(points, [&](const SteadyPoint& point) {
-    const double limit = sim::analytic::non_sticking_limit(sim::analytic::den_hartog(friction.zeta, point.r));
-    const bool sticks = !(point.x > limit * friction.x_f);
-    if (sticks) said.push_back("state " + std::to_string(point.number) + " sticks at the fit and is left out");
-    return sticks;
-  });
-  return points.size() < before;
 }
 
 /// Leaves out the terms that amplitudes alone do not show. At resonance the drive is in quadrature with the motion,
@@ -383,11 +382,8 @@ JointModel amplitude_model_of(const AmplitudeFit& fit, const SteadyStates& state
   model.relaxations = states.relaxations();
   model.relaxed = fit.rows.relaxed;
   leave_out_unseen(states, fit.at.friction, relaxed, model);
-  model.spent = states.with_phases() ? 1.0 : 0.0;
-  for (const Eigen::Index rows : {states.amplitudes(), states.phases()})
-    if (const Eigen::Index freedom = rows - states.smooth_columns(); freedom > 0)
-      model.known_noise.push_back({rows, static_cast<double>(freedom)});
-  model.scale_freedom = static_cast<double>(states.amplitudes() - states.smooth_columns());
+  model.is_stated = is_stated(states.known());
+  set_noise(states.amplitudes(), states.phases(), states.smooth_columns(), model);
   model.refit = [states, begin = start_beside(fit.at.friction, states.points()), hidden = model.hidden, unit,
                  stated](const Taken& taken) {
     const bool second_order =
@@ -418,7 +414,8 @@ JointModel amplitude_model_of(const AmplitudeFit& fit, const SteadyStates& state
 
 }  // namespace
 
-std::variant<JointModel, std::string> amplitude_model(const Record& record, const KnownConstants& constants) {
+std::variant<JointModel, std::string> amplitude_model(const Record& record, const KnownConstants& constants,
+                                                      const KnownDeviations& known) {
   if (std::string fault = fault_of(constants); !fault.empty()) return fault;
   Estimate taken;
   const std::optional<std::vector<Pair>> pairs = take_states(record, constants, false, taken);
@@ -428,12 +425,22 @@ std::variant<JointModel, std::string> amplitude_model(const Record& record, cons
   const double unit = std::ranges::max_element(*pairs, {}, &Pair::x)->x;
   std::vector<SteadyPoint> points = points_of(*pairs, constants, unit);
   std::vector<std::string> said;
+  KnownDeviations stated{known.sigma_x / unit, known.sigma_Y / unit};
+  double ratio = 1.0;
   while (points.size() >= fewest) {
-    const SteadyStates states(points, true);
+    const SteadyStates states(points, true, stated);
     const AmplitudeFit fit = best_fit(states, first_guess(points), {});
     if (!std::isfinite(fit.deviance)) return "no damping ratio and friction force fit the steady states";
     if (drop_sticking(points, fit.at.friction, said)) continue;
+    const double freedom = static_cast<double>(states.amplitudes() - states.smooth_columns());
+    if (is_stated(stated)) ratio = fit.scatter;
+    const int contradicts = contradicts_stated(ratio, is_stated(known) ? freedom : 0.0);
+    if (contradicts > 0 && is_stated(stated)) {
+      stated = {};
+      continue;
+    }
     JointModel model = amplitude_model_of(fit, states, {}, unit, constants);
+    note_contradiction(contradicts, ratio, "amplitudes", model);
     model.left_out = std::move(said);
     return model;
   }

@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 #include <string>
+#include <vector>
 
 #include "sim/analytic/den_hartog.hpp"
 
@@ -146,5 +147,18 @@ constexpr std::array<AmplitudeTerm, 13> all_amplitude_terms = {{
 }  // namespace
 
 std::span<const AmplitudeTerm> amplitude_terms() { return all_amplitude_terms; }
+
+bool drop_sticking(std::vector<SteadyPoint>& points, const PlainFriction& friction,
+                   std::vector<std::string>& said) {
+  if (!(friction.x_f > 0.0)) return false;
+  const std::size_t before = points.size();
+  std::erase_if(points, [&](const SteadyPoint& point) {
+    const double limit = sim::analytic::non_sticking_limit(sim::analytic::den_hartog(friction.zeta, point.r));
+    const bool sticks = !(point.x > limit * friction.x_f);
+    if (sticks) said.push_back("state " + std::to_string(point.number) + " sticks at the fit and is left out");
+    return sticks;
+  });
+  return points.size() < before;
+}
 
 }  // namespace dualdamp::identify

@@ -66,4 +66,7 @@ inline constexpr std::string_view stiffness_free = "natural frequency free, mass
 /// The terms, by assumption.
 [[nodiscard]] std::span<const AmplitudeTerm> amplitude_terms();
 
+/// Leaves out the states that stick at this friction, each with a sentence. Returns whether there are any.
+bool drop_sticking(std::vector<SteadyPoint>& points, const PlainFriction& friction, std::vector<std::string>& said);
+
 }  // namespace dualdamp::identify

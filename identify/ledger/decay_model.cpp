@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "identify/ledger/stated_noise.hpp"
 #include "identify/methods/decays/free_decay.hpp"
 #include "identify/statistics/decompositions.hpp"
 #include "identify/statistics/statistics.hpp"
@@ -103,6 +104,7 @@ struct Setting {
   double unit = 1.0;         ///< m
   double half_period = 1.0;  ///< s
   double tolerance = 1.0;    ///< of the period
+  double known = 0.0;        ///< stated deviation of an extreme; 0: none
   KnownConstants constants;
   std::vector<const DecayTerm*> terms;
 };
@@ -141,8 +143,8 @@ struct ChannelScale {
   double freedom = 0.0;  ///< 0: the channel is exact to rounding, without noise
 };
 
-/// Scales the rows of one channel to unit deviation, estimated from what its own columns leave.
-ChannelScale scale_channel(JointModel& model, Eigen::Index first, Eigen::Index count) {
+/// Scales the rows of one channel to unit deviation: `known`, or estimated from what its own columns leave.
+ChannelScale scale_channel(JointModel& model, Eigen::Index first, Eigen::Index count, double known = 0.0) {
   Eigen::MatrixXd columns(count, model.base.cols() + model.relaxed.cols());
   columns << model.base.middleRows(first, count), model.relaxed.middleRows(first, count);
   const auto own = [](const Eigen::MatrixXd& list) { return (list.colwise().norm().array() > 0.0).count(); };
@@ -152,7 +154,7 @@ ChannelScale scale_channel(JointModel& model, Eigen::Index first, Eigen::Index c
   const Eigen::VectorXd left = target - used * pivoted_least_squares(used, target);
   const double freedom = std::max(1.0, static_cast<double>(count - own(used)));
   constexpr double rounding = 1e-9;
-  const double scale = std::max(std::sqrt(left.squaredNorm() / freedom), rounding);
+  const double scale = known > 0.0 ? known : std::max(std::sqrt(left.squaredNorm() / freedom), rounding);
   model.residuals.segment(first, count) /= scale;
   model.base.middleRows(first, count) /= scale;
   model.relaxed.middleRows(first, count) /= scale;
@@ -196,8 +198,9 @@ JointModel linearised(const Setting& setting, const Eigen::VectorXd& measured, c
   for (Eigen::Index j = 0; j < at.g.size(); ++j)
     if (setting.terms[static_cast<std::size_t>(j)]->assumption == symmetry)
       model.zeta_parts[j] = std::pow(root, 1.5) / (std::numbers::pi * decrement);
-  const ChannelScale amplitudes = scale_channel(model, 0, setting.count);
-  model.scale_freedom = amplitudes.freedom;
+  const ChannelScale amplitudes = scale_channel(model, 0, setting.count, setting.known);
+  model.is_stated = setting.known > 0.0;
+  model.scale_freedom = model.is_stated ? known_freedom : amplitudes.freedom;
   // The part of the deviations; `fitted` adds the sum of squares.
   const auto readings = static_cast<double>(setting.count);
   model.deviance = 2.0 * readings * std::log(amplitudes.deviation);
@@ -208,6 +211,7 @@ JointModel linearised(const Setting& setting, const Eigen::VectorXd& measured, c
     model.deviance += 2.0 * readings * std::log(times.deviation);
     add_readings(model, ReadingKind::time, setting.count, times.deviation * setting.half_period);
     model.readings.emplace_back();
+    model.other_freedom = times.freedom;
     // Two columns, `start` and `longer`, act on the times alone.
     if (times.freedom == 0.0) model.spent += static_cast<double>(setting.count - 2);
     model.residuals[2 * setting.count] /= setting.tolerance;
@@ -263,9 +267,22 @@ JointModel fitted(const Setting& setting, const Eigen::VectorXd& measured, const
   return model;
 }
 
+/// Where the extremes scatter clearly more than stated, the model is fitted with their own noise instead.
+void compare_with_stated(Setting& setting, const Eigen::VectorXd& measured, const Decay& start, JointModel& model) {
+  JointModel rescaled = model;
+  const ChannelScale own = scale_channel(rescaled, 0, setting.count);
+  const int contradicts = contradicts_stated(own.deviation, own.freedom);
+  if (contradicts > 0) {
+    setting.known = 0.0;
+    model = fitted(setting, measured, start, {});
+  }
+  note_contradiction(contradicts, own.deviation, "extremes", model);
+}
+
 }  // namespace
 
-std::variant<JointModel, std::string> decay_model(const Record& record, const KnownConstants& constants) {
+std::variant<JointModel, std::string> decay_model(const Record& record, const KnownConstants& constants,
+                                                  double sigma_x) {
   const Estimate fit = free_decay(record, constants, {});
   if (!fit.outcome.ok()) return fit.outcome.reason;
   constexpr std::size_t fewest = 6;
@@ -292,7 +309,9 @@ std::variant<JointModel, std::string> decay_model(const Record& record, const Kn
     measured[row] = record.decay->extremes[i] / setting.unit;
     if (timed) measured[setting.count + row] = record.decay->times[i] / half_period;
   }
+  setting.known = sigma_x / setting.unit;
   JointModel model = fitted(setting, measured, start, {});
+  if (sigma_x > 0.0) compare_with_stated(setting, measured, start, model);
   model.refit = [setting, measured, start](const std::vector<std::size_t>& taken) {
     return fitted(setting, measured, start, taken);
   };

@@ -17,8 +17,10 @@
 
 namespace dualdamp::identify {
 
-/// The model, or why there is none.
+/// The model, or why there is none. `sigma_x`: stated deviation of an extreme [m], used unless the extremes
+/// contradict it (stated_noise.hpp); 0: none.
 [[nodiscard]] std::variant<JointModel, std::string> decay_model(const Record& record,
-                                                                const KnownConstants& constants);
+                                                                const KnownConstants& constants,
+                                                                double sigma_x = 0.0);
 
 }  // namespace dualdamp::identify

@@ -8,6 +8,7 @@
 
 #include <Eigen/Core>
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -62,12 +63,17 @@ struct JointModel {
   std::vector<KnownNoise> known_noise = {};
   /// Degrees of freedom that the estimated deviations of channels take, beside those of the columns.
   double spent = 0.0;
+  /// The deviation of the readings that decide about friction is stated: their rows have unit variance.
+  bool is_stated = false;
   double deviance = unknown;   ///< twice the negative log-likelihood, to compare fits of the record; NaN: not known
   double scale_freedom = 0.0;  ///< degrees of freedom behind the deviation that decides about friction
-  ParameterSet value;          ///< of the fit
-  KnownConstants constants;    ///< as stated, or as fitted
+  /// Of a channel that is estimated beside one that is stated and decides about friction.
+  double other_freedom = std::numeric_limits<double>::infinity();
+  ParameterSet value;        ///< of the fit
+  KnownConstants constants;  ///< as stated, or as fitted
   /// The model fitted again with these relaxations free, and linearised there; empty: no such fit is needed.
   std::function<JointModel(const std::vector<std::size_t>& taken)> refit;
+  std::vector<std::string> warnings;  ///< about the readings and what is stated of them, each a sentence
   std::vector<std::string>
       left_out;  ///< parts of the record that are outside the tests' conditions, each a sentence
 };

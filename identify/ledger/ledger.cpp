@@ -13,6 +13,7 @@
 #include "identify/ledger/decay_model.hpp"
 #include "identify/ledger/history_model.hpp"
 #include "identify/ledger/relaxation_tests.hpp"
+#include "identify/ledger/stated_noise.hpp"
 #include "identify/statistics/decompositions.hpp"
 #include "identify/statistics/distributions.hpp"
 #include "identify/statistics/least_squares.hpp"
@@ -39,11 +40,16 @@ std::string rounded(double value) {
 std::string in_percent(double share) { return rounded(100.0 * share) + " %"; }
 
 /// The first of the models that the record allows; else why there is none.
-MaybeModel testable_model(const Record& record, const KnownConstants& constants) {
+MaybeModel testable_model(const Record& record, const KnownConstants& constants, const KnownDeviations& known) {
   MaybeModel model = std::string("the record holds nothing that can be tested");
   if (!record.histories.empty()) model = history_model(record, constants);
-  if (std::holds_alternative<std::string>(model) && record.pairs) model = amplitude_model(record, constants);
-  if (std::holds_alternative<std::string>(model) && record.decay) model = decay_model(record, constants);
+  if (auto* of_histories = std::get_if<JointModel>(&model); of_histories != nullptr && is_stated(known))
+    of_histories->warnings.emplace_back(
+        "the stated deviations of x and Y are not used by joint_fit: it reads the samples of the histories, and "
+        "takes their noise from them");
+  if (std::holds_alternative<std::string>(model) && record.pairs) model = amplitude_model(record, constants, known);
+  if (std::holds_alternative<std::string>(model) && record.decay)
+    model = decay_model(record, constants, known.sigma_x);
   return model;
 }
 
@@ -55,7 +61,7 @@ class Scale {
     const std::optional<Eigen::MatrixXd> covariance = unit_covariance(model.base);
     if (!covariance || !(freedom > 0.0)) return;
     const Eigen::VectorXd left = model.residuals - model.base * pivoted_least_squares(model.base, model.residuals);
-    const double deviation = std::sqrt(left.squaredNorm() / std::max(1.0, freedom));
+    const double deviation = model.is_stated ? 1.0 : std::sqrt(left.squaredNorm() / std::max(1.0, freedom));
     zeta_ = std::max(zeta_, deviation * std::sqrt((*covariance)(0, 0)));
     F0_ = std::max(F0_, deviation * std::sqrt((*covariance)(1, 1)));
   }
@@ -279,15 +285,17 @@ Estimate joint_estimate(const JointModel& model, const Numbers& relaxed, std::st
     return estimate;
   }
   const Eigen::VectorXd step = *covariance * (columns.transpose() * model.residuals);
-  const double variance = (model.residuals - columns * step).squaredNorm() / freedom;
+  const double variance = model.is_stated ? 1.0 : (model.residuals - columns * step).squaredNorm() / freedom;
   const KnownConstants& constants = model.constants;
   estimate.value =
       parameters(model.value.zeta + step[0], (model.value.F0 + step[1]) / constants.stiffness, constants);
   Eigen::Matrix2d of_friction = variance * covariance->topLeftCorner<2, 2>();
   const Eigen::DiagonalMatrix<double, 2> to_length(1.0, 1.0 / constants.stiffness);
   of_friction = to_length * of_friction * to_length;
-  set_uncertainty(estimate, of_friction, quantile95(std::min(freedom, std::max(1.0, model.scale_freedom))),
-                  constants);
+  set_uncertainty(
+      estimate, of_friction,
+      quantile95(std::min(model.is_stated ? known_freedom : freedom, std::max(1.0, model.scale_freedom))),
+      constants);
   std::vector<std::string> faults;
   judge_signs(estimate, 0.0, faults);
   conclude(estimate, faults, std::move(basis));
@@ -383,7 +391,7 @@ Ledger ledger_of(const Record& record, const KnownConstants& constants, const Le
   ledger.coordinate = constants.coordinate;
   ledger.recorded = recorded_in(record);
   for (const Assumption assumption : assumptions()) ledger.entries.emplace_back().assumption = assumption;
-  const MaybeModel found = testable_model(record, constants);
+  const MaybeModel found = testable_model(record, constants, options.deviations);
   if (const auto* reason = std::get_if<std::string>(&found)) {
     for (LedgerEntry& entry : ledger.entries) entry.reason = *reason;
     return ledger;
@@ -393,6 +401,7 @@ Ledger ledger_of(const Record& record, const KnownConstants& constants, const Le
   ledger.tests_histories = model.of_histories;
   ledger.plain = model.value;
   ledger.left_out = model.left_out;
+  ledger.warnings = model.warnings;
   const RelaxationTests tests = test_relaxations(model, options.least_change);
   Writer writer(model, tests, constants, options);
   writer.write(ledger);
@@ -413,9 +422,10 @@ Ledger ledger_of(const Record& record, const KnownConstants& constants, const Le
   return ledger;
 }
 
-Estimate joint_fit(const Record& record, const KnownConstants& constants, const std::vector<std::string>& relaxed) {
+Estimate joint_fit(const Record& record, const KnownConstants& constants, const std::vector<std::string>& relaxed,
+                   const KnownDeviations& known) {
   Estimate none;
-  const MaybeModel found = testable_model(record, constants);
+  const MaybeModel found = testable_model(record, constants, known);
   if (const auto* reason = std::get_if<std::string>(&found)) {
     refuse(none, *reason);
     return none;

@@ -56,6 +56,7 @@ struct LedgerOptions {
   double least_change = 0.02;  ///< relative change of zeta or F0 that matters
   /// A departure that errors of this size explain violates nothing.
   ConstantUncertainties uncertainties = {};
+  KnownDeviations deviations = {};
 };
 
 /// What was recorded, for advice.
@@ -77,6 +78,7 @@ struct Ledger {
   ParameterSet plain;                                            ///< of the joint model with nothing relaxed
   core::Coordinate coordinate = core::Coordinate::displacement;  ///< for the units in sentences
   std::vector<std::string> left_out;  ///< parts of the record outside the tests' conditions, each a sentence
+  std::vector<std::string> warnings;  ///< about the readings and what is stated of them, each a sentence
   /// The joint model misses the record, whatever is relaxed: no single assumption explains it.
   std::optional<Misfit> misfit = {};
   std::vector<std::string> relaxed;  ///< tests of the relaxations that the joint estimate has free
@@ -97,6 +99,6 @@ struct Ledger {
 
 /// The joint estimate with exactly these relaxations free, named as `Relaxation::test`. Nothing is tested.
 [[nodiscard]] Estimate joint_fit(const Record& record, const KnownConstants& constants,
-                                 const std::vector<std::string>& relaxed);
+                                 const std::vector<std::string>& relaxed, const KnownDeviations& known = {});
 
 }  // namespace dualdamp::identify

@@ -62,6 +62,7 @@ Projection project(const JointModel& model, const std::vector<std::size_t>& take
   result.freedom = static_cast<double>(base.rows() - qr.rank()) - model.spent;
   // A statistic may depend on one channel, or on all: the mean of both degrees of freedom.
   result.scale_freedom = 0.5 * (result.freedom + std::min(result.freedom, std::max(2.0, model.scale_freedom)));
+  if (model.is_stated) result.scale_freedom = std::max(2.0, std::min(model.scale_freedom, model.other_freedom));
   for (Eigen::Index j = 0; j < beside.cols(); ++j)
     if (beside.col(j).norm() > told_apart * columns.col(j).norm())
       result.indices.push_back(static_cast<std::size_t>(j));
@@ -89,10 +90,14 @@ Projection project(const JointModel& model, const std::vector<std::size_t>& take
   return result;
 }
 
+/// Variances of the residuals beside each of the unit columns.
+Eigen::ArrayXd variances(const Eigen::VectorXd& along, double squares, double freedom) {
+  return (squares - along.array().square()).max(1e-12 * squares) / (freedom - 1.0);
+}
+
 /// t statistics of unit columns beside residuals with `freedom`.
 Eigen::VectorXd statistics(const Eigen::VectorXd& along, double squares, double freedom) {
-  const Eigen::ArrayXd left = (squares - along.array().square()).max(1e-12 * squares) / (freedom - 1.0);
-  return along.array() / left.sqrt();
+  return along.array() / variances(along, squares, freedom).sqrt();
 }
 
 double two_sided(double t, double freedom) { return f_test_p_value(t * t, 1.0, freedom); }
@@ -203,8 +208,10 @@ std::vector<RelaxationTest> tests_beside(const JointModel& model, const Projecti
   if (!std::isfinite(squares)) return tests;
   const Eigen::VectorXd along =
       beyond_shared(projection.unit.transpose() * projection.residuals, projection.shared);
-  const Eigen::VectorXd t = statistics(along, squares, projection.freedom);
-  const double deviation = std::sqrt(squares / projection.freedom);
+  const Eigen::ArrayXd variance =
+      model.is_stated ? Eigen::ArrayXd::Ones(along.size()) : variances(along, squares, projection.freedom);
+  const Eigen::VectorXd t = along.array() / variance.sqrt();
+  const double deviation = model.is_stated ? 1.0 : std::sqrt(squares / projection.freedom);
   const Scores scores(weights_of(model, projection, deviation, least_change), projection.scale_freedom);
   const std::vector<double> largest = largest_scores(model, projection, scores);
   const double share = model.known_noise.empty() ? 1.0 : 1.0 - misfit_share;
@@ -219,11 +226,10 @@ std::vector<RelaxationTest> tests_beside(const JointModel& model, const Projecti
       test.p_value = std::min(1.0, p_value / share);
       test.p_alone = sides * two_sided(t[j], projection.scale_freedom - 1.0);
       const double rows = projection.freedom + static_cast<double>(model.base.cols());
-      test.explained = rows * std::log1p(t[j] * t[j] / (projection.freedom - 1.0));
+      test.explained = model.is_stated ? t[j] * t[j] : rows * std::log1p(t[j] * t[j] / (projection.freedom - 1.0));
     }
     const double gain = along[j] / projection.lengths[j];
-    const double error =
-        std::sqrt((squares - along[j] * along[j]) / (projection.freedom - 1.0)) / projection.lengths[j];
+    const double error = std::sqrt(variance[j]) / projection.lengths[j];
     test.coefficient = gain;
     test.zeta_change = projection.shifts(0, j) * gain;
     test.F0_change = projection.shifts(1, j) * gain;

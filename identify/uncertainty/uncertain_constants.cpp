@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 #include <string_view>
+#include <vector>
 
 #include "core/numbers.hpp"
 #include "identify/methods.hpp"
@@ -99,6 +100,7 @@ constexpr std::array<Constant, 8> all_constants = {{
 
 /// The estimates with one constant lower and higher than stated. If one fails, the stated one is in its place.
 struct Bracket {
+  const Estimate* stated = nullptr;
   const Estimate* low = nullptr;
   const Estimate* high = nullptr;
   double step = 0.0;  ///< from low to high, in deviations of the constant
@@ -117,7 +119,7 @@ class Variation {
     const bool has_low = low_.outcome.ok();
     const bool has_high = high_.outcome.ok();
     if (!has_low && !has_high) return std::nullopt;
-    return Bracket{has_low ? &low_ : &stated_, has_high ? &high_ : &stated_,
+    return Bracket{&stated_, has_low ? &low_ : &stated_, has_high ? &high_ : &stated_,
                    (has_low ? 1.0 : 0.0) + (has_high ? 1.0 : 0.0)};
   }
 
@@ -144,10 +146,18 @@ double corrected(const Estimate& estimate, const ReportedParameter& member) {
   return 0.5 * (low + high);
 }
 
+/// Half the change from low to high. Where both sides change a parameter the same way, this would be nearly zero:
+/// the constant is so uncertain that its effect has a turning point, and the larger change is taken.
 double difference(const Bracket& bracket, const ReportedParameter& member) {
   const bool both = bracket.low->interval95.has_value() == bracket.high->interval95.has_value();
   const double change = both ? corrected(*bracket.high, member) - corrected(*bracket.low, member)
                              : bracket.high->value.*member.value - bracket.low->value.*member.value;
+  if (!both || bracket.stated->interval95.has_value() != bracket.low->interval95.has_value())
+    return change / bracket.step;
+  const double stated = corrected(*bracket.stated, member);
+  const double down = corrected(*bracket.low, member) - stated;
+  const double up = corrected(*bracket.high, member) - stated;
+  if (up * down > 0.0) return std::abs(up) > std::abs(down) ? up : down;
   return change / bracket.step;
 }
 
@@ -162,26 +172,60 @@ std::optional<double> difference(const Bracket& bracket, const std::string& name
   return (high->value - low->value) / bracket.step;
 }
 
-void add(const Bracket& bracket, Estimate& estimate) {
-  ParameterSet change;
+/// What an error of one standard uncertainty changes.
+struct Change {
+  ParameterSet values;
+  std::vector<std::optional<double>> others;  ///< of the further parameters; nothing where one has none
+};
+
+Change change_by(const Bracket& bracket, const Estimate& estimate) {
+  Change change;
+  for (const ReportedParameter& member : reported_parameters)
+    change.values.*member.value = difference(bracket, member);
+  for (const FurtherParameter& other : estimate.others) change.others.push_back(difference(bracket, other.name));
+  return change;
+}
+
+/// Parameter by parameter.
+void take_larger(const Change& other, Change& change) {
+  const auto larger = [](double a, double b) { return std::abs(b) > std::abs(a) ? b : a; };
+  for (const ReportedParameter& member : reported_parameters)
+    change.values.*member.value = larger(change.values.*member.value, other.values.*member.value);
+  for (std::size_t i = 0; i < change.others.size(); ++i)
+    if (change.others[i] && other.others[i]) change.others[i] = larger(*change.others[i], *other.others[i]);
+}
+
+void add(const Change& change, Estimate& estimate) {
   for (const ReportedParameter& member : reported_parameters) {
-    const double moved = change.*member.value = difference(bracket, member);
+    const double moved = change.values.*member.value;
     if (estimate.std) (*estimate.std).*member.value = std::hypot((*estimate.std).*member.value, moved);
     if (!estimate.interval95) continue;
     Interval& interval = (*estimate.interval95).*member.interval;
     interval = widened(interval, estimate.value.*member.value, moved);
   }
   if (estimate.covariance) {
-    const Eigen::Vector2d both(change.zeta, change.F0);
+    const Eigen::Vector2d both(change.values.zeta, change.values.F0);
     *estimate.covariance += both * both.transpose();
     const Eigen::Matrix2d& c = *estimate.covariance;
     if (estimate.correlation) estimate.correlation = c(0, 1) / std::sqrt(c(0, 0) * c(1, 1));
   }
+  for (std::size_t i = 0; i < estimate.others.size(); ++i) {
+    FurtherParameter& other = estimate.others[i];
+    if (!change.others[i]) continue;
+    if (other.std) *other.std = std::hypot(*other.std, *change.others[i]);
+    if (other.interval95) other.interval95 = widened(*other.interval95, other.value, *change.others[i]);
+  }
+}
+
+/// An interval that lacks the effect of a constant is too narrow by an unknown amount: there is none.
+void drop_uncertainty(Estimate& estimate) {
+  estimate.std.reset();
+  estimate.interval95.reset();
+  estimate.covariance.reset();
+  estimate.correlation.reset();
   for (FurtherParameter& other : estimate.others) {
-    const std::optional<double> moved = difference(bracket, other.name);
-    if (!moved) continue;
-    if (other.std) *other.std = std::hypot(*other.std, *moved);
-    if (other.interval95) other.interval95 = widened(*other.interval95, other.value, *moved);
+    other.std.reset();
+    other.interval95.reset();
   }
 }
 
@@ -206,16 +250,27 @@ Estimate with_uncertainties(const Reader& read, const Record& record, const Know
   const Input input{record, constants};
   Variation variation(read, input, stated);
   Estimate estimate = stated;
+  bool not_carried = false;
   for (const Constant& constant : all_constants) {
     const double deviation = constant.relative(uncertainties, constants);
     if (!(deviation > 0.0)) continue;
-    if (const std::optional<Bracket> bracket = variation.at(constant, deviation))
-      add(*bracket, estimate);
-    else
+    if (const std::optional<Bracket> bracket = variation.at(constant, deviation)) {
+      Change change = change_by(*bracket, stated);
+      // A record may tell a large error of a constant, and correct it: the smaller ones that it does not tell
+      // count.
+      constexpr double small = 0.05;
+      for (double smaller = 0.5 * deviation; smaller > 0.5 * small; smaller *= 0.5)
+        if (const std::optional<Bracket> inner = variation.at(constant, smaller))
+          take_larger(change_by(*inner, stated), change);
+      add(change, estimate);
+    } else {
+      not_carried = true;
       estimate.warnings.push_back("the uncertainty of the " + std::string(constant.name) +
-                                  " is not in the intervals: with a value off by " +
+                                  " allows no interval: with a value off by " +
                                   core::format_number(100.0 * deviation, 3) + " % there is no estimate");
+    }
   }
+  if (not_carried) drop_uncertainty(estimate);
   return estimate;
 }
 

@@ -6,7 +6,9 @@
 /// that know their bias, theta is the middle of the interval, which is corrected for it. Such an error is the same
 /// in the whole record, so no number of readings averages it out. The errors are independent: variances d^2 add to
 /// those by the readings, and each side of a 95 % interval becomes sqrt(side^2 + sum (1.96 d)^2). Source:
-/// gum2008, 5.1.2. Cost: two readings for each uncertain constant.
+/// gum2008, 5.1.2. Where both signs change theta the same way, d is the larger change. Of an uncertainty of more
+/// than 5 %, errors of its half, quarter, ... down to some 3 % are tried as well, and the largest d counts: a
+/// record may tell a large error and correct it. Cost: two readings for each error.
 
 #include <functional>
 #include <string>
@@ -39,7 +41,8 @@ struct Sensitivity {
 using Reader = std::function<Estimate(const Record&, const KnownConstants&)>;
 
 /// The estimate of `read`, with the uncertainties of the constants in its standard errors, covariance and
-/// intervals. A warning names each constant for which `read` gives no estimate when it is off by its uncertainty.
+/// intervals. A warning names each constant for which `read` gives no estimate when it is off by its uncertainty;
+/// the estimate then has no standard errors and no intervals.
 [[nodiscard]] Estimate with_uncertainties(const Reader& read, const Record& record, const KnownConstants& constants,
                                           const ConstantUncertainties& uncertainties);
 

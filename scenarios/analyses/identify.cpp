@@ -27,7 +27,8 @@ std::vector<std::string> signals_of(const identify::Record& record) {
   const auto holds = [&](auto signal) {
     return std::ranges::any_of(record.histories, [&](const identify::History& h) { return !(h.*signal).empty(); });
   };
-  if (record.pairs || holds(&identify::History::y)) signals.emplace_back("y");
+  if (holds(&identify::History::y)) signals.emplace_back("y");
+  if (record.pairs) signals.emplace_back("Y");
   if (record.pairs || record.decay || holds(&identify::History::x)) signals.emplace_back("x");
   if (holds(&identify::History::v)) signals.emplace_back("v");
   if (holds(&identify::History::a)) signals.emplace_back("a");
@@ -39,12 +40,15 @@ std::vector<std::string> signals_of(const identify::Record& record) {
 
 Field gain_uncertainty_field() {
   Section signals;
-  for (const char* name : {"y", "x", "v", "a", "force"})
+  for (const char* name : {"y", "Y", "x", "v", "a", "force"}) {
     signals.fields.push_back(
         quantity(name, {"1"}, std::string("relative standard uncertainty of the gain of ") + name).at_least(0));
+    signals.fields.back().range.high = 1.0;
+    signals.fields.back().range.high_open = true;
+  }
   return section("gain_uncertainty", std::move(signals),
-                 "relative standard uncertainties of the gains of the sensors: {x: 1 %}; that of y holds for Y "
-                 "too");
+                 "relative standard uncertainties of the gains of the sensors: {x: 1 %}; y and Y have one "
+                 "gain, by either name");
 }
 
 std::optional<identify::Record> outlined_record(const CheckedFile& file) {
@@ -57,8 +61,14 @@ void check_gains(CheckedFile& file, const identify::Record& record) {
   if (!file.has("analysis", "gain_uncertainty")) return;
   const std::vector<std::string> signals = signals_of(record);
   const Json gains = file.values().at("analysis").at("gain_uncertainty");
+  if (gains.contains("y") && gains.contains("Y"))
+    file.complain("analysis.gain_uncertainty.Y",
+                  "the uncertainty of the gain of y, which is that of Y, is stated twice", "one of the two",
+                  "y and Y");
+  const bool has_drive = std::ranges::any_of(signals, [](const std::string& s) { return s == "y" || s == "Y"; });
   for (const auto& [signal, gain] : gains.items()) {
     if (std::ranges::find(signals, signal) != signals.end()) continue;
+    if (has_drive && (signal == "y" || signal == "Y")) continue;
     file.complain("analysis.gain_uncertainty." + signal,
                   "the gain of " + signal + " is uncertain, and the record has no " + signal,
                   "signals of the record: " + core::joined(signals), signal);
@@ -114,7 +124,7 @@ identify::ConstantUncertainties uncertainties_of(const CheckedValues& values) {
     if (section->is_object()) *value = number_or(*section, uncertainty_key(key), 0.0);
   if (!values.analysis.contains("gain_uncertainty")) return uncertainties;
   const Json& gains = values.analysis.at("gain_uncertainty");
-  for (const auto& [key, value] : {std::pair{"y", &uncertainties.gain_y},
+  for (const auto& [key, value] : {std::pair{gains.contains("Y") ? "Y" : "y", &uncertainties.gain_y},
                                    {"x", &uncertainties.gain_x},
                                    {"v", &uncertainties.gain_v},
                                    {"a", &uncertainties.gain_a},
@@ -163,7 +173,8 @@ std::unique_ptr<const Question> ask_identify(CheckedValues&& values) {
                                        constants_of(values.model),
                                        uncertainties_of(values),
                                        method_options(section),
-                                       {section.at("least_change").get<double>(), uncertainties_of(values)},
+                                       {section.at("least_change").get<double>(), uncertainties_of(values),
+                                        identify::taken_from<identify::KnownDeviations>(method_options(section))},
                                        section.value("robust", false)};
   return question_of(std::move(values), std::move(methods));
 }
@@ -212,7 +223,12 @@ identify::Estimate IdentifyQuestion::slow_estimate(const identify::Reader& reade
       identify::taken_from<identify::AnyLawOptions>(identify::any_law_method.own(methods_.options));
   const identify::Estimate moved =
       identify::moved_by_constants(record, methods_.constants, methods_.uncertainties, options);
-  if (moved.std) identify::widen(*moved.std, estimate);
+  if (moved.std) {
+    identify::widen(*moved.std, estimate);
+  } else {
+    estimate.std.reset();
+    estimate.interval95.reset();
+  }
   estimate.warnings.insert(estimate.warnings.end(), moved.warnings.begin(), moved.warnings.end());
   return estimate;
 }
@@ -242,7 +258,7 @@ std::vector<identify::Sensitivity> IdentifyQuestion::sensitivities(const identif
   // With the same relaxations and no others: otherwise a changed constant would itself be relaxed, and the
   // sensitivity would be lost.
   const identify::Reader joint = [&](const identify::Record& moved, const identify::KnownConstants& constants) {
-    return identify::joint_fit(moved, constants, found.ledger.relaxed);
+    return identify::joint_fit(moved, constants, found.ledger.relaxed, methods_.ledger.deviations);
   };
   const identify::Reader reader = method == nullptr ? joint : reader_of(*method, methods_.options);
   return identify::sensitivities(reader, best, record, methods_.constants, methods_.uncertainties);

@@ -138,7 +138,9 @@ void take_gain_uncertainties(CheckedFile& file) {
     if (!split.fault.empty()) file.complain(path, "'" + path + "': " + split.fault, "'2.5 mm/V +- 1 %'", text);
     if (!split.relative) continue;
     const std::string signal = column == "Y" ? "y" : column;
-    if (gains.contains(signal))
+    if (!(*split.relative < 1.0))
+      file.complain(path, "the uncertainty of '" + path + "' is too large", "less than 100 %", text);
+    if (gains.contains(signal) || (signal == "y" && gains.contains("Y")))
       file.complain(path, "the uncertainty of the gain of " + signal + " is stated twice", "one of the two", text);
     scale = std::move(split.quantity);
     gains[signal] = *split.relative;

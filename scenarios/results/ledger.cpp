@@ -106,6 +106,7 @@ void add_ledger(const identify::Identification& found, Answer& answer) {
   answer.result["verdict"] = found.verdict;
   answer.tables.push_back(readable_assumptions(found.ledger.entries));
   answer.tables.push_back(assumption_table(found.ledger.entries));
+  for (const std::string& sentence : found.ledger.warnings) answer.warnings.push_back(sentence);
   for (const std::string& sentence : found.ledger.left_out) answer.warnings.push_back("not tested: " + sentence);
 }
 

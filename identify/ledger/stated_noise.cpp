@@ -1,0 +1,42 @@
+#include "identify/ledger/stated_noise.hpp"
+
+#include <algorithm>
+
+#include "core/numbers.hpp"
+#include "identify/statistics/distributions.hpp"
+
+namespace dualdamp::identify {
+
+void set_noise(Eigen::Index amplitudes, Eigen::Index phases, Eigen::Index smooth_columns, JointModel& model) {
+  const auto of_amplitudes = static_cast<double>(amplitudes - smooth_columns);
+  const auto of_phases = static_cast<double>(phases - smooth_columns);
+  model.spent = phases > 0 ? 1.0 : 0.0;
+  model.scale_freedom = of_amplitudes;
+  if (model.is_stated) model.scale_freedom = phases > 0 ? std::max(1.0, of_phases) : known_freedom;
+  if (model.is_stated || of_amplitudes > 0.0)
+    model.known_noise.push_back({amplitudes, model.is_stated ? known_freedom : of_amplitudes});
+  if (of_phases > 0.0) model.known_noise.push_back({phases, of_phases});
+}
+
+bool is_stated(const KnownDeviations& known) { return known.sigma_x > 0.0 || known.sigma_Y > 0.0; }
+
+int contradicts_stated(double ratio, double freedom) {
+  // The level and the factor are those of a fit against a scenario (fit/residual_test.cpp).
+  constexpr double level = 1e-3;
+  constexpr double factor = 1.3;
+  if (!(freedom >= 1.0)) return 0;
+  const double above = f_test_p_value(ratio * ratio, freedom, known_freedom);
+  if (!(2.0 * std::min(above, 1.0 - above) < level)) return 0;
+  return ratio > factor ? 1 : ratio < 1.0 / factor ? -1 : 0;
+}
+
+void note_contradiction(int contradicts, double ratio, const std::string& readings, JointModel& model) {
+  if (contradicts == 0) return;
+  const std::string size = "the " + readings + " scatter " + core::format_number(ratio, 2) +
+                           " times as much as the stated deviations say: the stated noise is too ";
+  model.warnings.push_back(contradicts < 0
+                               ? size + "large, and the intervals of joint_fit are as wide as it makes them"
+                               : size + "small, and joint_fit takes the noise from the readings");
+}
+
+}  // namespace dualdamp::identify

@@ -1,0 +1,32 @@
+#pragma once
+/// Deviations that are stated for the readings of a joint model, instead of what the residuals tell.
+///
+/// The rows then have unit variance, known, and the tests are those of normal deviates and chi-square. What smooth
+/// curves leave of the residuals is noise whatever the law of friction is: where it contradicts the statement, this
+/// is told. Noise that is clearly larger than stated is used as the readings show it; stated noise that is larger
+/// than the readings show is used as stated.
+
+#include <string>
+
+#include "identify/ledger/joint_model.hpp"
+#include "identify/options.hpp"
+
+namespace dualdamp::identify {
+
+/// Degrees of freedom behind a stated deviation: F with so many in the denominator is chi-square.
+inline constexpr double known_freedom = 1e9;
+
+/// If either deviation is positive both are stated, and the other reading is exact.
+[[nodiscard]] bool is_stated(const KnownDeviations& known);
+
+/// 1: the noise is clearly larger than stated, -1: clearly smaller; 0: neither. `ratio`: the deviation of the
+/// readings, with this many degrees of freedom, over the stated one.
+[[nodiscard]] int contradicts_stated(double ratio, double freedom);
+
+/// Notes in the model that its readings (the word for a message) contradict the statement. Nothing at 0.
+void note_contradiction(int contradicts, double ratio, const std::string& readings, JointModel& model);
+
+/// What is known of the noise of steady states: of `amplitudes` rows, and of the rows of `phases` that follow them.
+void set_noise(Eigen::Index amplitudes, Eigen::Index phases, Eigen::Index smooth_columns, JointModel& model);
+
+}  // namespace dualdamp::identify
