@@ -62,7 +62,7 @@ class Ignored(case.Case):
         data = self.write("data.csv", "Y [mm],x [mm]\n4.5,4.7\n5,7.21\n5.5,9.76\n6,12.2\n")
         result = self.run_program("identify", data, "--mass", "1.042 kg", "--stiffness", "1568 N/m", "--frequency", "6.17 Hz", "--gain-uncertainty", "a=1 %", status=3)
         self.assertIn("the record has no a", result.stderr)
-        self.assertIn("allowed: signals of the record: y, x", result.stderr)
+        self.assertIn("allowed: signals of the record: Y, x", result.stderr)
 
     def test_the_frequency_of_a_free_vibration(self):
         """It is not used, and a warning says so."""
