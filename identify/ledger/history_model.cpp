@@ -23,9 +23,11 @@ namespace {
 
 using By = SampledOscillator::By;
 
-/// Where the model is linearised: the parameters of the fit, and a coefficient for each relaxation.
+/// Where the model is linearised: the parameters of the fit, the zeros of v and a, and a coefficient for each
+/// relaxation.
 struct Place {
   Eigen::VectorXd p;
+  Eigen::VectorXd zeros;
   Eigen::VectorXd g;
 };
 
@@ -43,6 +45,9 @@ class Histories {
     scale_ = {fit_.layout().length(), fit_.layout().length() * natural_};
     unit_force_ = force.k * scale_.length;
     list_ = history_ways(fit_.tests(), constants_);
+    zeros_ = free_zeros(fit_.tests(), scale_);
+    start_.zeros.resize(static_cast<Eigen::Index>(zeros_.size()));
+    for (std::size_t i = 0; i < zeros_.size(); ++i) start_.zeros[static_cast<Eigen::Index>(i)] = zeros_[i].near;
     start_.g = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(list_.relaxations.size()));
     for (const ForwardTest& test : fit_.tests()) {
       noise_.push_back(noise_levels(*test.history, force.k, scale_));
@@ -173,10 +178,13 @@ class Histories {
   [[nodiscard]] std::optional<Place> freed(std::size_t number) {
     const FreedFit* found = freed_.with(list_.ways[number].by);
     if (found == nullptr) return std::nullopt;
-    Place place{found->p, start_.g};
+    Place place{found->p, start_.zeros, start_.g};
     place.g[static_cast<Eigen::Index>(number)] = found->change;
     return place;
   }
+
+  /// The columns that are always free: parameters of the fit, then the zeros of v and a.
+  [[nodiscard]] Eigen::Index count_of_base() const { return fit_.layout().count() + start_.zeros.size(); }
 
   [[nodiscard]] ForceParameters force_at(const Place& at) const {
     ForceParameters force = fit_.layout().force(at.p);
@@ -191,8 +199,9 @@ class Histories {
     const double scale = fit_.layout().shared()[0].scale;
     const ForceParameters before = force_at(at);
     const double zeta = (before.c + step[0] * scale) / (2.0 * std::sqrt(before.m * before.k));
-    const Eigen::Index base = fit_.layout().count();
-    at.p += step.head(base);
+    const Eigen::Index base = count_of_base();
+    at.p += step.head(at.p.size());
+    at.zeros += step.segment(at.p.size(), at.zeros.size());
     for (std::size_t j = 0; j < taken.size(); ++j)
       at.g[static_cast<Eigen::Index>(taken[j])] += step[base + static_cast<Eigen::Index>(j)];
     at.p[1] = std::max(0.0, at.p[1]);
@@ -217,14 +226,14 @@ class Histories {
     const ForceParameters force = force_at(at);
     if (!(force.m > 0.0) || !(force.k > 0.0)) return std::nullopt;
     Channel x{.most_lags = 4};
-    // Innovations are nearly white: the noise levels are estimates. In a, noise of the drive may last for a period.
+    // Innovations are nearly white: the noise levels are estimates.
     Channel v{.most_lags = 4};
-    Channel a{.most_lags = 24};
+    Channel a{.most_lags = 4};
     const bool shake = white && !shaken_.empty() && !noise_grows(force);
     for (std::size_t t = 0; t < fit_.tests().size(); ++t)
       if (!add_test(t, at, wanted, shake, x, v, a)) return std::nullopt;
     Linearised result;
-    const Eigen::Index base = fit_.layout().count();
+    const Eigen::Index base = count_of_base();
     const auto more = static_cast<Eigen::Index>(wanted.size());
     result.squares = x.rows.col(0).squaredNorm();
     std::vector<Eigen::MatrixXd> parts;
@@ -284,15 +293,14 @@ class Histories {
     const History& history = *test.history;
     const double rate = history.sample_rate;
     const auto width = std::max<Eigen::Index>(1, std::lround(rate * 2.0 * std::numbers::pi / natural_ / 24.0));
-    make_innovations(motion.derivatives.steps, noise_[t], rows.x, rows.v);
+    if (!history.a.empty()) leave_out_reversals(motion.v, rows.a);
+    make_innovations(motion.derivatives.steps, noise_[t], force, rows);
     // The same rows in every step of a fit.
     if (moving_.size() == t) moving_.push_back(moving_rows(history, motion.x, parameters.F0 / parameters.k));
     const Eigen::Index moving = moving_[t];
     in_x.add(averaged(rows.x.topRows(moving), width));
     if (!history.v.empty()) in_v.add(averaged(rows.v.topRows(moving), width));
-    if (history.a.empty()) return true;
-    leave_out_reversals(motion.v, rows.a);
-    in_a.add(averaged(rows.a.topRows(moving), width));
+    if (!history.a.empty()) in_a.add(averaged(rows.a.topRows(moving), width));
     return true;
   }
 
@@ -305,18 +313,19 @@ class Histories {
     const History& history = *fit_.tests()[t].history;
     const double rate = history.sample_rate;
     const ForceParameters force = force_at(at);
-    const Eigen::VectorXd a = differentiated(motion.v, rate);
-    const Eigen::VectorXd jerk = differentiated(a, rate);
+    const Eigen::VectorXd& a = motion.derivatives.a;
+    const Eigen::VectorXd jerk = finely_differentiated(a, rate);
     const Eigen::MatrixXd columns_x = arranged(t, wanted, force, motion.derivatives.x);
     const Eigen::MatrixXd columns_v = arranged(t, wanted, force, motion.derivatives.v);
-    const Eigen::MatrixXd columns_a = differentiated(columns_v, rate);
-    const Reader read{*this, at, wanted};
+    const Reader read{*this, at, wanted, t};
     SensorRows rows;
     rows.x = read(MotionSensor::x, history.x, {motion.x, motion.v, a}, columns_x, columns_v);
-    if (!history.v.empty()) rows.v = read(MotionSensor::v, history.v, {motion.v, a, jerk}, columns_v, columns_a);
+    if (!history.v.empty())
+      rows.v = read(MotionSensor::v, history.v, {motion.v, a, jerk}, columns_v, differentiated(columns_v, rate));
     if (!history.a.empty())
-      rows.a = read(MotionSensor::a, history.a, {a, jerk, Eigen::VectorXd::Zero(jerk.size())}, columns_a,
-                    Eigen::MatrixXd::Zero(columns_a.rows(), columns_a.cols()));
+      rows.a =
+          read(MotionSensor::a, history.a, {a, jerk, Eigen::VectorXd::Zero(jerk.size())},
+               finely_differentiated(columns_v, rate), Eigen::MatrixXd::Zero(columns_v.rows(), columns_v.cols()));
     return rows;
   }
 
@@ -325,7 +334,7 @@ class Histories {
   [[nodiscard]] Eigen::MatrixXd arranged(std::size_t t, const Numbers& wanted, const ForceParameters& force,
                                          const Eigen::MatrixXd& derivatives) {
     const ForwardLayout& layout = fit_.layout();
-    const Eigen::Index base = layout.count();
+    const Eigen::Index base = count_of_base();
     Eigen::MatrixXd result =
         Eigen::MatrixXd::Zero(derivatives.rows(), base + static_cast<Eigen::Index>(wanted.size()));
     Eigen::Index from = 0;
@@ -364,6 +373,7 @@ class Histories {
     const Histories& owner;
     const Place& at;
     const Numbers& wanted;
+    std::size_t test;
 
     Eigen::MatrixXd operator()(MotionSensor sensor, const std::vector<double>& measured, const SensorMotion& motion,
                                const Eigen::MatrixXd& columns, const Eigen::MatrixXd& slopes) const {
@@ -380,9 +390,14 @@ class Histories {
         if (kind == Way::Kind::zero) errors.zero = g * length;
         if (kind == Way::Kind::zero_drift) errors.drift = g * length;
       });
+      const auto zero = std::ranges::find_if(
+          owner.zeros_, [&](const FreeZero& other) { return other.test == test && other.sensor == sensor; });
+      const Eigen::Index place = zero - owner.zeros_.begin();
+      if (zero != owner.zeros_.end()) errors.zero = zero->unit * at.zeros[place];
       Eigen::MatrixXd rows = reading_rows(measured, motion, errors, columns, slopes);
+      if (zero != owner.zeros_.end()) rows.col(1 + at.p.size() + place).setConstant(zero->unit);
       own([&](Way::Kind kind, double, Eigen::Index j) {
-        auto to = rows.col(1 + owner.fit_.layout().count() + j);
+        auto to = rows.col(1 + owner.count_of_base() + j);
         if (kind == Way::Kind::gain) to = motion.late(errors.delay);
         if (kind == Way::Kind::delay) to = errors.gain * (errors.delay * motion.curvature - motion.slope);
         if (kind == Way::Kind::zero) to.setConstant(length);
@@ -400,6 +415,7 @@ class Histories {
   double natural_ = 1.0;     ///< rad/s
   double unit_force_ = 1.0;  ///< N
   HistoryWays list_;
+  std::vector<FreeZero> zeros_;
   std::vector<ReadingNoise> noise_;
   std::map<std::size_t, SampledOscillator> shaken_;  ///< of the tests with noise in their drive
   std::vector<Eigen::Index> moving_;

@@ -111,12 +111,21 @@ Eigen::MatrixXd differentiated(const Eigen::MatrixXd& columns, double rate) {
   return slopes;
 }
 
+Eigen::MatrixXd finely_differentiated(const Eigen::MatrixXd& columns, double rate) {
+  Eigen::MatrixXd slopes = Eigen::MatrixXd::Zero(columns.rows(), columns.cols());
+  const Eigen::Index inner = columns.rows() - 4;
+  const auto later = [&](Eigen::Index samples) { return columns.middleRows(2 + samples, inner); };
+  slopes.middleRows(2, inner) = rate / 12.0 * (8.0 * (later(1) - later(-1)) - (later(2) - later(-2)));
+  return slopes;
+}
+
 void leave_out_reversals(const Eigen::VectorXd& v, Eigen::MatrixXd& rows) {
   for (Eigen::Index i = 0; i < v.size(); ++i) {
     const Eigen::Index first = std::max<Eigen::Index>(0, i - 2);
     const Eigen::Index last = std::min<Eigen::Index>(v.size() - 1, i + 2);
     const auto near = v.segment(first, last - first + 1);
-    if (!(near.minCoeff() > 0.0) && !(near.maxCoeff() < 0.0)) rows.row(i).setZero();
+    const bool at_end = last - first < 4;
+    if (at_end || (!(near.minCoeff() > 0.0) && !(near.maxCoeff() < 0.0))) rows.row(i).setZero();
   }
 }
 
@@ -144,7 +153,8 @@ ReadingNoise noise_levels(const History& history, double k, const MotionScale& s
   constexpr double rounding = 1e-9;
   return {std::hypot(k * noise_of(history.y), noise_of(history.force)),
           std::max(noise_of(history.x), rounding * scale.length),
-          std::max(noise_of(history.v), rounding * scale.speed)};
+          std::max(noise_of(history.v), rounding * scale.speed),
+          std::max(noise_of(history.a), rounding * scale.speed * scale.speed / scale.length)};
 }
 
 std::string fault_of_histories(const Record& record) {

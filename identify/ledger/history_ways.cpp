@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 namespace dualdamp::identify {
@@ -40,6 +41,24 @@ void add_reading(HistoryWays& list, const std::string& signal, MotionSensor sens
 }
 
 }  // namespace
+
+/// A vibration has a mean speed that x tells, and hardly a mean acceleration.
+std::vector<FreeZero> free_zeros(const std::vector<ForwardTest>& tests, const MotionScale& scale) {
+  const auto mean = [](const std::vector<double>& signal) {
+    return std::reduce(signal.begin(), signal.end()) / static_cast<double>(signal.size());
+  };
+  const double unit_of_a = scale.speed * scale.speed / scale.length;
+  std::vector<FreeZero> list;
+  for (std::size_t t = 0; t < tests.size(); ++t) {
+    const History& history = *tests[t].history;
+    const double duration = static_cast<double>(history.x.size() - 1) / history.sample_rate;
+    const double speed = (history.x.back() - history.x.front()) / duration;
+    if (!history.v.empty())
+      list.push_back({t, MotionSensor::v, scale.speed, (mean(history.v) - speed) / scale.speed});
+    if (!history.a.empty()) list.push_back({t, MotionSensor::a, unit_of_a, mean(history.a) / unit_of_a});
+  }
+  return list;
+}
 
 HistoryWays history_ways(const std::vector<ForwardTest>& tests, const KnownConstants& constants) {
   const auto has = [&](std::vector<double> History::* signal) {

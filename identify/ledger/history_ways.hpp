@@ -14,6 +14,16 @@ namespace dualdamp::identify {
 
 enum class MotionSensor { x, v, a };
 
+/// The zero of a sensor of v or of a, in one history. It is always free: no force depends on it.
+struct FreeZero {
+  std::size_t test = 0;
+  MotionSensor sensor = MotionSensor::v;
+  double unit = 1.0;  ///< m/s or m/s^2
+  double near = 0.0;  ///< a value near it, in this unit
+};
+
+[[nodiscard]] std::vector<FreeZero> free_zeros(const std::vector<ForwardTest>& tests, const MotionScale& scale);
+
 /// What a relaxation sets free.
 struct Way {
   enum class Kind { constant, force, friction_of_test, gain, delay, zero, zero_drift } kind = Kind::constant;

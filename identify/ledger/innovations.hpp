@@ -7,13 +7,16 @@
 ///
 ///   s_(i+1) = A_i s_i + b_i n_i,   r_i = H s_i + w_i
 ///
+/// A reading of a also sees the force of the same sample, (n - k x - c v)/m: n is a third part of s.
+///
 /// Each row of a regression with such errors is replaced by its difference from the prediction of the earlier rows,
 /// over the deviation of that difference. Its errors are then exactly independent, of unit variance, whether or not
-/// the motion is steady (kalman1960). Cost: 30 operations a row and column.
+/// the motion is steady (kalman1960). Cost: 40 operations a row and column.
 
 #include <Eigen/Core>
 #include <vector>
 
+#include "identify/models/force_parameters.hpp"
 #include "identify/models/sampled_oscillator.hpp"
 
 namespace dualdamp::identify {
@@ -23,11 +26,20 @@ struct ReadingNoise {
   double drive = 0.0;  ///< N
   double x = 0.0;      ///< m
   double v = 0.0;      ///< m/s; unused without readings of v
+  double a = 0.0;      ///< m/s^2; unused without readings of a
 };
 
-/// Replaces the rows of x, and those of v if it has any, by their innovations. `steps`: the first entry, which
-/// leads to the first sample, is not used.
+/// Of each sensor in one test the residual, the base columns, the relaxations; no rows where it was not read.
+struct SensorRows {
+  Eigen::MatrixXd x, v, a;
+
+  /// Adds the columns of `more` at the right.
+  void append(const SensorRows& more);
+};
+
+/// Replaces the rows of every sensor by their innovations. Rows of a that are zero stay so. `steps`: the first
+/// entry, which leads to the first sample, is not used.
 void make_innovations(const std::vector<SampledOscillator::Step>& steps, const ReadingNoise& noise,
-                      Eigen::MatrixXd& x, Eigen::MatrixXd& v);
+                      const ForceParameters& force, SensorRows& rows);
 
 }  // namespace dualdamp::identify

@@ -136,6 +136,7 @@ bool SampledOscillator::run(const Parameters& parameters, const std::vector<By>&
     start_tangents(by, forces, derivatives->with_steps);
     derivatives->x.resize(static_cast<Eigen::Index>(count_), static_cast<Eigen::Index>(by.size() + forces.size()));
     derivatives->v.resizeLike(derivatives->x);
+    derivatives->a.resize(derivatives->x.rows());
     derivatives->steps.clear();
     if (derivatives->with_steps) derivatives->steps.reserve(count_);
   }
@@ -166,7 +167,26 @@ void SampledOscillator::store(std::size_t sample, Eigen::VectorXd& x, Derivative
   if (derivatives == nullptr) return;
   derivatives->x.row(row) = tangents_.x.head(derivatives->x.cols()).transpose();
   derivatives->v.row(row) = tangents_.v.head(derivatives->v.cols()).transpose() * rate_;
+  derivatives->a[row] = acceleration(sample);
   if (derivatives->with_steps) store_step(derivatives->steps);
+}
+
+/// Of the present state, which is that of a sample.
+double SampledOscillator::acceleration(std::size_t sample) const {
+  if (direction_ == 0) return 0.0;
+  const std::size_t interval = std::min(sample, count_ - 2);
+  const double at = sample == interval ? 0.0 : 1.0;
+  Instant here;
+  here.x = x_;
+  here.v = v_ * rate_;
+  here.direction = direction_;
+  here.y = value_at(y_[interval], nodes, at);
+  here.drive = p_.k * here.y + value_at(force_[interval], nodes, at);
+  here.way = std::abs(x_ - reversal_);
+  here.course = static_cast<double>(sample) / static_cast<double>(count_ - 1);
+  double force = here.drive - p_.k * x_ - p_.c * here.v - p_.F0 * direction_;
+  for (const auto& [further, g] : acting_) force -= g * (*further)(here);
+  return force / p_.m;
 }
 
 /// From one sample to the next, through the events between them.

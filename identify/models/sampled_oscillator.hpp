@@ -59,12 +59,13 @@ class SampledOscillator {
     Eigen::Matrix2d carried;
     Eigen::Vector2d pushed;
   };
-  /// Derivatives of the motion at the samples.
+  /// Derivatives of the motion at the samples, by the parameters and by time.
   struct Derivatives {
     bool with_steps = false;  ///< fill `steps`; this costs as much as three parameters
     Eigen::MatrixXd x = {};   ///< a row for each sample, a column for each of `by` and then of `forces`
     Eigen::MatrixXd v = {};
     std::vector<Step> steps = {};  ///< to each sample from the one before; the first means nothing
+    Eigen::VectorXd a = {};        ///< the acceleration, to rounding
   };
 
   /// The drive of a history: y and force, each zero when it was not measured. At least eight samples.
@@ -117,6 +118,7 @@ class SampledOscillator {
   void start_tangents(const std::vector<By>& by, const std::vector<Force>& forces, bool with_steps);
   void store(std::size_t sample, Eigen::VectorXd& x, Derivatives* derivatives, Eigen::VectorXd* v);
   void store_step(std::vector<Step>& steps);
+  [[nodiscard]] double acceleration(std::size_t sample) const;
   [[nodiscard]] Drive push(const Force& force) const;
   void move_to(double u);
   void settle(double at);

@@ -207,9 +207,12 @@ class Laboratory {
                           0.002 * size * normal());
       if (!free)
         history.force.push_back(motion.drive[i] * (1.0 + off_.drive_gain) + 0.005 * largest_force * normal());
-      if (off_.v_noise > 0.0) history.v.push_back(motion.v[i] + off_.v_noise * size * rig.omega() * normal());
+      const double speed = size * rig.omega();
+      if (off_.v_noise > 0.0) history.v.push_back(motion.v[i] + off_.v_noise * speed * (normal() + off_.zero));
+      if (off_.a_noise > 0.0)
+        history.a.push_back(motion.a[i] + off_.a_noise * speed * rig.omega() * (normal() + off_.zero));
     }
-    for (std::vector<double>* signal : {&history.x, &history.v, &history.force}) convert(*signal);
+    for (std::vector<double>* signal : {&history.x, &history.v, &history.a, &history.force}) convert(*signal);
     result_.record.histories.push_back(std::move(history));
   }
 

@@ -35,6 +35,8 @@ struct Off {
   double sweep_drift = 0.0;  ///< F0 of the last sweep over that of the first, less one
   double zero_drift = 0.0;   ///< of the zero of x, over the record, in x_f
   double v_noise = 0.0;      ///< of a measured velocity, over its largest value; 0: not measured
+  double a_noise = 0.0;      ///< the same of a measured acceleration
+  double zero = 0.0;         ///< of v and of a, in the deviation of their noise
   double noise = 1.0;        ///< factor on all noise
   double clock = 0.0;        ///< step of the clock that times of extremes are rounded to [s]; 0: none
   int bits = 0;              ///< of the converter of every signal, over 1.25 times its range; 0: none

@@ -129,3 +129,55 @@ TEST_CASE("A stiffness 10 to 20 % too high beside one steady level is charged, w
     CHECK(mentions(found.verdict, "they want " + ledger.entry(Assumption::constants).wanted));
   }
 }
+
+namespace {
+
+/// The least p of the family of tests.
+double least_p(const Ledger& ledger) {
+  double least = 1.0;
+  for (const LedgerEntry& entry : ledger.entries) least = std::min(least, entry.p_value.value_or(1.0));
+  return least;
+}
+
+}  // namespace
+
+TEST_CASE("A true record of x and a contradicts nothing, whatever the zero of a") {
+  int charged = 0;
+  // A model of a that is less accurate than the sensor is seen in all of them.
+  for (const Kind kind : {Kind::decay, Kind::forced, Kind::beat, Kind::ramp}) {
+    CAPTURE(name_of(kind));
+    constexpr int records = 6;
+    int seen = 0;
+    for (std::uint64_t seed = first_seed; seed < first_seed + records; ++seed) {
+      CAPTURE(seed);
+      const auto ledger_with = [&](double zero) {
+        const Measured m = measured(kind, seed, nullptr, {.a_noise = 0.001, .zero = zero, .samples = 25.0});
+        return ledger_of(m.record, m.constants);
+      };
+      const Ledger ledger = ledger_with(0.0);
+      seen += least_p(ledger) < family_level ? 1 : 0;
+      charged += std::ranges::any_of(assumptions(), [&](Assumption a) { return ledger.is_violated(a); }) ? 1 : 0;
+      const Ledger off = ledger_with(0.5);
+      CHECK(off.plain.F0 == Approx(ledger.plain.F0).epsilon(1e-6));
+      CHECK(least_p(off) == Approx(least_p(ledger)).margin(0.05));
+    }
+    CHECK(seen <= 2);
+  }
+  CHECK(charged <= 1);  // of 24, at a level of 5 %
+}
+
+TEST_CASE("The zero of v moves no estimate of the joint model") {
+  for (const Kind kind : {Kind::decay, Kind::beat}) {
+    const auto ledger_with = [&](double zero) {
+      const Measured m = measured(kind, first_seed, nullptr, {.v_noise = 0.002, .zero = zero});
+      return ledger_of(m.record, m.constants);
+    };
+    const Ledger right = ledger_with(0.0);
+    const Ledger off = ledger_with(5.0);
+    REQUIRE(right.joint);
+    REQUIRE(off.joint);
+    CHECK(off.joint->value.zeta == Approx(right.joint->value.zeta).epsilon(1e-6));
+    CHECK(off.joint->value.F0 == Approx(right.joint->value.F0).epsilon(1e-6));
+    CHECK(least_p(off) == Approx(least_p(right)).margin(0.05));
+  }
+}

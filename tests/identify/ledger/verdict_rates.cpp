@@ -72,6 +72,13 @@ std::vector<Row> rows() {
   add("8 bits", nullptr, {.bits = 8}, {Kind::extremes, Kind::decay, Kind::forced, Kind::beat, Kind::random});
   add("12 samples", nullptr, {.samples = 12.0}, {Kind::decay, Kind::forced, Kind::beat, Kind::random});
   add("noise in v", nullptr, {.v_noise = 0.02}, {Kind::decay, Kind::forced, Kind::beat, Kind::ramp, Kind::random});
+  add("zero of v", nullptr, {.v_noise = 0.002, .zero = 0.5}, {Kind::decay, Kind::forced, Kind::beat});
+  for (const double samples : {25.0, 100.0}) {
+    const std::string what = "a with " + std::to_string(std::lround(samples)) + " samples";
+    const std::vector<Kind> kinds = {Kind::decay, Kind::forced, Kind::beat, Kind::ramp, Kind::random};
+    add(what, nullptr, {.a_noise = 0.001, .samples = samples}, kinds);
+    add("zero of " + what, nullptr, {.a_noise = 0.001, .zero = 0.5, .samples = samples}, kinds);
+  }
   add("friction: quadratic", [](Rig& rig) { rig.drag = 0.5; }, {}, all);
   add("friction: saturating", [](Rig& rig) { rig.saturation = 0.5; }, {}, all);
   add("friction: Stribeck", [](Rig& rig) { rig.stribeck = 0.5; }, {}, all);

@@ -88,3 +88,14 @@ TEST_CASE("Derivatives beside forces that act are those of differences") {
     CHECK((column - slope).norm() < 0.01 * slope.norm());
   }
 }
+
+TEST_CASE("The acceleration at the samples is that of the motion, at the ends and beside reversals too") {
+  const Motion motion = motion_of(rig(), drive, 1.5, rate);
+  Eigen::VectorXd x;
+  SampledOscillator::Derivatives derivatives;
+  REQUIRE(SampledOscillator(history_of(motion)).run(parameters_of(rig()), {}, x, &derivatives));
+  const Eigen::Map<const Eigen::VectorXd> a(motion.a.data(), x.size());
+  const Eigen::VectorXd off = (derivatives.a - a).tail(x.size() - 1).cwiseAbs();
+  INFO("at sample " << off.size() << ", median " << off[off.size() / 2]);
+  CHECK(off.maxCoeff() < 1e-4 * a.cwiseAbs().maxCoeff());
+}
