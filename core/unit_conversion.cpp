@@ -5,11 +5,12 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cerrno>
 #include <cmath>
 #include <map>
 #include <memory>
 #include <mutex>
-#include <stdexcept>
+#include <system_error>
 #include <utility>
 
 #include "core/numbers.hpp"
@@ -116,9 +117,12 @@ class UnitSystem {
   using Unit = std::unique_ptr<ut_unit, decltype(&ut_free)>;
   using Converter = std::unique_ptr<cv_converter, decltype(&cv_free)>;
 
-  UnitSystem() : system_((ut_set_error_message_handler(ut_ignore), ut_read_xml(nullptr)), &ut_free_system) {
+  UnitSystem()
+      : system_((ut_set_error_message_handler(ut_ignore), errno = 0, ut_read_xml(nullptr)), &ut_free_system) {
+    // It is not installed, or there is no memory for it.
     if (!system_)
-      throw std::runtime_error("the unit database of udunits2 cannot be read; is libudunits2-data installed?");
+      throw std::system_error(errno == 0 ? EIO : errno, std::generic_category(),
+                              "the unit database of udunits2 (package libudunits2-data) cannot be read");
   }
 
   [[nodiscard]] Unit parse(const std::string& text) const {

@@ -93,6 +93,16 @@ class StatedUncertainties(unittest.TestCase):
         low, high = found[0]["interval95"]["zeta"]
         return 0.5 * (high - low), " ".join(document["warnings"]) + result.stderr
 
+    def test_the_noise_of_few_phases_is_known_where_that_of_the_amplitudes_is_stated(self):
+        """any_law had no degrees of freedom left, and ended as a bug of the program."""
+        lines = ["Y [mm],x [mm],phase [deg]"]
+        for i, line in enumerate(PAIRS.splitlines()[1:9]):
+            lines.append(",".join(line.split(",")[:2]) + ("," if i % 4 else ",89.6"))
+        result = self.run_on("\n".join(lines) + "\n", "--sigma-x", "0.03 mm", "--method", "any_law", "--json")
+        self.assertIn(result.returncode, (0, 4), result.stderr)
+        estimates = json.loads(result.stdout)["result"]["estimates"]
+        self.assertTrue(any(e["method"] == "any_law" and e["laws"] for e in estimates))
+
     def test_stated_noise_of_pairs_is_that_of_the_answer(self):
         own, _ = self.joint(PAIRS, *QUICK)
         wide, said = self.joint(PAIRS, *QUICK, "--sigma-x", "0.3 mm")

@@ -6,6 +6,7 @@ usage: test_limits.py PROGRAM ROOT [TEST...]; DUALDAMP_TRIES: how often each is 
 Whatever happens, no file under its final name is half-written: documents parse, tables end with their last row.
 """
 
+import hashlib
 import json
 import os
 import random
@@ -77,6 +78,9 @@ class Limits(unittest.TestCase):
                 rows = [line for line in lines[:-1] if not line.startswith("#")]
                 if '"' not in path.read_text():
                     self.assertEqual({row.count(",") for row in rows}, {rows[0].count(",")}, path)
+            elif path.suffix == ".yaml":
+                seal, text = path.read_bytes().split(b"\n", 1)
+                self.assertTrue(seal.decode().endswith(hashlib.sha256(text).hexdigest()), path)
             elif path.suffix == ".html":
                 self.assertTrue(path.read_text().rstrip().endswith("</html>"), path)
             elif path.suffix != ".jsonl":

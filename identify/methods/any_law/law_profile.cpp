@@ -177,7 +177,6 @@ ChannelNoise noise_of(const ReadingModel& model, const ChannelNoise& noise, cons
     for (std::size_t i = 0; i < model.channels().size(); ++i)
       if (model.channels()[i] == static_cast<int>(channel)) rows.push_back(static_cast<Index>(i));
     if (rows.empty()) continue;
-    known = false;
     const MatrixXd curve = model.smooth_curve()(rows, Eigen::all);
     const VectorXd own = residuals(rows);
     const VectorXd left = own - curve * pivoted_least_squares(curve, own);
@@ -189,6 +188,7 @@ ChannelNoise noise_of(const ReadingModel& model, const ChannelNoise& noise, cons
                                            model.least_deviation(static_cast<int>(channel)));
       continue;
     }
+    known = false;
     const double own_freedom = std::max(1.0, static_cast<double>(own.size() - rank));
     freedom += own_freedom;
     found.deviations[channel] = std::max(noise.deviations[channel] * std::sqrt(left.squaredNorm() / own_freedom),
