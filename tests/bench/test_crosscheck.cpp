@@ -1,8 +1,10 @@
 /// The campaign of random systems: its draws, its variants of a scenario, and whether it finds planted faults.
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <csignal>
+#include <cstdlib>
 #include <map>
 #include <stdexcept>
 #include <utility>
@@ -273,7 +275,10 @@ TEST_CASE("crosscheck: random systems have no disagreement, crash or hang", "[cr
   const std::uint64_t seed = GENERATE(31U, 41U, 42U, 71U);
   const std::uint32_t count = seed == 71U ? 20 : 30;
   crosscheck::Summary summary;
-  crosscheck::run_campaign(seed, 0, count, {.jobs = 2, .processor_seconds = 30}, summary);
+  // Sanitizers make the motions slow.
+  const char* patience = std::getenv("DUALDAMP_PATIENCE");
+  const int seconds = 30 * (patience == nullptr ? 1 : std::max(1, std::atoi(patience)));
+  crosscheck::run_campaign(seed, 0, count, {.jobs = 2, .processor_seconds = seconds}, summary);
   INFO(summary.text(seed));
   for (const auto& [index, fault] : summary.faults()) FAIL_CHECK(index << ": " << fault);
 }

@@ -102,7 +102,7 @@ TEST_CASE("random_response: each motion has a drive of its own, which its readin
   CHECK(difference(truth[0].histories[0].force, truth[1].histories[0].force) ==
         Approx(std::sqrt(2.0) * 1e-3).epsilon(0.05));
   // Different motions differ by at least 0.4 of their size.
-  const std::vector<double>& other = campaign.records(1)[0].histories[0].x;
+  const std::vector<double> other = campaign.records(1)[0].histories[0].x;
   CHECK(difference(x, other) > 0.4 * difference(x, std::vector<double>(x.size())));
   // The same campaign has the same histories.
   CHECK(Campaign(text + force).records(0)[1].histories[0].x == truth[1].histories[0].x);
