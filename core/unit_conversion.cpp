@@ -10,6 +10,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <new>
 #include <system_error>
 #include <utility>
 
@@ -88,6 +89,12 @@ class UnitGrammar {
 };
 
 /// udunits2's parser has global state: one system, one mutex.
+/// Throws std::bad_alloc if there is little memory left: udunits2 ends the program where an allocation fails.
+void require_memory() {
+  constexpr std::size_t enough = std::size_t{8} << 20U;  // of the database and its parser, some 3 MB
+  ::operator delete(::operator new(enough));
+}
+
 class UnitSystem {
  public:
   static UnitSystem& instance() {
@@ -118,7 +125,8 @@ class UnitSystem {
   using Converter = std::unique_ptr<cv_converter, decltype(&cv_free)>;
 
   UnitSystem()
-      : system_((ut_set_error_message_handler(ut_ignore), errno = 0, ut_read_xml(nullptr)), &ut_free_system) {
+      : system_((require_memory(), ut_set_error_message_handler(ut_ignore), errno = 0, ut_read_xml(nullptr)),
+                &ut_free_system) {
     // It is not installed, or there is no memory for it.
     if (!system_)
       throw std::system_error(errno == 0 ? EIO : errno, std::generic_category(),
