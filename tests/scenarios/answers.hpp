@@ -1,10 +1,13 @@
 #pragma once
-/// Answers of analyses of the system of the paper's numerical example.
+/// Answers of analyses of the system of the paper's numerical example, and parts of answers.
 
+#include <cstdio>
+#include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
+#include <vector>
 
 #include "scenarios/output.hpp"
 #include "scenarios/run.hpp"
@@ -40,5 +43,26 @@ inline nlohmann::json result_of(const scenarios::RunResult& result) {
 inline nlohmann::json answer_to(const std::string& analysis, const std::string& more = {}) {
   return result_of(scenarios::run(scenario_of(analysis, more)));
 }
+
+/// The numbers of a column of a table; empty if there is none of this name.
+inline std::vector<double> column_of(const scenarios::RunResult& result, const std::string& table,
+                                     const std::string& name) {
+  for (const scenarios::Table& candidate : result.tables)
+    if (const scenarios::Column* column = candidate.name == table ? candidate.find(name) : nullptr)
+      return column->numbers;
+  return {};
+}
+
+/// A file beside the test's scenarios, deleted with the object.
+class File {
+ public:
+  File(const std::string& name, const std::string& text) : path_(name) { std::ofstream(path_) << text; }
+  File(const File&) = delete;
+  File& operator=(const File&) = delete;
+  ~File() { std::remove(path_.c_str()); }
+
+ private:
+  std::string path_;
+};
 
 }  // namespace dualdamp::testing

@@ -17,22 +17,12 @@
 
 using namespace dualdamp;
 using scenarios::parse_scenario;
+using testing::column_of;
+using testing::File;
 
 namespace {
 
 constexpr const char* rig = "mass: 1 kg, stiffness: 1000 N/m";
-
-/// A file beside the test's scenarios, deleted with the object.
-class File {
- public:
-  File(const std::string& name, const std::string& text) : path_(name) { std::ofstream(path_) << text; }
-  File(const File&) = delete;
-  File& operator=(const File&) = delete;
-  ~File() { std::remove(path_.c_str()); }
-
- private:
-  std::string path_;
-};
 
 nlohmann::json result_of_text(const std::string& text) {
   const scenarios::RunResult result = scenarios::run(parse_scenario(text, "test.yaml"));
@@ -43,16 +33,6 @@ nlohmann::json result_of_text(const std::string& text) {
 
 std::string fit_scenario(const std::string& system, const std::string& analysis, const std::string& more = {}) {
   return "schema: dualdamp/1\nsystem: {" + system + "}\n" + more + "analysis: {type: fit, " + analysis + "}\n";
-}
-
-/// The column `name` of a table of the result's run.
-std::vector<double> column_of(const scenarios::RunResult& result, const std::string& table,
-                              const std::string& name) {
-  for (const scenarios::Table& candidate : result.tables)
-    if (candidate.name == table)
-      for (const scenarios::Column& column : candidate.columns)
-        if (column.name == name) return column.numbers;
-  return {};
 }
 
 std::string fault_of(const std::string& text) {

@@ -1,8 +1,6 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <cstdio>
-#include <fstream>
 #include <numbers>
 #include <sstream>
 
@@ -13,29 +11,10 @@
 
 using namespace dualdamp;
 using scenarios::parse_scenario;
+using testing::column_of;
+using testing::File;
 
 namespace {
-
-/// A file beside the test's scenarios, deleted with the object.
-class File {
- public:
-  File(const std::string& name, const std::string& text) : path_(name) { std::ofstream(path_) << text; }
-  File(const File&) = delete;
-  File& operator=(const File&) = delete;
-  ~File() { std::remove(path_.c_str()); }
-
- private:
-  std::string path_;
-};
-
-std::vector<double> column_of(const scenarios::RunResult& result, const std::string& table,
-                              const std::string& name) {
-  for (const scenarios::Table& candidate : result.tables)
-    if (candidate.name == table)
-      for (const scenarios::Column& column : candidate.columns)
-        if (column.name == name) return column.numbers;
-  return {};
-}
 
 constexpr double rate = 250.0;
 constexpr double noise = 1e-5;
