@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "core/numbers.hpp"
-#include "identify/design/continuation.hpp"
+#include "identify/design/continued_record.hpp"
 #include "identify/methods/amplitudes/steady_states.hpp"
 #include "identify/methods/any_law/any_law.hpp"
 #include "identify/methods/any_law/steady_readings.hpp"
@@ -55,17 +55,17 @@ class Advisor {
 
   /// Advice for candidates of the same plan: the engines compute their states, or their release, once.
   [[nodiscard]] std::vector<Advice> advice(std::span<const CandidateMeasurement> same) const {
-    const Continuation continuation(record_, rivals_, own_, same.front().plan);
-    if (!continuation.possible()) return {};
+    const ContinuedRecord continued(record_, rivals_, own_, same.front().plan);
+    if (!continued.possible()) return {};
     std::vector<Advice> list;
     for (const CandidateMeasurement& candidate : same)
-      if (auto one = advice(candidate, continuation)) list.push_back(std::move(*one));
+      if (auto one = advice(candidate, continued)) list.push_back(std::move(*one));
     return list;
   }
 
  private:
   [[nodiscard]] std::optional<Advice> advice(const CandidateMeasurement& candidate,
-                                             const Continuation& continuation) const {
+                                             const ContinuedRecord& continued) const {
     const Widths before = widths_of(record_.study.intervals, moved_);
     Advice advice{.candidate = candidate};
     std::map<std::size_t, std::optional<LawIntervals>> shared;
@@ -81,12 +81,12 @@ class Advisor {
         // Truths that are plain friction share some draws.
         constexpr std::size_t few = 4;
         const std::size_t number = truth * draws_ + draw;
-        const bool plain = continuation.is_plain(truth);
+        const bool plain = continued.is_plain(truth);
         std::optional<LawIntervals> answer;
         if (const auto known = shared.find(number % few); plain && known != shared.end())
           answer = known->second;
         else
-          answer = continuation.answer(candidate, truth, plain ? number % few : number);
+          answer = continued.answer(candidate, truth, plain ? number % few : number);
         if (plain) shared.emplace(number % few, answer);
         if (!answer) continue;
         own.add(widths_of(*answer, moved_));

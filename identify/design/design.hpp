@@ -3,9 +3,9 @@
 /// would tell apart the laws that a record allows.
 ///
 /// Each law that the record allows is taken as the truth, at its most probable severity. Its readings of a
-/// candidate, with noise, continue the record (continuation.hpp), and any_law's own rules answer to both together:
-/// hull, average, and which of the other laws are rejected. The advice is the mean over the truths. The noise has a
-/// fixed seed.
+/// candidate, with noise, continue the record (continued_record.hpp), and any_law's own rules answer to both
+/// together: hull, average, and which of the other laws are rejected. The advice is the mean over the truths. The
+/// noise has a fixed seed.
 ///
 /// Cost: some seconds for eight states.
 

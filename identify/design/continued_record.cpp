@@ -1,4 +1,4 @@
-#include "identify/design/continuation.hpp"
+#include "identify/design/continued_record.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -113,7 +113,7 @@ Outlooks outlooks_of(const StudiedRecord& record, const std::vector<Rival>& riva
 }
 
 /// Record and plan as one record: the readings of one truth, and which parts of the outlooks predict them.
-class Continuation::Joint {
+class ContinuedRecord::Joint {
  public:
   Joint(const StudiedRecord& record, const CandidateMeasurement& candidate, const Outlook& of_record,
         const Outlook& of_plan, std::uint64_t draw)
@@ -215,8 +215,8 @@ class Continuation::Joint {
       rows_;  ///< of each reading: whether it is planned, and its row in the outlook
 };
 
-Continuation::Continuation(const StudiedRecord& record, const std::vector<Rival>& rivals, const Outlooks& own,
-                           const MeasurementPlan& plan)
+ContinuedRecord::ContinuedRecord(const StudiedRecord& record, const std::vector<Rival>& rivals, const Outlooks& own,
+                                 const MeasurementPlan& plan)
     : record_(record), rivals_(rivals), own_(own), plan_(plan) {
   const auto* states = std::get_if<std::vector<PlannedState>>(&plan);
   if (states != nullptr && *states == plan_of(record.states)) {
@@ -250,7 +250,7 @@ std::size_t best_of(const Rival& rival) {
 
 }  // namespace
 
-bool Continuation::possible() const {
+bool ContinuedRecord::possible() const {
   for (std::size_t i = 0; i < rivals_.size(); ++i) {
     const std::size_t best = best_of(rivals_[i]);
     if (rivals_[i].allowed && rivals_[i].fits[best]->severity != 0.0 && !(planned_[i][best] && own_[i][best]))
@@ -259,12 +259,12 @@ bool Continuation::possible() const {
   return planned_.front().front() && own_.front().front();
 }
 
-bool Continuation::is_plain(std::size_t truth) const {
+bool ContinuedRecord::is_plain(std::size_t truth) const {
   return rivals_[truth].fits[best_of(rivals_[truth])]->severity == 0.0;
 }
 
-std::optional<LawIntervals> Continuation::answer(const CandidateMeasurement& candidate, std::size_t truth,
-                                                 std::uint64_t draw) const {
+std::optional<LawIntervals> ContinuedRecord::answer(const CandidateMeasurement& candidate, std::size_t truth,
+                                                    std::uint64_t draw) const {
   const std::size_t best = best_of(rivals_[truth]);
   // At severity zero each law is plain friction, which is the first rival.
   const bool plain_truth = is_plain(truth);

@@ -51,18 +51,18 @@ struct Outlook {
 /// Of each rival, and of each of its fits; nothing where it has no such motion.
 using Outlooks = std::vector<std::vector<std::optional<Outlook>>>;
 
-/// The laws of a study that take part in continuations.
+/// The laws of a study that take part in continued records.
 [[nodiscard]] std::vector<Rival> rivals_of(const LawStudy& study);
 
 /// All that the states of the record could have given, also their phases.
 [[nodiscard]] Outlooks outlooks_of(const StudiedRecord& record, const std::vector<Rival>& rivals);
 
-/// Continuations by candidates of the same plan, which differ only in what they read.
-class Continuation {
+/// The record continued by candidates of the same plan, which differ only in what they read.
+class ContinuedRecord {
  public:
   /// `own`: outlooks of the record.
-  Continuation(const StudiedRecord& record, const std::vector<Rival>& rivals, const Outlooks& own,
-               const MeasurementPlan& plan);
+  ContinuedRecord(const StudiedRecord& record, const std::vector<Rival>& rivals, const Outlooks& own,
+                  const MeasurementPlan& plan);
 
   /// Whether each allowed law has such motions at that severity.
   [[nodiscard]] bool possible() const;
