@@ -123,7 +123,7 @@ class ContinuedRecord::Joint {
     const VectorXd& start = record.study.plain.fit.unknowns;
     if (const auto* decay = std::get_if<PlannedDecay>(&candidate.plan)) {
       VectorXd extremes = of_plan.readings;
-      for (Index i = 0; i < extremes.size(); ++i) extremes[i] += error(0);
+      for (double& extreme : extremes) extreme += error(0);
       model_ = joined_readings(
           record.model,
           planned_decay(record.model, decay->release, std::move(extremes), record.constants, deviations_[0]),

@@ -33,7 +33,7 @@ Coordinate coordinate_of(const FitParameter& parameter, double size) {
 
 /// Calls `work`. False if a law or an engine refuses the values.
 template <typename Work>
-bool guarded(Work work) {
+bool guarded(const Work& work) {
   try {
     return work();
   } catch (const friction::LawFault&) {

@@ -8,7 +8,7 @@ namespace dualdamp::scenarios {
 class RegimeMapQuestion final : public Question {
  public:
   /// Frequencies in rad/s, amplitudes in m or N.
-  RegimeMapQuestion(std::vector<double> frequencies, std::vector<double> amplitudes, bool with_boundary)
+  RegimeMapQuestion(std::vector<double> frequencies, const std::vector<double>& amplitudes, bool with_boundary)
       : RegimeMapQuestion(std::move(frequencies), amplitudes, with_boundary, amplitudes) {}
   /// `scanned`: amplitudes at which the search for the boundary looks, in place of those of the map.
   RegimeMapQuestion(std::vector<double> frequencies, std::vector<double> amplitudes, bool with_boundary,

@@ -3,6 +3,7 @@
 #include <matio.h>
 
 #include <algorithm>
+#include <bit>
 #include <cstring>
 #include <span>
 
