@@ -2,7 +2,7 @@
 
 #include "bench/mechanisms.hpp"
 #include "bench/stress_test.hpp"
-#include "scenarios/analyses/analyses.hpp"
+#include "scenarios/analyses.hpp"
 
 namespace dualdamp::bench {
 

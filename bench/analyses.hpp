@@ -3,7 +3,7 @@
 ///
 ///     scenarios::run(scenarios::load_scenario("rig.yaml", {.analyses = bench::analyses()}))
 
-#include "scenarios/analyses/analysis.hpp"
+#include "scenarios/analysis.hpp"
 
 namespace dualdamp::bench {
 

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "bench/rigs.hpp"
-#include "scenarios/analyses/analysis.hpp"
+#include "scenarios/analysis.hpp"
 
 namespace dualdamp::bench {
 

@@ -15,7 +15,7 @@
 #include "bench/score/case_answer.hpp"
 #include "identify/methods.hpp"
 #include "identify/records/sensors.hpp"
-#include "scenarios/analyses/analysis.hpp"
+#include "scenarios/analysis.hpp"
 
 namespace dualdamp::bench {
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "identify/readers/record_reader.hpp"
-#include "scenarios/analyses/analysis.hpp"
+#include "scenarios/analysis.hpp"
 #include "scenarios/format/reader.hpp"
 #include "sim/sampled_signal.hpp"
 

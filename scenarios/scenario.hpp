@@ -16,8 +16,8 @@
 
 #include "core/diagnostics.hpp"
 #include "friction_models/parameters.hpp"
-#include "scenarios/analyses/analyses.hpp"
-#include "scenarios/analyses/analysis.hpp"
+#include "scenarios/analyses.hpp"
+#include "scenarios/analysis.hpp"
 #include "sim/model.hpp"
 
 namespace dualdamp::scenarios {

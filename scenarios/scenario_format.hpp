@@ -1,7 +1,7 @@
 #pragma once
 /// The scenario format as a table of keys. Contract: docs/user-guide.md.
 
-#include "scenarios/analyses/analysis.hpp"
+#include "scenarios/analysis.hpp"
 #include "scenarios/format/keys.hpp"
 
 namespace dualdamp::scenarios {

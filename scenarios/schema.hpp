@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "scenarios/analyses/analysis.hpp"
+#include "scenarios/analysis.hpp"
 
 namespace dualdamp::scenarios {
 

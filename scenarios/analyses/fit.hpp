@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "scenarios/analyses/analysis.hpp"
 #include "scenarios/analyses/shared/fit_setup.hpp"
+#include "scenarios/analysis.hpp"
 
 namespace dualdamp::scenarios {
 

@@ -1,8 +1,8 @@
 #pragma once
 /// `formula`: a closed form of the theory, which depends on its arguments alone.
 
-#include "scenarios/analyses/analysis.hpp"
 #include "scenarios/analyses/shared/formulas.hpp"
+#include "scenarios/analysis.hpp"
 
 namespace dualdamp::scenarios {
 

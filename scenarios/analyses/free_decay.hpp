@@ -1,7 +1,7 @@
 #pragma once
 /// `free_decay`: extremes of the free vibration from the initial state.
 
-#include "scenarios/analyses/analysis.hpp"
+#include "scenarios/analysis.hpp"
 
 namespace dualdamp::scenarios {
 

@@ -1,7 +1,7 @@
 #pragma once
 /// `frequency_branch`: one orbit continued in frequency by arc length.
 
-#include "scenarios/analyses/analysis.hpp"
+#include "scenarios/analysis.hpp"
 
 namespace dualdamp::scenarios {
 

@@ -1,7 +1,7 @@
 #pragma once
 /// `frequency_response`: output amplitude over frequency, as steady states.
 
-#include "scenarios/analyses/analysis.hpp"
+#include "scenarios/analysis.hpp"
 #include "sim/orbits/stepped_curves.hpp"
 
 namespace dualdamp::scenarios {

@@ -12,7 +12,7 @@
 #include "identify/methods.hpp"
 #include "identify/records/sensors.hpp"
 #include "identify/uncertainty/uncertain_constants.hpp"
-#include "scenarios/analyses/analysis.hpp"
+#include "scenarios/analysis.hpp"
 #include "scenarios/measurements/measure.hpp"
 
 namespace dualdamp::scenarios {

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "scenarios/analyses/analysis.hpp"
 #include "scenarios/analyses/shared/fit_setup.hpp"
+#include "scenarios/analysis.hpp"
 
 namespace dualdamp::scenarios {
 

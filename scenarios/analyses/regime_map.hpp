@@ -1,7 +1,7 @@
 #pragma once
 /// `regime_map`: steady states over frequency and input amplitude, and where they begin to stick.
 
-#include "scenarios/analyses/analysis.hpp"
+#include "scenarios/analysis.hpp"
 
 namespace dualdamp::scenarios {
 

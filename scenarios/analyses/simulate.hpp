@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "scenarios/analyses/analysis.hpp"
+#include "scenarios/analysis.hpp"
 
 namespace dualdamp::scenarios {
 

@@ -1,7 +1,7 @@
 #pragma once
 /// `steady_state`: the periodic motion approached from the initial state.
 
-#include "scenarios/analyses/analysis.hpp"
+#include "scenarios/analysis.hpp"
 
 namespace dualdamp::scenarios {
 

@@ -1,7 +1,7 @@
 #pragma once
 /// `xy_branch`: one orbit continued in input amplitude by arc length.
 
-#include "scenarios/analyses/analysis.hpp"
+#include "scenarios/analysis.hpp"
 
 namespace dualdamp::scenarios {
 

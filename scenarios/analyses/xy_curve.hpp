@@ -1,7 +1,7 @@
 #pragma once
 /// `xy_curve`: output amplitude over input amplitude, as steady states.
 
-#include "scenarios/analyses/analysis.hpp"
+#include "scenarios/analysis.hpp"
 #include "sim/orbits/stepped_curves.hpp"
 
 namespace dualdamp::scenarios {

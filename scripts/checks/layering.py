@@ -60,11 +60,11 @@ ROOMS = {
         "design": [".", "statistics", "methods"],
     },
     "scenarios": {
-        ".": ["format", "results", "measurements", "analyses"],  # loads and runs
+        ".": ["format", "results", "measurements", "analyses"],  # loads and runs; the list of analyses
         "format": [],
         "results": ["format"],
         "measurements": ["format"],
-        "analyses": ["format", "results", "measurements"],
+        "analyses": [".", "format", "results", "measurements"],
     },
 }
 ANYWHERE = list(FOLDERS)

@@ -2,7 +2,7 @@
 /// A branch of steady states over the amplitude or the frequency of the excitation. `xy_branch` and
 /// `frequency_branch` differ in this parameter only.
 
-#include "scenarios/analyses/analysis.hpp"
+#include "scenarios/analysis.hpp"
 #include "scenarios/results/motion.hpp"
 #include "sim/orbits/continuation.hpp"
 

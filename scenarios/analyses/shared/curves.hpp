@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "scenarios/analyses/analysis.hpp"
+#include "scenarios/analysis.hpp"
 #include "scenarios/results/motion.hpp"
 #include "sim/orbits/curves.hpp"
 #include "sim/orbits/stepped_curves.hpp"

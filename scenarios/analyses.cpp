@@ -1,6 +1,6 @@
-#include "scenarios/analyses/analyses.hpp"
+#include "scenarios/analyses.hpp"
 
-#include "scenarios/analyses/analysis.hpp"
+#include "scenarios/analysis.hpp"
 
 // The analyses, one line each, in the order in which lists show them. The source of each defines NAME_analysis().
 #define DUALDAMP_ANALYSES(ANALYSIS) \

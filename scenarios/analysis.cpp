@@ -1,4 +1,4 @@
-#include "scenarios/analyses/analysis.hpp"
+#include "scenarios/analysis.hpp"
 
 #include <algorithm>
 

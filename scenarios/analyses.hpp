@@ -1,7 +1,7 @@
 #pragma once
 /// The list of the analyses of this library: explicit, one line an analysis, in the order of the reference page.
 
-#include "scenarios/analyses/analysis.hpp"
+#include "scenarios/analysis.hpp"
 
 namespace dualdamp::scenarios {
 
