@@ -147,7 +147,7 @@ std::vector<std::string> known_departures(const Measured& measured) {
 struct Counts {
   int records = 0, rejected = 0, friction = 0, answers = 0, zeta = 0, F0 = 0, off = 0, off_rejected = 0, misled = 0;
   int tested = 0, seen = 0, blamed = 0, joint = 0, joint_zeta = 0, joint_F0 = 0;
-  std::map<std::string, int> named, named_off, by, known;
+  std::map<std::string, int> named, named_off, tests, by, known;
   double seconds = 0.0;
 };
 
@@ -188,6 +188,8 @@ void count_verdict(const Row& row, std::uint64_t seed, Counts& counts) {
     ++counts.named[std::string(name_of(assumption))];
     if (is_off) ++counts.named_off[std::string(name_of(assumption))];
   }
+  for (const LedgerEntry& entry : found.ledger.entries)
+    if (entry.standing == Standing::violated) ++counts.tests[entry.test];
   if (!found.answer) return;
   const Estimate& answer = found.estimates[*found.answer];
   ++counts.answers;
@@ -212,13 +214,13 @@ void print(const Row& row, const Counts& c) {
     std::printf("[known %.0f by %s] ", share(best->second, c.records), best->first.c_str());
   std::printf(
       "%-34s n %3d tested %3.0f seen %5.1f rejected %5.1f friction %5.1f alone %5.1f joint %5.1f %5.1f answer "
-      "%5.1f zeta %5.1f F0 %5.1f misled %4.1f off %3.0f found %3.0f %4.2f s | named: %s | where off: %s | by: %s\n",
+      "%5.1f zeta %5.1f F0 %5.1f misled %4.1f off %3.0f found %3.0f %4.2f s | named: %s | tests: %s | where off: %s | by: %s\n",
       row.name.c_str(), c.records, share(c.tested, c.records), share(c.seen, c.records),
       share(c.rejected, c.records), share(c.friction, c.records), share(c.blamed, c.records),
       share(c.joint_zeta, c.joint), share(c.joint_F0, c.joint), share(c.answers, c.records),
       share(c.zeta, c.answers), share(c.F0, c.answers), share(c.misled, c.records), share(c.off, c.records),
       share(c.off_rejected, c.off), c.seconds / std::max(1, c.records), list_of(c.named, c.records).c_str(),
-      list_of(c.named_off, c.off).c_str(), list_of(c.by, c.answers).c_str());
+      list_of(c.tests, c.records).c_str(), list_of(c.named_off, c.off).c_str(), list_of(c.by, c.answers).c_str());
   std::fflush(stdout);
 }
 
