@@ -12,7 +12,7 @@
 #include "bench/speed/smooth_case.hpp"
 #include "bench/speed/timing.hpp"
 #include "sim/batch/batch.hpp"
-#include "sim/orbits/curves.hpp"
+#include "sim/curves/curves.hpp"
 #include "sim/orbits/steady_state.hpp"
 
 namespace dualdamp::bench::speed {

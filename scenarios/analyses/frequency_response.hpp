@@ -2,7 +2,7 @@
 /// `frequency_response`: output amplitude over frequency, as steady states.
 
 #include "scenarios/analysis.hpp"
-#include "sim/orbits/stepped_curves.hpp"
+#include "sim/curves/stepped_curves.hpp"
 
 namespace dualdamp::scenarios {
 

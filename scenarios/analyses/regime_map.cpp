@@ -12,7 +12,7 @@
 #include "scenarios/format/common_keys.hpp"
 #include "scenarios/format/limits.hpp"
 #include "scenarios/format/values.hpp"
-#include "sim/orbits/sticking_boundary.hpp"
+#include "sim/curves/sticking_boundary.hpp"
 
 namespace dualdamp::scenarios {
 

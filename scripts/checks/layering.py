@@ -38,13 +38,15 @@ ROOMS = {
     },
     "sim": {
         ".": [],
-        "engine": ["."],
+        "steppers": ["."],
+        "engine": [".", "steppers"],
         "analytic": ["."],
         "motion": [".", "engine"],
         # A pack that cannot finish an orbit hands it to the search, and the search tries packs first.
         "orbits": [".", "engine", "motion", "analytic", "batch"],
         "batch": [".", "engine", "orbits"],
-        "conformance": [".", "engine"],
+        "curves": [".", "engine", "motion", "analytic", "batch", "orbits"],
+        "conformance": [".", "engine", "steppers"],
     },
     "identify": {
         ".": ["methods"],  # the list of methods

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "friction_models/state_sizes.hpp"
-#include "sim/engine/stepper.hpp"
+#include "sim/steppers/stepper.hpp"
 
 namespace dualdamp::sim {
 

@@ -21,9 +21,9 @@
 
 #include "sim/engine/drive.hpp"
 #include "sim/engine/interval.hpp"
-#include "sim/engine/stepper.hpp"
 #include "sim/engine/velocity_history.hpp"
 #include "sim/model.hpp"
+#include "sim/steppers/stepper.hpp"
 
 namespace dualdamp::sim {
 

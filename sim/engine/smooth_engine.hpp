@@ -27,8 +27,8 @@
 
 #include "sim/engine/engine.hpp"
 #include "sim/engine/flow.hpp"
-#include "sim/engine/stepper.hpp"
 #include "sim/engine/velocity_history.hpp"
+#include "sim/steppers/stepper.hpp"
 
 namespace dualdamp::sim {
 

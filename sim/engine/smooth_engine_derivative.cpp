@@ -15,9 +15,9 @@
 #include <utility>
 
 #include "friction_models/state_sizes.hpp"
-#include "sim/engine/radau_collocation.hpp"
 #include "sim/engine/smooth_engine.hpp"
 #include "sim/engine/variation.hpp"
+#include "sim/steppers/radau_collocation.hpp"
 
 namespace dualdamp::sim {
 

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "sim/engine/eigenvalues.hpp"
-#include "sim/engine/lu_factors.hpp"
-#include "sim/engine/radau_collocation.hpp"
+#include "sim/steppers/lu_factors.hpp"
+#include "sim/steppers/radau_collocation.hpp"
 
 namespace dualdamp::sim {
 namespace {

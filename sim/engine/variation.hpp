@@ -19,7 +19,7 @@
 #include <memory>
 #include <span>
 
-#include "sim/engine/stepper.hpp"
+#include "sim/steppers/stepper.hpp"
 
 namespace dualdamp::sim {
 

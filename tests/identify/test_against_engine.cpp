@@ -9,8 +9,8 @@
 #include "identify/methods/amplitudes/resonance_two_point.hpp"
 #include "identify/methods/decays/free_decay.hpp"
 #include "sim/analytic/den_hartog.hpp"
+#include "sim/curves/curves.hpp"
 #include "sim/motion/simulate.hpp"
-#include "sim/orbits/curves.hpp"
 #include "tests/identify/methods/histories/bearing.hpp"
 #include "tests/identify/records.hpp"
 

@@ -10,13 +10,13 @@
 #include "core/cancellation.hpp"
 #include "friction_models/laws/coulomb.hpp"
 #include "sim/batch/batch.hpp"
+#include "sim/curves/continuation.hpp"
+#include "sim/curves/curves.hpp"
+#include "sim/curves/sticking_boundary.hpp"
 #include "sim/engine/engine.hpp"
 #include "sim/engine/exact_engine.hpp"
 #include "sim/motion/simulate.hpp"
-#include "sim/orbits/continuation.hpp"
-#include "sim/orbits/curves.hpp"
 #include "sim/orbits/steady_state.hpp"
-#include "sim/orbits/sticking_boundary.hpp"
 #include "sim/parallel.hpp"
 
 using namespace dualdamp;

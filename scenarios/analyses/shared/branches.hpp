@@ -4,7 +4,7 @@
 
 #include "scenarios/analysis.hpp"
 #include "scenarios/results/motion.hpp"
-#include "sim/orbits/continuation.hpp"
+#include "sim/curves/continuation.hpp"
 
 namespace dualdamp::scenarios {
 

@@ -6,8 +6,8 @@
 
 #include "scenarios/analysis.hpp"
 #include "scenarios/results/motion.hpp"
-#include "sim/orbits/curves.hpp"
-#include "sim/orbits/stepped_curves.hpp"
+#include "sim/curves/curves.hpp"
+#include "sim/curves/stepped_curves.hpp"
 
 namespace dualdamp::scenarios {
 

@@ -9,8 +9,8 @@
 #include "friction_models/laws/coulomb.hpp"
 #include "sim/analytic/den_hartog.hpp"
 #include "sim/analytic/free_decay.hpp"
+#include "sim/curves/curves.hpp"
 #include "sim/motion/simulate.hpp"
-#include "sim/orbits/curves.hpp"
 #include "sim/orbits/steady_state.hpp"
 
 using namespace dualdamp;

@@ -12,7 +12,7 @@
 #include "friction_models/laws/contact_compliance.hpp"
 #include "friction_models/laws/coulomb.hpp"
 #include "friction_models/laws/iwan.hpp"
-#include "sim/orbits/curves.hpp"
+#include "sim/curves/curves.hpp"
 #include "sim/orbits/steady_state.hpp"
 #include "tests/support/source_tree.hpp"
 

@@ -9,8 +9,8 @@
 #include "friction_models/laws/dahl.hpp"
 #include "friction_models/laws/viscous_saturating.hpp"
 #include "sim/analytic/den_hartog.hpp"
+#include "sim/curves/curves.hpp"
 #include "sim/motion/simulate.hpp"
-#include "sim/orbits/curves.hpp"
 #include "sim/orbits/steady_state.hpp"
 
 namespace {

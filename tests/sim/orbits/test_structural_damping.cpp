@@ -7,8 +7,8 @@
 
 #include "core/diagnostics.hpp"
 #include "friction_models/laws/coulomb.hpp"
+#include "sim/curves/curves.hpp"
 #include "sim/motion/simulate.hpp"
-#include "sim/orbits/curves.hpp"
 #include "sim/orbits/steady_state.hpp"
 #include "sim/orbits/transient.hpp"
 

@@ -7,7 +7,7 @@
 #include "friction_models/laws/coulomb.hpp"
 #include "identify/methods/amplitudes/resonance_least_squares.hpp"
 #include "sim/analytic/den_hartog.hpp"
-#include "sim/orbits/curves.hpp"
+#include "sim/curves/curves.hpp"
 #include "tests/identify/methods/histories/bearing.hpp"
 #include "tests/identify/records.hpp"
 

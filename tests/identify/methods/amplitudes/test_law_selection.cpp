@@ -9,7 +9,7 @@
 #include "friction_models/laws/viscous_power.hpp"
 #include "friction_models/laws/viscous_saturating.hpp"
 #include "sim/analytic/den_hartog.hpp"
-#include "sim/orbits/curves.hpp"
+#include "sim/curves/curves.hpp"
 #include "tests/identify/methods/histories/bearing.hpp"
 #include "tests/identify/records.hpp"
 

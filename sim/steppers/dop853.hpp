@@ -7,7 +7,7 @@
 /// output of order 7. `fifth` and `third`: weights of the difference between the embedded methods and the step, h
 /// sum_j weight_j k_j; `inside`: the four highest coefficients of the dense output (`explicit_stepper.cpp`).
 ///
-/// Source: hairer1993, II.5 and II.6; tests/sim/engine/test_dop853.cpp checks the order conditions.
+/// Source: hairer1993, II.5 and II.6; tests/sim/steppers/test_dop853.cpp checks the order conditions.
 
 #include <array>
 #include <cstddef>

@@ -13,8 +13,8 @@
 #include <boost/fusion/container/generation/make_vector.hpp>
 #include <boost/numeric/odeint/stepper/explicit_generic_rk.hpp>
 
-#include "sim/engine/dop853.hpp"
-#include "sim/engine/sized_stepper.hpp"
+#include "sim/steppers/dop853.hpp"
+#include "sim/steppers/sized_stepper.hpp"
 
 namespace dualdamp::sim {
 namespace {

@@ -1,4 +1,4 @@
-#include "sim/orbits/continuation.hpp"
+#include "sim/curves/continuation.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "core/numbers.hpp"
+#include "sim/curves/continuation_steps.hpp"
 #include "sim/engine/drive.hpp"
-#include "sim/orbits/continuation_steps.hpp"
 #include "sim/orbits/orbit_account.hpp"
 #include "sim/validate.hpp"
 

@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-#include "sim/orbits/continuation.hpp"
+#include "sim/curves/continuation.hpp"
 #include "sim/orbits/newton.hpp"
 #include "sim/orbits/period_map.hpp"
 

@@ -1,4 +1,4 @@
-#include "sim/orbits/sticking_boundary.hpp"
+#include "sim/curves/sticking_boundary.hpp"
 
 #include <algorithm>
 #include <array>

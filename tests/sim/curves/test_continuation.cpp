@@ -1,7 +1,7 @@
 // Branches of steady states: against steady states found one by one, Den Hartog's sticking boundary, and a bilinear
 // spring, whose response folds.
 
-#include "sim/orbits/continuation.hpp"
+#include "sim/curves/continuation.hpp"
 
 #include <algorithm>
 #include <catch2/catch.hpp>

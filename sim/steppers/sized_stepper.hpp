@@ -6,8 +6,8 @@
 #include <memory>
 #include <span>
 
-#include "sim/engine/lu_factors.hpp"
-#include "sim/engine/stepper.hpp"
+#include "sim/steppers/lu_factors.hpp"
+#include "sim/steppers/stepper.hpp"
 
 namespace dualdamp::sim {
 

@@ -1,6 +1,6 @@
 // The sticking boundary of the engine against Den Hartog's closed form, which shares no code with it.
 
-#include "sim/orbits/sticking_boundary.hpp"
+#include "sim/curves/sticking_boundary.hpp"
 
 #include <catch2/catch.hpp>
 

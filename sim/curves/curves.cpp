@@ -1,10 +1,10 @@
-#include "sim/orbits/curves.hpp"
+#include "sim/curves/curves.hpp"
 
 #include <algorithm>
 #include <optional>
 #include <span>
 
-#include "sim/orbits/curve_part.hpp"
+#include "sim/curves/curve_part.hpp"
 #include "sim/parallel.hpp"
 #include "sim/validate.hpp"
 

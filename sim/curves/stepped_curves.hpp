@@ -11,7 +11,7 @@
 
 #include <vector>
 
-#include "sim/orbits/curves.hpp"
+#include "sim/curves/curves.hpp"
 
 namespace dualdamp::sim {
 

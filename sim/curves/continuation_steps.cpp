@@ -1,4 +1,4 @@
-#include "sim/orbits/continuation_steps.hpp"
+#include "sim/curves/continuation_steps.hpp"
 
 #include <Eigen/LU>
 #include <algorithm>

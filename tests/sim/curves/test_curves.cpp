@@ -1,6 +1,6 @@
 // Maps of steady states against Den Hartog's closed form, which shares no code with the engine, and against points
 // that the engine finds one by one.
-#include "sim/orbits/curves.hpp"
+#include "sim/curves/curves.hpp"
 
 #include <algorithm>
 #include <bit>

@@ -1,10 +1,10 @@
-#include "sim/engine/radau_collocation.hpp"
+#include "sim/steppers/radau_collocation.hpp"
 
 #include <cmath>
 #include <numbers>
 #include <utility>
 
-#include "sim/engine/lu_factors.hpp"
+#include "sim/steppers/lu_factors.hpp"
 
 namespace dualdamp::sim {
 namespace {

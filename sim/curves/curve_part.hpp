@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "sim/batch/batch.hpp"
-#include "sim/orbits/curves.hpp"
+#include "sim/curves/curves.hpp"
 #include "sim/orbits/steady_state.hpp"
 
 namespace dualdamp::sim {

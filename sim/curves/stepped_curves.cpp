@@ -1,9 +1,9 @@
-#include "sim/orbits/stepped_curves.hpp"
+#include "sim/curves/stepped_curves.hpp"
 
 #include <algorithm>
 
 #include "core/cancellation.hpp"
-#include "sim/orbits/curve_part.hpp"
+#include "sim/curves/curve_part.hpp"
 #include "sim/validate.hpp"
 
 namespace dualdamp::sim {

@@ -6,9 +6,9 @@
 #include <utility>
 #include <vector>
 
-#include "sim/engine/lu_factors.hpp"
-#include "sim/engine/radau_collocation.hpp"
-#include "sim/engine/sized_stepper.hpp"
+#include "sim/steppers/lu_factors.hpp"
+#include "sim/steppers/radau_collocation.hpp"
+#include "sim/steppers/sized_stepper.hpp"
 
 namespace dualdamp::sim {
 namespace {

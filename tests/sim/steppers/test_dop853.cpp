@@ -1,7 +1,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "sim/engine/dop853.hpp"
+#include "sim/steppers/dop853.hpp"
 
 using namespace dualdamp::sim;
 using dop853::Row;

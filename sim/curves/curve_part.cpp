@@ -1,4 +1,4 @@
-#include "sim/orbits/curve_part.hpp"
+#include "sim/curves/curve_part.hpp"
 
 #include <algorithm>
 

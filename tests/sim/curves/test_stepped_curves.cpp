@@ -1,6 +1,6 @@
 // Curves that are stepped through, against an integration of the motion level by level with independent code.
 
-#include "sim/orbits/stepped_curves.hpp"
+#include "sim/curves/stepped_curves.hpp"
 
 #include <algorithm>
 #include <array>

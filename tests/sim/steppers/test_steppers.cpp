@@ -9,8 +9,8 @@
 #include <memory>
 #include <vector>
 
-#include "sim/engine/radau_collocation.hpp"
-#include "sim/engine/stepper.hpp"
+#include "sim/steppers/radau_collocation.hpp"
+#include "sim/steppers/stepper.hpp"
 
 namespace {
 

@@ -9,7 +9,7 @@
 #include "friction_models/laws/dahl.hpp"
 #include "friction_models/laws/lugre.hpp"
 #include "friction_models/laws/stribeck.hpp"
-#include "sim/orbits/continuation.hpp"
+#include "sim/curves/continuation.hpp"
 
 using namespace dualdamp;
 using sim::BranchParameter;
