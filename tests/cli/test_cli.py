@@ -7,6 +7,7 @@ usage: test_cli.py PROGRAM ROOT [TEST...]
 import hashlib
 import json
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -22,6 +23,16 @@ ROOT = Path(sys.argv[2]).resolve()
 
 FILES = ["orbit.csv", "report.html", "result.json"]  # of a steady state
 KEYS = ["program", "provenance", "scenario", "analysis", "status", "result", "warnings", "checks", "errors"]
+
+
+def wait_until_it_watches(process):
+    """Waits until the program has blocked SIGINT for all threads but the one that waits for it."""
+    deadline = time.monotonic() + 60.0
+    while process.poll() is None and time.monotonic() < deadline:
+        blocked = re.search(r"^SigBlk:\s*(\w+)", Path(f"/proc/{process.pid}/status").read_text(), re.MULTILINE)
+        if blocked and int(blocked.group(1), 16) >> (signal.SIGINT - 1) & 1:
+            return
+        time.sleep(0.01)
 
 
 def tree(folder):
@@ -252,6 +263,7 @@ class Refusals(Case):
                 text = BASE.replace("steady_state", analysis)
                 self.write("long.yaml", text.replace("{law: coulomb, kinetic: 2 N}", friction) if friction else text)
                 process = subprocess.Popen([PROGRAM, "run", "long.yaml"], cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+                wait_until_it_watches(process)
                 time.sleep(0.5)
                 self.assertIsNone(process.poll(), "it ended before it could be interrupted")
                 process.send_signal(signal.SIGINT)
