@@ -244,6 +244,17 @@ bool Engine::comes_to_an_end(bool takes_no_time) {
   return false;
 }
 
+bool Engine::leaves_range() {
+  constexpr double largest = 1e290;
+  if (std::abs(x_) < largest && std::abs(v_) < largest) return false;
+  leave_range();
+  return true;
+}
+
+void Engine::leave_range() {
+  outcome_ = {core::OutcomeKind::not_finite, "the motion left the range of double precision"};
+}
+
 bool is_exact(const Model& model) {
   return is_linear(model.oscillator) && model.solver.kind == SolverKind::automatic &&
          std::ranges::all_of(model.friction, [](const friction::Law& law) { return law.is_affine(); });

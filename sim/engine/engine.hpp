@@ -127,6 +127,10 @@ class Engine {
   [[nodiscard]] std::string name_in_list(std::size_t law) const;
   /// Counts events in a row that take no time. False, and an outcome is set, if they do not come to an end.
   [[nodiscard]] bool comes_to_an_end(bool takes_no_time);
+  /// Whether the motion is so large that values within an interval may leave the range of double precision; sets an
+  /// outcome then.
+  [[nodiscard]] bool leaves_range();
+  void leave_range();
 
   Model model_;
   Drive drive_;

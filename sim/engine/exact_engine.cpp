@@ -333,10 +333,6 @@ bool ExactEngine::search(double horizon) {
   return outcome_.ok();
 }
 
-void ExactEngine::leave_range() {
-  outcome_ = {core::OutcomeKind::not_finite, "the motion left the range of double precision"};
-}
-
 const Interval* ExactEngine::step(double left, bool to_period_end) {
   if (!outcome_.ok() || !(left > 0.0)) return nullptr;
   const friction::Instant begin = now();
@@ -360,10 +356,7 @@ const Interval* ExactEngine::step(double left, bool to_period_end) {
   if (tracking_) track_motion(begin, end.s);
   advance(end.s, to_period_end && !ends);
   if (tracking_) track_states(begin, end.s, ends);
-  if (!std::isfinite(x_) || !std::isfinite(v_)) {
-    leave_range();
-    return nullptr;
-  }
+  if (leaves_range()) return nullptr;
   changed_law_.reset();
   if (end.found) {
     const Ending ending = watches_[static_cast<std::size_t>(end.guard)].ending;

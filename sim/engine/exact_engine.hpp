@@ -60,6 +60,7 @@ class ExactEngine final : public Engine {
     double by_velocity = 0.0;  ///< dg/dv
     double tolerance = 0.0;    ///< rounding of g at the start, in addition to that of its amplitudes
     bool is_speed = false;     ///< g is a positive multiple of the speed in a slip
+    bool is_position = false;  ///< g is a function of x alone, and the mass slips
   };
   /// All laws together, affine in the interval.
   struct Total {
@@ -91,11 +92,11 @@ class ExactEngine final : public Engine {
   core::Guard& new_guard(const Watch& watch);
   [[nodiscard]] core::Germ slip_germ(const core::Guard& guard, double tolerance) const;
   [[nodiscard]] bool rises_in_time(const core::Guard& guard, double tolerance) const;
-  [[nodiscard]] core::Germ start_germ(const core::Guard& guard, bool is_speed, double tolerance) const;
+  [[nodiscard]] core::Germ start_germ(const core::Guard& guard, const Watch& watch, double tolerance) const;
+  [[nodiscard]] core::Germ position_germ(const Watch& watch) const;
   bool find_violated();
   void drop_guard(std::size_t i);
   bool search(double horizon);
-  void leave_range();
   void settle() override;
   friction::Direction leaves_limit(double tolerance);
   [[nodiscard]] friction::Direction moved_later(const core::ModeFunction& pull, double tolerance) const;

@@ -208,6 +208,7 @@ void ExactEngine::add_law_guards() {
         watch.tolerance += velocity_rounding() * (std::abs(g.velocity) + std::abs(g.position) / basis.fastest());
         watch.is_speed = g.velocity * friction::sign(direction_) > 0.0 && g.constant == 0.0 && g.rate == 0.0 &&
                          g.position == 0.0 && g.transient == 0.0;
+        watch.is_position = g.position != 0.0 && g.velocity == 0.0 && g.rate == 0.0 && g.transient == 0.0;
       }
       ModeForcing own{.polynomial = {g.constant, g.rate},
                       .transients = std::vector<double>(mode_->decays().size())};
@@ -256,13 +257,20 @@ bool ExactEngine::rises_in_time(const core::Guard& guard, double tolerance) cons
   return value > -clearly * core::start_amplitude(basis, guard.value) - tolerance && value + tolerance + rise > 0.0;
 }
 
+/// The germ of a function of x alone that is zero at the start of a slip: x moves in the direction of the slip. The
+/// forces that start it may be within rounding, and would then not say so. The guard of the speed is the first.
+core::Germ ExactEngine::position_germ(const Watch& watch) const {
+  return {watch.by_position * friction::sign(direction_) > 0.0 ? 1 : -1, guards_.front().known_zeros + 1};
+}
+
 /// The guards of two modes of a law may have the same zero by different formulas with different rounding. Each
 /// could then send the law to the other mode. The time of the event is known to its rounding: a guard that rises
 /// through zero within that time begins at zero. A slider that lets go of a mass at rest has the speed of the mass,
 /// so it cannot stop before the mass does.
-core::Germ ExactEngine::start_germ(const core::Guard& guard, bool is_speed, double tolerance) const {
-  if (is_speed && v_ == 0.0) return slip_germ(guard, tolerance);
+core::Germ ExactEngine::start_germ(const core::Guard& guard, const Watch& watch, double tolerance) const {
+  if (watch.is_speed && v_ == 0.0) return slip_germ(guard, tolerance);
   const core::Germ germ = core::germ(mode_->basis(), guard, tolerance);
+  if (watch.is_position && germ.zeros > 0) return position_germ(watch);
   if (germ.sign >= 0 || germ.zeros > 0 || !rises_in_time(guard, tolerance)) return germ;
   const core::Germ from_zero = core::germ(mode_->basis(), guard, tolerance, 1);
   return from_zero.sign > 0 ? from_zero : germ;
@@ -279,7 +287,7 @@ bool ExactEngine::find_violated() {
         watch.tolerance + std::abs(watch.by_position) * x_rounding_ + std::abs(watch.by_velocity) * v_rounding_;
     if (core::at_start(basis, guard.value) > clearly * core::start_amplitude(basis, guard.value) + tolerance)
       continue;
-    const core::Germ germ = start_germ(guard, watch.is_speed, tolerance);
+    const core::Germ germ = start_germ(guard, watch, tolerance);
     if (germ.sign < 0) {
       if (germ.zeros > 0) {
         keep_time_rounding(tolerance + std::abs(core::at_start(basis, guard.value)),

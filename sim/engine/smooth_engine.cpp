@@ -83,7 +83,8 @@ State SmoothEngine::state() const {
 
 long SmoothEngine::work() const {
   constexpr long responses_in_unit = 8;
-  return Engine::work() + (flow_.responses() + judge_.responses()) / responses_in_unit + variation_work_;
+  return Engine::work() + (flow_.responses() + judge_.responses()) / responses_in_unit + variation_work_ +
+         stepper_->operations() / operations_in_unit;
 }
 
 void SmoothEngine::begin_motion() {
@@ -341,10 +342,7 @@ const Interval* SmoothEngine::step(double left, bool to_period_end) {
   const Ending ending = found ? watches_[hit.watch].ending : Ending{};
   take_over(found && is<SlipEnd>(ending));
   pass_time(to_period_end && is_over && !by_schedule);
-  if (!std::isfinite(x_) || !std::isfinite(v_)) {
-    outcome_ = {core::OutcomeKind::not_finite, "the motion left the range of double precision"};
-    return nullptr;
-  }
+  if (leaves_range()) return nullptr;
   if (!follows_event_) {
     if (has_faded()) is_laid_ = false;
     return interval_.get();

@@ -191,6 +191,8 @@ class SmoothEngine final : public Engine {
   std::unique_ptr<Variation> variation_;
   std::size_t variation_size_ = 0;
   long variation_work_ = 0;
+  /// Operations of linear algebra in a unit of work.
+  static constexpr long operations_in_unit = 4000;
   std::unique_ptr<StepInterval> interval_;
 };
 

@@ -39,9 +39,6 @@ constexpr double part_for_rate = 1e-6;
 /// Rates that differ by less than this part are the same before and after a mode change.
 constexpr double same_rates = 1e-2;
 
-/// Operations of LU factors in a unit of work.
-constexpr long operations_in_unit = 4000;
-
 Eigen::Map<const Eigen::VectorXd> as_vector(std::span<const double> values) {
   return {values.data(), static_cast<Eigen::Index>(values.size())};
 }
@@ -93,7 +90,7 @@ void SmoothEngine::track_step() {
   if (!variation_->pass(flow_, step, {columns_.data(), static_cast<std::size_t>(columns_.size())},
                         {late.data(), size}))
     columns_.setConstant(std::numeric_limits<double>::quiet_NaN());
-  variation_work_ += (variation_->parts() - parts) * (rows * rows * rows / operations_in_unit);
+  variation_work_ += (variation_->parts() - parts) * (1 + rows * rows * rows / operations_in_unit);
   columns_ -= late * lead_;
 }
 

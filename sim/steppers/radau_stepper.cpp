@@ -18,6 +18,8 @@ using Vector = std::vector<double>;
 using Row = RadauCollocation::Row;
 using Matrix = RadauCollocation::Matrix;
 constexpr std::size_t pairs = RadauCollocation::pairs;
+/// Real matrices that cost as much as the factors of a step: a complex operation is four real ones.
+constexpr long real_matrices = 1 + 4 * static_cast<long>(pairs);
 constexpr std::size_t middle = radau_stages / 2;
 /// The component that is the speed of the mass, on which friction acts (`flow.hpp`).
 constexpr std::size_t speed = 1;
@@ -82,6 +84,7 @@ class RadauStepper final : public Stepper {
 
   [[nodiscard]] int order() const override { return estimate_order; }
   [[nodiscard]] double stiffness() const override { return 0.0; }
+  [[nodiscard]] long operations() const override { return operations_; }
 
  private:
   template <std::size_t... k>
@@ -200,6 +203,7 @@ class RadauStepper final : public Stepper {
     const auto close = [&](double a, double b) { return std::abs(a - b) <= closeness * std::abs(b); };
     if (h == factored_h_ && std::ranges::equal(jacobian_, factored_jacobian_, close)) return false;
     factored_h_ = h;
+    operations_ += real_matrices * static_cast<long>(n_() * n_() * n_()) / 3;
     std::swap(factored_jacobian_, jacobian_);
     real_factors_.compute(radau_.real_eigenvalue / h, factored_jacobian_);
     for (std::size_t p = 0; p < pairs; ++p) pair_factors_[p].compute(radau_.eigenvalues[p] / h, factored_jacobian_);
@@ -208,6 +212,7 @@ class RadauStepper final : public Stepper {
 
   /// One iteration: z += correction.
   void correct(const VectorField& field, std::span<const double> x, double t, double h) {
+    operations_ += real_matrices * static_cast<long>(n_() * n_());
     for (std::size_t i = 0; i < radau_stages; ++i) {
       for (std::size_t k = 0; k < n_(); ++k) state_[k] = x[k] + z_[i * n_() + k];
       field.evaluate(state_, t + radau_.nodes[i] * h, std::span(rates_).subspan(i * n_(), n_()));
@@ -284,6 +289,7 @@ class RadauStepper final : public Stepper {
   Vector factored_jacobian_;
   LuFactors<double, N> real_factors_;
   std::array<LuFactors<Complex, N>, pairs> pair_factors_;
+  long operations_ = 0;
 };
 
 }  // namespace

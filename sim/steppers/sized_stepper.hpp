@@ -24,9 +24,13 @@ class SizedStepper final : public Stepper {
   void at(double part, std::span<double> x) const override { method_->at(part, x); }
   [[nodiscard]] int order() const override { return Method<any_size>::estimate_order; }
   [[nodiscard]] double stiffness() const override { return method_ == nullptr ? 0.0 : method_->stiffness(); }
+  [[nodiscard]] long operations() const override {
+    return earlier_operations_ + (method_ == nullptr ? 0 : method_->operations());
+  }
 
  private:
   void resize(std::size_t size) {
+    earlier_operations_ = operations();
     size_ = size;
     switch (size) {
       case 2:
@@ -44,6 +48,7 @@ class SizedStepper final : public Stepper {
   }
 
   std::size_t size_ = 0;
+  long earlier_operations_ = 0;  ///< of methods for other sizes
   std::unique_ptr<Stepper> method_;
 };
 

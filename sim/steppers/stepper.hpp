@@ -49,6 +49,9 @@ class Stepper {
   /// h |lambda| of the fastest motion in the last step that returned true. If it stays above 6, stability limits
   /// the steps of DOP853 instead of accuracy (Hairer's test). 0: the method has no such limit.
   [[nodiscard]] virtual double stiffness() const = 0;
+
+  /// Operations of linear algebra so far; evaluations of the field are not among them.
+  [[nodiscard]] virtual long operations() const { return 0; }
 };
 
 /// Counts steps by their `stiffness`. Many explicit steps beyond 1 make a stiff problem: that is far below 6, the
