@@ -13,7 +13,6 @@
 #include "sim/orbits/growth.hpp"
 #include "sim/orbits/monotone_model.hpp"
 #include "sim/orbits/orbit_solver.hpp"
-#include "sim/orbits/patience.hpp"
 #include "sim/orbits/period_map.hpp"
 #include "sim/orbits/recurrence.hpp"
 #include "sim/orbits/steady_state.hpp"

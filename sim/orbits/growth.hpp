@@ -8,11 +8,25 @@
 /// times as much. An amplitude that tends to a limit as 1 - exp(-n/tau) or as tanh(n/tau) gains 1.7 times as much
 /// only for n below tau/4.5 or tau/3.4, and would then not settle within 20,000 periods. A beating amplitude has
 /// been larger before. A motion that is followed no longer is judged by the same rule over its last two doublings.
+///
+/// How long such a motion is integrated: a limit of forcing periods, and a limit of work (`Engine::work`), which is
+/// the same on every machine. After some five seconds the program gives up, and the message states the number of
+/// forcing periods.
 
 #include <algorithm>
 #include <vector>
 
 namespace dualdamp::sim {
+
+struct Patience {
+  long periods;  ///< a motion that has not come back after this many is tested for being aperiodic
+  long work;     ///< of the motion; all attempts to find an orbit near it may take as much again
+};
+
+/// `accuracy`: Engine::accuracy(), 0 for the exact engine.
+constexpr Patience patience_with(double accuracy) {
+  return accuracy > 0.0 ? Patience{1000, 3'000'000} : Patience{8000, 2'000'000};
+}
 
 class Growth {
  public:
