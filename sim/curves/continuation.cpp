@@ -1,6 +1,7 @@
 #include "sim/curves/continuation.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <complex>
 #include <numbers>
@@ -9,7 +10,6 @@
 
 #include "core/numbers.hpp"
 #include "sim/curves/continuation_steps.hpp"
-#include "sim/engine/drive.hpp"
 #include "sim/orbits/orbit_account.hpp"
 #include "sim/validate.hpp"
 
@@ -30,40 +30,12 @@ constexpr double lost_by_parting = 1e4;
 /// damping ratio above 1e-8 allows it.
 constexpr double without_bound = 1e8;
 
-/// Most changes of the sequence between two points of a branch that are located.
-constexpr int most_changes = 64;
+constexpr const char* ends_inside = "the branch ends inside the range: no orbit continues it";
 
-/// The displacement by the drive's force against the spring or the inertia, whichever is less [m].
-double driven_displacement(const Model& model) {
-  const double w = model.excitation.frequency;
-  const double stiffness = std::max(model.oscillator.stiffness, model.oscillator.mass * w * w);
-  return Drive(model.oscillator, model.excitation).force_scale() / stiffness;
-}
-
-/// Whether b is a, perhaps with another start in the forcing period.
-bool same_sequence(const std::vector<EventKind>& a, const std::vector<EventKind>& b) {
-  if (a.size() != b.size()) return false;
-  std::vector<EventKind> twice = a;
-  twice.insert(twice.end(), a.begin(), a.end());
-  return std::search(twice.begin(), twice.end(), b.begin(), b.end()) != twice.end();
-}
-
-ChangeKind kind_of(const SteadyState& before, const SteadyState& after) {
-  if (before.sticks.empty() != after.sticks.empty()) return ChangeKind::sticking;
-  return before.stops_per_cycle != after.stops_per_cycle ? ChangeKind::stops : ChangeKind::sequence;
-}
-
-/// The kind of a change of stability, by the Floquet multiplier nearest to the unit circle of the attracting orbit.
-ChangeKind crossing_of(const SteadyState& a, const SteadyState& b) {
-  const SteadyState& attracting = a.stable() ? a : b;
-  std::complex<double> nearest = 0.0;
-  for (const std::complex<double>& value : attracting.multipliers) {
-    if (std::abs(value) > std::abs(nearest)) nearest = value;
-  }
-  constexpr double on_circle = 1e-3;
-  if (std::abs(nearest) < 1.0 - on_circle) return ChangeKind::stability;
-  if (std::abs(nearest.imag()) > on_circle) return ChangeKind::neimark_sacker;
-  return nearest.real() < 0.0 ? ChangeKind::flip : ChangeKind::stability;
+double largest_multiplier(const BranchPoint& point) {
+  double largest = 0.0;
+  for (const std::complex<double>& value : point.state.multipliers) largest = std::max(largest, std::abs(value));
+  return largest;
 }
 
 /// Whether the mass never moves.
@@ -89,113 +61,6 @@ BranchPoint Continuation::describe(const Node& node) const {
 
 bool Continuation::inside(double parameter) const {
   return parameter >= std::min(from_, to_) && parameter <= std::max(from_, to_);
-}
-
-void Continuation::add_change(ChangeKind kind, const BranchPoint& before, const BranchPoint& after) {
-  const double near = 4.0 * options_.location * std::max(std::abs(from_), std::abs(to_));
-  const bool one = !branch_.changes.empty() && kind != ChangeKind::end && branch_.changes.back().kind == kind &&
-                   std::abs(branch_.changes.back().parameter - after.parameter) <= near;
-  if (one) {  // one change in two steps: one in each half of the forcing period
-    branch_.changes.back().stops_after = after.state.stops_per_cycle;
-    branch_.changes.back().stable_after = after.state.stable();
-    return;
-  }
-  branch_.changes.push_back({kind, 0.5 * (before.parameter + after.parameter), after.state.amplitude,
-                             before.state.stops_per_cycle, after.state.stops_per_cycle, before.state.stable(),
-                             after.state.stable()});
-}
-
-/// Bisects the parameter between `low` and `high` to the place at which `changed` becomes true.
-template <class Changed>
-void Continuation::bisect(BranchPoint& low, BranchPoint& high, const State& guess, const Changed& changed) const {
-  const double scale = std::max(std::abs(from_), std::abs(to_));
-  constexpr double farthest = 30.0;  // the branch may make a detour where the sequence changes
-  const State begin = low.state.start;
-  const State end = high.state.start;
-  while (std::abs(high.parameter - low.parameter) > options_.location * scale) {
-    const double middle = 0.5 * (low.parameter + high.parameter);
-    std::optional<Node> node = orbit(middle, low.state.start);
-    if (!node) node = orbit(middle, guess);
-    if (!node || !lies_between(begin, *node, end, farthest)) return;
-    BranchPoint point = describe(*node);
-    (changed(point) ? high : low) = std::move(point);
-  }
-}
-
-/// Locates every change of the sequence between the last point and the new one.
-void Continuation::locate_sequences(const Node& before, const BranchPoint& last) {
-  BranchPoint low = branch_.points.back();
-  for (int changes = 0; !same_sequence(low.state.sequence, last.state.sequence); ++changes) {
-    if (changes == most_changes) {
-      branch_.warnings.push_back("more than " + std::to_string(most_changes) +
-                                 " changes of the sequence between two points: some are not listed");
-      return;
-    }
-    BranchPoint high = last;
-    const std::vector<EventKind> sequence = low.state.sequence;
-    bisect(low, high, before.period.begin,
-           [&](const BranchPoint& point) { return !same_sequence(point.state.sequence, sequence); });
-    add_change(kind_of(low.state, high.state), low, high);
-    low = high;
-  }
-}
-
-/// Locates the place between the last point and the new one at which orbits begin or cease to attract. If the
-/// sequence changes at the same place, that change is listed already and only gets the stability.
-void Continuation::locate_stability(const Node& before, const BranchPoint& last) {
-  BranchPoint low = branch_.points.back();
-  BranchPoint high = last;
-  const bool stable = low.state.stable();
-  bisect(low, high, before.period.begin, [&](const BranchPoint& point) { return point.state.stable() != stable; });
-  const ChangeKind kind = crossing_of(low.state, high.state);
-  const bool jumps = !same_sequence(low.state.sequence, high.state.sequence);
-  if (!jumps || kind != ChangeKind::stability) return add_change(kind, low, high);
-  const double near = 4.0 * options_.location * std::max(std::abs(from_), std::abs(to_));
-  for (BranchChange& change : branch_.changes) {
-    if (std::abs(change.parameter - high.parameter) > near) continue;
-    change.stable_before = stable;
-    change.stable_after = !stable;
-    return;
-  }
-  add_change(kind, low, high);
-}
-
-/// Locates a fold by bisection along the branch: there the tangent has no part along the parameter.
-void Continuation::locate_fold(const Node& before, const Node& after) {
-  Node low = before;
-  Node high = after;
-  double step = (coordinates(after.period.begin) - coordinates(before.period.begin)).norm() > 0.0
-                    ? options_.largest_step
-                    : options_.smallest_step;
-  // Near a fold the parameter is a parabola in the length along the branch: the distance from the fold goes with
-  // the square root of the parameter's change.
-  const double near = std::sqrt(options_.location);
-  while (step > near) {
-    step *= 0.5;
-    double shorter = step;
-    const std::optional<Node> node = advance(low, shorter);
-    if (!node) break;
-    const bool turned = node->tangent.tail<1>()[0] * low.tangent.tail<1>()[0] < 0.0;
-    (turned ? high : low) = *node;
-  }
-  add_change(ChangeKind::fold, describe(low), describe(high));
-}
-
-/// Adds the point `after` and all changes between `before` and it.
-void Continuation::record(const Node& before, const Node& after) {
-  BranchPoint point = describe(after);
-  const BranchPoint& last = branch_.points.back();
-  const bool turned = same_mode(before.period.begin, after.period.begin) &&
-                      before.tangent.tail<1>()[0] * after.tangent.tail<1>()[0] < 0.0;
-  if (turned) {
-    locate_fold(before, after);
-    branch_.changes.back().stable_before = last.state.stable();
-    branch_.changes.back().stable_after = point.state.stable();
-  } else {
-    locate_sequences(before, point);
-    if (last.state.stable() != point.state.stable()) locate_stability(before, point);
-  }
-  branch_.points.push_back(std::move(point));
 }
 
 /// Whether a point lies on a part of the branch that was passed before: between two of its points.
@@ -257,7 +122,7 @@ Branch Continuation::run() {
     branch_.outcome = {core::OutcomeKind::event_limit, "the period of the first orbit could not be followed"};
     return std::move(branch_);
   }
-  Node node{from_, std::move(*begin), {}};
+  Node node{from_, std::move(*begin), {}, {}};
   branch_.points.push_back(describe(node));
   if (is_held(start)) return ended(BranchEnd::rest, where_held(from_, to_));
   const Index n = node.period.monodromy.cols();
@@ -265,6 +130,7 @@ Branch Continuation::run() {
   node.tangent = tangent(node, onward).value_or(onward);
   double step = 0.1 * options_.largest_step;
   while (static_cast<int>(branch_.points.size()) < options_.max_points) {
+    if (std::optional<Branch> complete = ended_ahead(node)) return std::move(*complete);
     std::optional<Node> next = advance(node, step);
     if (is_exhausted())
       return ended(
@@ -275,7 +141,7 @@ Branch Continuation::run() {
                    "the branch is not complete: it stops where no step converges to an orbit" + parting_at(node));
     if (!next) {
       add_change(ChangeKind::end, branch_.points.back(), branch_.points.back());
-      return ended(BranchEnd::orbit, "the branch ends inside the range: no orbit continues it");
+      return ended(BranchEnd::orbit, ends_inside);
     }
     if (was_passed(*next)) {
       add_change(ChangeKind::end, branch_.points.back(), branch_.points.back());
@@ -288,7 +154,7 @@ Branch Continuation::run() {
         return ended(BranchEnd::edge, "the branch ends short of the end of the range: no orbit found there");
       next = std::move(last);
     }
-    record(node, *next);
+    if (!record(node, *next)) return ended(BranchEnd::orbit, ends_inside);
     if (left && next->parameter == from_ && from_ != to_)
       return ended(BranchEnd::range, "the branch turns back and leaves the range where it began");
     if (left) return std::move(branch_);
@@ -301,18 +167,55 @@ Branch Continuation::run() {
                "the branch is not complete: it stops after " + std::to_string(options_.max_points) + " points");
 }
 
+/// The branch, if it ends just ahead where no step arrives: the motion dies, or neighbouring motions part ever
+/// faster.
+std::optional<Branch> Continuation::ended_ahead(const Node& node) {
+  if (const std::optional<double> place = rest_ahead(node)) return at_rest(node, *place);
+  const std::optional<double> place = grazing_ahead();
+  if (!place) return std::nullopt;
+  add_change(ChangeKind::end, branch_.points.back(), branch_.points.back());
+  branch_.changes.back().parameter = *place;
+  return ended(BranchEnd::orbit, ends_inside);
+}
+
 /// Whether the largest Floquet multiplier grows without bound towards a place just ahead, as it does where a
 /// release or the yield of a contact becomes a grazing: the branch ends there.
 bool Continuation::ends_ahead(const Node& node) const {
   constexpr double steps = 64.0;
   if (branch_.points.size() < 2) return false;
   const BranchPoint& before = branch_.points[branch_.points.size() - 2];
-  double last = 0.0;
-  for (const std::complex<double>& value : before.state.multipliers) last = std::max(last, std::abs(value));
-  Node previous{before.parameter, {}, {}};
+  const double last = largest_multiplier(before);
+  Node previous{before.parameter, {}, {}, {}};
   previous.period.begin = before.state.start;
   const double growth = node.period.radius() - last;
   return growth > 0.0 && way(node, previous).norm() * last < steps * options_.smallest_step * growth;
+}
+
+/// The place just ahead at which the largest Floquet multiplier grows without bound like a power of the distance: a
+/// release becomes a grazing, and the branch ends. Towards it the steps become ever shorter.
+std::optional<double> Continuation::grazing_ahead() const {
+  constexpr double nearest = 3e-4;   // of the parameter
+  constexpr double certainty = 0.1;  // of the distance: difference of two estimates
+  const std::vector<BranchPoint>& points = branch_.points;
+  if (points.size() < 5 || largest_multiplier(points.back()) < lost_by_parting) return std::nullopt;
+  // p/(d ln(multiplier)/dp) falls in proportion to the distance from that place.
+  const auto estimate = [&](std::size_t last) {
+    const auto fall = [&](std::size_t i) {
+      return (points[i].parameter - points[i - 1].parameter) /
+             std::log(largest_multiplier(points[i]) / largest_multiplier(points[i - 1]));
+    };
+    const double way = 0.5 * (points[last].parameter - points[last - 2].parameter);
+    const double middle = 0.5 * (points[last].parameter + points[last - 1].parameter);
+    return middle + way * fall(last) / (fall(last - 1) - fall(last));
+  };
+  const std::size_t last = points.size() - 1;
+  const double here = points[last].parameter;
+  const double place = estimate(last);
+  const double left = place - here;
+  const bool ahead = left * (here - points[last - 1].parameter) > 0.0;
+  if (!ahead || !(std::abs(left) < nearest * parameter_scale(here))) return std::nullopt;
+  if (!inside(place) || !(std::abs(estimate(last - 1) - place) < certainty * std::abs(left))) return std::nullopt;
+  return place;
 }
 
 /// If neighbouring motions part too fast for a failed step to prove that the branch ends: words that say so.
@@ -339,11 +242,60 @@ std::string Continuation::where_held(double held, double other) {
     const double middle = std::sqrt(held * moves);
     (holds_at(middle) ? held : moves) = middle;
   }
+  const bool up = to_ > from_;
+  return reason + "; it moves " + (up ? "above " : "below ") + with_unit(moves, 4) +
+         ": begin beyond that, or at the other end of the range";
+}
+
+/// The place just ahead at which the mass ceases to move, if the motion dies there: the branch then ends in a
+/// continuum of rest positions, which no step reaches.
+std::optional<double> Continuation::rest_ahead(const Node& node) const {
+  constexpr double dying = 1e-6;  // of the displacement by the drive
+  constexpr double reach = 1e-3;
+  constexpr double attracting = 1.0 + 1e-6;
+  const SteadyState& state = branch_.points.back().state;
+  const bool dies = !state.sticks.empty() && state.amplitude < dying * driven_displacement(at(node.parameter));
+  if (!dies || node.period.radius() > attracting) return std::nullopt;
+  const double sense = node.tangent.tail<1>()[0] < 0.0 ? -1.0 : 1.0;
+  double moves = node.parameter;
+  double rests =
+      std::clamp(moves + sense * reach * parameter_scale(moves), std::min(from_, to_), std::max(from_, to_));
+  State middle_of_motion = node.period.begin;
+  middle_of_motion.x = 0.5 * (state.peak + state.trough);
+  middle_of_motion.v = 0.0;
+  middle_of_motion.direction = friction::Direction::none;
+  if (!comes_to_rest(rests, middle_of_motion)) return std::nullopt;
+  while (std::abs(rests - moves) > options_.location * std::max(std::abs(from_), std::abs(to_))) {
+    const double middle = 0.5 * (moves + rests);
+    (comes_to_rest(middle, middle_of_motion) ? rests : moves) = middle;
+  }
+  return 0.5 * (moves + rests);
+}
+
+/// Whether the motion from `start` comes to rest within a few periods.
+bool Continuation::comes_to_rest(double parameter, const State& start) const {
+  constexpr int most_periods = 20;
+  CountedMap map(at(parameter), 1, effort_);
+  ForcingPeriod period = map.from(start, Monodromy::without);
+  for (int i = 0; period.moves && map.outcome().ok() && i < most_periods; ++i)
+    period = map.next(Monodromy::without);
+  return map.outcome().ok() && !period.moves;
+}
+
+std::string Continuation::with_unit(double parameter, int digits) const {
   const std::string unit =
       quantity_ == &Excitation::frequency ? " rad/s" : (model_.excitation.moves_base() ? " m" : " N");
-  const bool up = to_ > from_;
-  return reason + "; it moves " + (up ? "above " : "below ") + core::format_number(moves, 4) + unit +
-         ": begin beyond that, or at the other end of the range";
+  return core::format_number(parameter, digits) + unit;
+}
+
+Branch Continuation::at_rest(const Node& node, double place) {
+  const BranchPoint last = branch_.points.back();
+  branch_.changes.push_back(
+      {ChangeKind::rest, place, last.state.amplitude, last.state.stops_per_cycle, 0, last.state.stable(), true});
+  const std::string beyond = node.tangent.tail<1>()[0] < 0.0 ? "below " : "above ";
+  return ended(BranchEnd::rest, "the branch ends inside the range: the mass does not move " + beyond +
+                                    with_unit(place, 6) +
+                                    ", where any rest position that friction can hold is an orbit");
 }
 
 Branch Continuation::ended(BranchEnd end, const std::string& warning) {
@@ -353,47 +305,15 @@ Branch Continuation::ended(BranchEnd end, const std::string& warning) {
 }
 
 std::string_view name_of(ChangeKind kind) {
-  switch (kind) {
-    case ChangeKind::sequence:
-      return "sequence";
-    case ChangeKind::sticking:
-      return "sticking";
-    case ChangeKind::stops:
-      return "stops";
-    case ChangeKind::fold:
-      return "fold";
-    case ChangeKind::flip:
-      return "flip";
-    case ChangeKind::neimark_sacker:
-      return "neimark_sacker";
-    case ChangeKind::stability:
-      return "stability";
-    case ChangeKind::end:
-      return "end";
-  }
-  return "";
+  constexpr std::array<std::string_view, 10> names{"sequence",       "sticking",  "stops", "fold", "flip",
+                                                   "neimark_sacker", "stability", "jump",  "rest", "end"};
+  return names.at(static_cast<std::size_t>(kind));
 }
 
 std::string_view name_of(BranchEnd end) {
-  switch (end) {
-    case BranchEnd::range:
-      return "range";
-    case BranchEnd::orbit:
-      return "orbit";
-    case BranchEnd::points:
-      return "points";
-    case BranchEnd::edge:
-      return "edge";
-    case BranchEnd::step:
-      return "step";
-    case BranchEnd::growth:
-      return "growth";
-    case BranchEnd::work:
-      return "work";
-    case BranchEnd::rest:
-      return "rest";
-  }
-  return "";
+  constexpr std::array<std::string_view, 8> names{"range", "orbit",  "points", "edge",
+                                                  "step",  "growth", "work",   "rest"};
+  return names.at(static_cast<std::size_t>(end));
 }
 
 Branch continue_branch(const Model& model, BranchParameter parameter, double from, double to,

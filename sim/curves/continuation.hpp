@@ -31,10 +31,13 @@ enum class ChangeKind {
   neimark_sacker,  ///< a complex pair leaves or enters the unit circle: a motion with a second frequency begins
   stability,  ///< orbits begin or cease to attract otherwise: a Floquet multiplier passes 1 and the branch does
               ///< not turn, or it jumps
+  jump,       ///< the sequence changes, and the motion jumps to another orbit that attracts, as in a sweep
+  rest,       ///< the mass ceases to move: beyond, any rest position that friction can hold is an orbit
   end,        ///< no orbit continues the branch
 };
 
-/// "sequence", "sticking", "stops", "fold", "flip", "neimark_sacker", "stability", "end".
+/// "sequence", "sticking", "stops", "fold", "flip", "neimark_sacker", "stability", "jump",
+/// "rest", "end".
 [[nodiscard]] std::string_view name_of(ChangeKind kind);
 
 struct BranchPoint {
@@ -62,7 +65,8 @@ enum class BranchEnd {
            ///< step along the branch converged
   growth,  ///< its amplitude grows without bound: an undamped resonance
   work,    ///< the search for its orbits took too long
-  rest,    ///< the mass never moves at the first value: any rest position that friction can hold is an orbit
+  rest,    ///< the mass never moves at the first value, or it ceases to move: any rest position that friction can
+           ///< hold is an orbit
 };
 
 /// "range", "orbit", "points", "edge", "step", "growth", "work", "rest".

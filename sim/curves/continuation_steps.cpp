@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <limits>
 #include <utility>
 
@@ -45,14 +46,35 @@ Eigen::Vector3d common_part(const VectorXd& tangent) {
 /// cause without friction.
 double rounding_of_forces(const Model& model, const ForcingPeriod& period) {
   constexpr double roundings = 8.0;
-  const double w = model.excitation.frequency;
-  const double stiffness = std::max(model.oscillator.stiffness, model.oscillator.mass * w * w);
-  const double size = std::max(period.size, std::abs(period.begin.v) / w);
-  const double force = Drive(model.oscillator, model.excitation).force_scale();
-  return roundings * std::numeric_limits<double>::epsilon() * force / (stiffness * size);
+  const double size = std::max(period.size, std::abs(period.begin.v) / model.excitation.frequency);
+  return roundings * std::numeric_limits<double>::epsilon() * driven_displacement(model) / size;
+}
+
+/// Whether the branch may fold between two orbits: there a real Floquet multiplier passes 1, or touches it, or an
+/// asymmetric orbit meets its mirror image.
+bool may_fold_between(const ForcingPeriod& a, const ForcingPeriod& b) {
+  constexpr double close = 0.2;
+  const auto is_close = [](const std::complex<double>& value) { return std::abs(value - 1.0) < close; };
+  const auto beyond = [](const std::complex<double>& value) { return value.imag() == 0.0 && value.real() > 1.0; };
+  const std::vector<std::complex<double>> before = a.multipliers();
+  const std::vector<std::complex<double>> after = b.multipliers();
+  constexpr double rounding = 1e-9;
+  const auto side = [](const ForcingPeriod& period) {
+    const double middle = period.peak + period.trough;
+    return std::abs(middle) > rounding * period.size ? middle : 0.0;
+  };
+  if (side(a) * side(b) < 0.0) return true;
+  const auto passed = std::ranges::count_if(before, beyond) - std::ranges::count_if(after, beyond);
+  return passed % 2 != 0 || std::ranges::any_of(before, is_close) || std::ranges::any_of(after, is_close);
 }
 
 }  // namespace
+
+double driven_displacement(const Model& model) {
+  const double w = model.excitation.frequency;
+  const double stiffness = std::max(model.oscillator.stiffness, model.oscillator.mass * w * w);
+  return Drive(model.oscillator, model.excitation).force_scale() / stiffness;
+}
 
 /// No orbit, slope, step or place is finer than the error of the engine allows.
 void Continuation::limit_by_accuracy(double accuracy) {
@@ -106,10 +128,13 @@ std::optional<ForcingPeriod> Continuation::period(double parameter, const State&
 /// Scale of the parameter. The range may span decades, so at its lower end the scale is the parameter itself.
 double Continuation::parameter_scale(double parameter) const { return std::min(range_, std::abs(parameter)); }
 
-/// Scales of the coordinates and of the parameter.
+/// Scales of the coordinates and of the parameter. A motion that dies at its break-away has a size of zero there:
+/// steps in proportion to it would never arrive.
 VectorXd Continuation::scale(const Node& node) const {
+  constexpr double least = 1e-2;  // of the displacement by the drive
   const VectorXd z = coordinates(node.period.begin);
-  const double size = std::max(node.period.size, std::abs(z[1]) / omega(node.parameter));
+  const double size = std::max(
+      {node.period.size, std::abs(z[1]) / omega(node.parameter), least * driven_displacement(at(node.parameter))});
   VectorXd result = VectorXd::Constant(z.size() + 1, size);
   result[1] = size * omega(node.parameter);
   result[z.size()] = parameter_scale(node.parameter);
@@ -167,7 +192,7 @@ std::optional<VectorXd> Continuation::tangent_near(const Node& node, const Vecto
 /// The orbit at a fixed parameter nearest to `guess`.
 std::optional<Node> Continuation::orbit(double parameter, const State& guess) const {
   CountedMap map(at(parameter), ratio_, effort_);
-  Node node{parameter, map.from(guess, Monodromy::with), {}};
+  Node node{parameter, map.from(guess, Monodromy::with), {}, {}};
   double before = std::numeric_limits<double>::infinity();
   for (int i = 0; i < max_corrections && map.outcome().ok(); ++i) {
     if (closes(node, before)) return node;
@@ -178,13 +203,22 @@ std::optional<Node> Continuation::orbit(double parameter, const State& guess) co
   return std::nullopt;
 }
 
+/// The change of the coordinates and of the parameter over a step. Near orbits whose neighbours part fast, Newton's
+/// method needs a good start: the bend of the branch allows far longer steps there.
+VectorXd Continuation::predicted(const Node& from, double step) const {
+  constexpr double most = 0.5;
+  VectorXd direction = from.tangent;
+  if (from.bend.size() == direction.size() && step * from.bend.norm() < most) direction += 0.5 * step * from.bend;
+  return step * direction.cwiseProduct(scale(from));
+}
+
 /// Predictor and corrector: the orbit closes, and the step along the tangent has the length `step`.
 std::optional<Node> Continuation::correct(const Node& from, double step) const {
   const VectorXd size = scale(from);
   const Index n = size.size() - 1;
-  const VectorXd predicted = step * from.tangent.cwiseProduct(size);
-  Node node{from.parameter + predicted[n], {}, {}};
-  State start = displaced(from.period.begin, predicted.head(n));
+  const VectorXd change_there = predicted(from, step);
+  Node node{from.parameter + change_there[n], {}, {}, {}};
+  State start = displaced(from.period.begin, change_there.head(n));
   double before = std::numeric_limits<double>::infinity();
   for (int i = 0; i < max_corrections; ++i) {
     if (!(node.parameter > 0.0)) return std::nullopt;
@@ -193,7 +227,11 @@ std::optional<Node> Continuation::correct(const Node& from, double step) const {
     node.period = std::move(*trial);
     const VectorXd gap = coordinates(node.period.end) - coordinates(node.period.begin);
     const bool is_near = way(from, node).norm() <= farthest(step) * step;
-    if (closes(node, before)) return is_near ? std::optional(std::move(node)) : std::nullopt;
+    if (closes(node, before)) {
+      if (is_near) return node;
+      nearest_ = std::numeric_limits<double>::infinity();  // an orbit, but not the one that continues the branch
+      return std::nullopt;
+    }
     before = node.period.closure(omega(node.parameter));
     const std::optional<VectorXd> slope = by_parameter(node, from.tangent);
     if (!slope) return std::nullopt;
@@ -217,13 +255,12 @@ std::optional<Node> Continuation::correct(const Node& from, double step) const {
 /// The same if the predicted state is in another mode than the orbit: a few periods of the motion find the mode.
 /// They must be few, because the motion leaves an orbit that does not attract.
 std::optional<Node> Continuation::cross_modes(const Node& from, double step) const {
-  const VectorXd size = scale(from);
-  const Index n = size.size() - 1;
-  const VectorXd predicted = step * from.tangent.cwiseProduct(size);
-  const double parameter = from.parameter + predicted[n];
+  const VectorXd change = predicted(from, step);
+  const Index n = change.size() - 1;
+  const double parameter = from.parameter + change[n];
   if (!(parameter > 0.0)) return std::nullopt;
   CountedMap map(at(parameter), ratio_, effort_);
-  ForcingPeriod trial = map.from(displaced(from.period.begin, predicted.head(n)), Monodromy::without);
+  ForcingPeriod trial = map.from(displaced(from.period.begin, change.head(n)), Monodromy::without);
   for (int i = 1; i <= settling_periods && map.outcome().ok(); ++i) {
     std::optional<Node> node = orbit(parameter, trial.end);
     if (node && is_ahead(from, *node, step)) return node;
@@ -266,17 +303,25 @@ bool Continuation::lies_between(const State& low, const Node& node, const State&
   return distance(low, node.period.begin) <= most && distance(node.period.begin, high) <= most;
 }
 
+/// From one node to the next one, scaled.
+VectorXd Continuation::arc(const Node& from, const Node& node) const {
+  const VectorXd size = scale(from);
+  const Index n = size.size() - 1;
+  VectorXd result(n + 1);
+  result.head(n) = coordinates(node.period.begin) - coordinates(from.period.begin);
+  result[n] = node.parameter - from.parameter;
+  return result.cwiseQuotient(size);
+}
+
 /// Whether the branch turns so far between both points that the direction of the tangent is uncertain: a step over
 /// a bend could reverse it.
 bool Continuation::turns_too_far(const Node& from, const Node& node, const VectorXd& tangent) const {
   constexpr double least = 0.5;  // cosine of the angle
-  const VectorXd size = scale(from);
-  const Index n = size.size() - 1;
-  VectorXd chord(n + 1);
-  chord.head(n) = coordinates(node.period.begin) - coordinates(from.period.begin);
-  chord[n] = node.parameter - from.parameter;
-  chord = chord.cwiseQuotient(size).normalized();
-  return tangent.dot(from.tangent) < least || tangent.dot(chord) < least || from.tangent.dot(chord) < least;
+  const VectorXd way = arc(from, node).normalized();
+  const Index n = way.size() - 1;
+  // A piece along which the parameter goes against both tangents has two folds, or leads to another branch.
+  if (way[n] * tangent[n] < 0.0 && way[n] * from.tangent[n] < 0.0) return true;
+  return tangent.dot(from.tangent) < least || tangent.dot(way) < least || from.tangent.dot(way) < least;
 }
 
 /// The next point with its tangent; halves `step` as often as needed. None: the branch ends, or no step converged
@@ -293,14 +338,19 @@ std::optional<Node> Continuation::advance(const Node& from, double& step) const 
     // Between modes with different states the old tangent only gives the direction of the parameter.
     const double sense = from.tangent[from.tangent.size() - 1] < 0.0 ? -1.0 : 1.0;
     const bool alike = same_mode(from.period.begin, node->period.begin);
+    if (!alike && (node->parameter - from.parameter) * sense < 0.0) continue;  // that is another branch
     const VectorXd along = alike ? from.tangent : VectorXd(sense * VectorXd::Unit(n + 1, n));
-    const std::optional<VectorXd> next = tangent(*node, along);
+    std::optional<VectorXd> next = tangent(*node, along);
     if (!next) {
       nearest_ = 0.0;
       continue;
     }
+    // A tangent that turns the parameter back where the branch cannot fold has the wrong sense.
+    const bool turns = alike && (*next)[n] * from.tangent[n] < 0.0;
+    if (turns && !may_fold_between(from.period, node->period)) next = -*next;
     if (alike && step > 16.0 * options_.smallest_step && turns_too_far(from, *node, *next)) continue;
     node->tangent = *next;
+    if (alike) node->bend = (*next - from.tangent) / arc(from, *node).norm();
     return node;
   }
   return std::nullopt;

@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "sim/curves/continuation.hpp"
 #include "sim/orbits/newton.hpp"
@@ -18,6 +19,7 @@ struct Node {
   double parameter = 0.0;
   ForcingPeriod period;
   Eigen::VectorXd tangent;  ///< scaled: coordinates, then the parameter; empty before the first step
+  Eigen::VectorXd bend;     ///< derivative of the tangent along the branch; empty if it is not known
 };
 
 /// What a branch has cost so far, including failed attempts, and what one period of an attempt may cost.
@@ -56,6 +58,9 @@ class CountedMap : public PeriodMap {
   Effort& total_;
 };
 
+/// The displacement by the drive's force against the spring or the inertia, whichever is less [m].
+[[nodiscard]] double driven_displacement(const Model& model);
+
 class Continuation {
  public:
   Continuation(const Model& model, BranchParameter parameter, double from, double to, const BranchOptions& options)
@@ -87,6 +92,8 @@ class Continuation {
   [[nodiscard]] std::optional<Node> orbit(double parameter, const State& guess) const;
   [[nodiscard]] std::optional<Node> correct(const Node& from, double step) const;
   [[nodiscard]] std::optional<Node> cross_modes(const Node& from, double step) const;
+  [[nodiscard]] Eigen::VectorXd predicted(const Node& from, double step) const;
+  [[nodiscard]] Eigen::VectorXd arc(const Node& from, const Node& node) const;
   [[nodiscard]] bool turns_too_far(const Node& from, const Node& node, const Eigen::VectorXd& tangent) const;
   [[nodiscard]] Eigen::Vector3d way(const Node& from, const Node& node) const;
   [[nodiscard]] double farthest(double step) const;
@@ -98,16 +105,26 @@ class Continuation {
   [[nodiscard]] BranchPoint describe(const Node& node) const;
   [[nodiscard]] bool inside(double parameter) const;
   [[nodiscard]] bool is_exhausted() const { return effort_.work > options_.most_work; }
+  [[nodiscard]] std::optional<Branch> ended_ahead(const Node& node);
+  [[nodiscard]] std::optional<double> grazing_ahead() const;
   [[nodiscard]] bool ends_ahead(const Node& node) const;
   [[nodiscard]] std::string parting_at(const Node& node) const;
   [[nodiscard]] std::string where_held(double held, double other);
+  [[nodiscard]] std::optional<double> rest_ahead(const Node& node) const;
+  [[nodiscard]] bool comes_to_rest(double parameter, const State& start) const;
+  [[nodiscard]] std::string with_unit(double parameter, int digits) const;
+  [[nodiscard]] Branch at_rest(const Node& node, double place);
   [[nodiscard]] Branch ended(BranchEnd end, const std::string& warning);
-  void record(const Node& before, const Node& after);
-  void locate_stability(const Node& before, const BranchPoint& last);
+  [[nodiscard]] bool record(const Node& before, const Node& after);
+  void locate_stability(const Node& before, BranchPoint low, BranchPoint high);
   template <class Changed>
-  void bisect(BranchPoint& low, BranchPoint& high, const State& guess, const Changed& changed) const;
-  void locate_sequences(const Node& before, const BranchPoint& last);
-  void locate_fold(const Node& before, const Node& after);
+  [[nodiscard]] bool bisect(BranchPoint& low, BranchPoint& high, const State& guess, const Changed& changed) const;
+  template <class Changed>
+  [[nodiscard]] std::pair<Node, Node> close_in(Node low, Node high, const Changed& changed) const;
+  [[nodiscard]] bool are_apart(const BranchPoint& a, const BranchPoint& b) const;
+  [[nodiscard]] bool locate_sequences(const Node& before, const Node& after, BranchPoint& low,
+                                      const BranchPoint& last);
+  [[nodiscard]] bool locate_fold(const Node& before, const Node& after, BranchPoint& low);
   void add_change(ChangeKind kind, const BranchPoint& before, const BranchPoint& after);
 
   Model model_;

@@ -74,7 +74,7 @@ double ForcingPeriod::free_radius() const {
 ForcingPeriod PeriodMap::pass(Monodromy monodromy, PeriodObserver* observer) {
   ForcingPeriod period;
   period.begin = engine_->state();
-  period.size = std::abs(engine_->position());
+  period.peak = period.trough = engine_->position();
   engine_->track_sensitivity(monodromy == Monodromy::with);
   if (observer != nullptr) observer->begin(period.begin);
   const long last = engine_->periods_passed() + periods_;
@@ -89,9 +89,11 @@ ForcingPeriod PeriodMap::pass(Monodromy monodromy, PeriodObserver* observer) {
     const Interval* interval = engine_->next_in_period();
     if (interval == nullptr) break;
     period.moves = period.moves || interval->direction != Direction::none;
-    period.size = std::max(period.size, std::abs(engine_->position()));
+    period.peak = std::max(period.peak, engine_->position());
+    period.trough = std::min(period.trough, engine_->position());
     if (observer != nullptr) observer->observe(*interval, engine_->position());
   }
+  period.size = std::max(std::abs(period.peak), std::abs(period.trough));
   period.end = engine_->state();
   if (monodromy == Monodromy::with) period.monodromy = engine_->sensitivity();
   return period;

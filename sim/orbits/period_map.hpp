@@ -28,6 +28,8 @@ struct ForcingPeriod {
   State begin;
   State end;
   Eigen::MatrixXd monodromy;  ///< empty if not computed
+  double peak = 0.0;          ///< max x [m]
+  double trough = 0.0;        ///< min x [m]
   double size = 0.0;          ///< largest |x| in the period [m]
   bool moves = false;
 

@@ -54,7 +54,7 @@ ResultFields branch_fields(const ResultField& parameter) {
         "why the branch ends: it leaves the range (range), no orbit continues it (orbit), it has the "
         "largest number of points (points), no orbit was found at the end of the range (edge), orbits nearly close but no "
         "step to them converged, or neighbouring motions part too fast (step), its amplitude grows without bound (growth), "
-        "the search took too long (work), or the mass never moves at the first value (rest); all but range give a warning"},
+        "the search took too long (work), or the mass never moves at the first value or ceases to move (rest); all but range give a warning"},
        {"points[]." + parameter.path, parameter.unit, parameter.meaning},
        {"points[].x", "m", "output amplitude (peak - trough)/2"},
        {"points[].peak", "m", "max x"},
@@ -63,7 +63,7 @@ ResultFields branch_fields(const ResultField& parameter) {
        {"points[].sticks", "1", "sticks in a period"},
        {"points[].stable", "", "no Floquet multiplier outside the unit circle"},
        {"changes[].kind", "",
-        "what changes: sequence, sticking, stops, fold, flip, neimark_sacker, stability, end"},
+        "what changes: sequence, sticking, stops, fold, flip, neimark_sacker, stability, jump, rest, end"},
        {"changes[]." + parameter.path, parameter.unit, parameter.meaning},
        {"changes[].x", "m", "output amplitude there"},
        {"changes[].stops_before", "1", "stops in a period before the change"},

@@ -324,18 +324,6 @@ TEST_CASE("a branch goes on where neighbouring motions part thousandfold in a pe
   CHECK(last.state.amplitude == Approx(before.state.amplitude).epsilon(1e-3));
 }
 
-TEST_CASE("a branch that stops because neighbouring motions part too fast says how fast") {
-  sim::Model model = coulomb_driven(0.1, 0.2, 1.0, 0.2);
-  model.friction = {friction::Law(friction::Coulomb(0.2, 0.5))};
-  const sim::Branch branch = continue_branch(model, BranchParameter::frequency, 0.2, 1.5);
-  REQUIRE(branch.outcome.ok());
-  CHECK(branch.points.back().state.multipliers.size() == 2);
-  CHECK(std::abs(branch.points.back().state.multipliers[0]) > 1e6);
-  CHECK(branch.end == sim::BranchEnd::step);
-  REQUIRE(branch.warnings.size() == 1);
-  CHECK(branch.warnings[0].find("largest Floquet multiplier is") != std::string::npos);
-}
-
 TEST_CASE("an undamped resonance ends a branch because its amplitude grows without bound") {
   const sim::Branch branch =
       continue_branch(coulomb_driven(0.0, 0.2, 1.0, 1.5), BranchParameter::frequency, 1.5, 0.5);

@@ -104,14 +104,19 @@ TEST_CASE("a branch begins just above the onset of motion, where rounding of the
   CHECK(largest_error(branch, stiff_coulomb(), &sim::Excitation::amplitude, 50) < 1e-8);
 }
 
-TEST_CASE("a branch that rounding stops does not say that no orbit continues it") {
-  const sim::Branch branch = continue_branch(stiff_coulomb(), BranchParameter::amplitude, 0.0101, 0.009);
+TEST_CASE("a branch under a hardening spring ends where friction holds the mass") {
+  sim::Model model = stiff_coulomb();
+  model.oscillator.cubic_stiffness = 1e4;
+  model.friction = {friction::Law(friction::Coulomb(2.0, 2.0))};
+  model.excitation.frequency = 5.0;
+  const sim::Branch branch = continue_branch(model, BranchParameter::amplitude, 0.03, 0.01);
   REQUIRE(branch.outcome.ok());
-  CHECK(branch.points.back().parameter == Approx(0.01).epsilon(1e-3));
-  CHECK(branch.end == sim::BranchEnd::step);
-  CHECK(branch.changes.empty());
-  REQUIRE(branch.warnings.size() == 1);
-  CHECK(branch.warnings[0].find("no step converges") != std::string::npos);
+  CHECK(branch.end == sim::BranchEnd::rest);
+  REQUIRE_FALSE(branch.changes.empty());
+  const sim::BranchChange& last = branch.changes.back();
+  CHECK(last.kind == sim::ChangeKind::rest);
+  // The mass sticks at x = 0 up to the amplitude at which the spring pulls with the limit of 2 N.
+  CHECK(100.0 * last.parameter + 1e4 * std::pow(last.parameter, 3) == Approx(2.0).epsilon(1e-6));
 }
 
 TEST_CASE("a steep branch under a falling friction law keeps its tangent") {
