@@ -4,7 +4,9 @@
 #include <cmath>
 #include <complex>
 #include <optional>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "sim/motion/observers.hpp"
 #include "sim/curves/continuation_steps.hpp"
