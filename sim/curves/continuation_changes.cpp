@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "sim/motion/observers.hpp"
 #include "sim/curves/continuation_steps.hpp"
+#include "sim/motion/observers.hpp"
 
 namespace dualdamp::sim {
 
