@@ -81,16 +81,20 @@ Json effect_json(const Effect& effect, const MechanismStudy& study) {
   return json;
 }
 
-/// "saturation_velocity 0.514 m/s, ..."
-std::string values_text(const Rig& mechanism, const std::vector<double>& values) {
-  std::string text;
-  constexpr int digits = 4;
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    const RigParameter& parameter = mechanism.parameters[i];
-    text += (i == 0 ? "" : ", ") + std::string(parameter.name) + " " + core::format_number(values[i], digits) +
-            (parameter.unit == "1" ? "" : " " + std::string(parameter.unit));
-  }
-  return text;
+/// Texts such as "saturation_velocity 0.514 m/s".
+scenarios::Column values_column(std::vector<std::vector<scenarios::Quantity>> rows) {
+  scenarios::Column column{.name = "parameters", .kind = scenarios::CellKind::text};
+  for (const std::vector<scenarios::Quantity>& row : rows) column.texts.push_back(scenarios::quantities_text(row));
+  column.quantities = std::move(rows);
+  return column;
+}
+
+std::vector<scenarios::Quantity> quantities(const Rig& mechanism, const std::vector<double>& values) {
+  std::vector<scenarios::Quantity> list;
+  for (std::size_t i = 0; i < values.size(); ++i)
+    list.push_back(
+        {std::string(mechanism.parameters[i].name), values[i], std::string(mechanism.parameters[i].unit)});
+  return list;
 }
 
 /// A number of a fit; none without a fit.
@@ -105,6 +109,8 @@ Table mechanism_table(const std::vector<Explanation>& list) {
   const auto of_decay = [](double (*get)(const DecayReading&)) {
     return [get](const Explanation& e) { return e.decay ? get(*e.decay) : scenarios::none; };
   };
+  std::vector<std::vector<scenarios::Quantity>> values;
+  for (const Explanation& e : list) values.push_back(quantities(*e.mechanism, e.fit.values));
   return {"mechanisms",
           {text_column("mechanism", list, [](const Explanation& e) { return e.mechanism->name; }),
            column("chi2", "", list, of_fit([](const Explanation& e) { return e.fit.chi2; })),
@@ -113,8 +119,7 @@ Table mechanism_table(const std::vector<Explanation>& list) {
            column("bend", "", list, of_fit([](const Explanation& e) { return bend_of(e.fit.readings); })),
            column("F0", "N", list, of_fit([](const Explanation& e) { return e.fit.friction.F0; })),
            column("c", "N.s/m", list, of_fit([](const Explanation& e) { return e.fit.friction.c; })),
-           text_column("parameters", list,
-                       [](const Explanation& e) { return values_text(*e.mechanism, e.fit.values); }),
+           values_column(std::move(values)),
            column("decay_zeta_high", "", list, of_decay([](const DecayReading& d) { return d.high.zeta; })),
            column("decay_zeta_low", "", list, of_decay([](const DecayReading& d) { return d.low.zeta; })),
            column("decay_bend", "", list, of_decay([](const DecayReading& d) { return d.bend(); }))}};
@@ -127,6 +132,8 @@ Table effect_table(const std::vector<Effect>& list, const MechanismStudy& study)
     return [=](const Effect& e) { return e.readings ? e.readings->at(part).*member : scenarios::none; };
   };
   const std::size_t last = study.estimates.size() - 1;
+  std::vector<std::vector<scenarios::Quantity>> values;
+  for (const Effect& e : list) values.push_back(quantities(*e.rig->mechanism, e.rig->values));
   return {"effects",
           {text_column("mechanism", list, [](const Effect& e) { return e.rig->mechanism->name; }),
            text_column("case", list, [](const Effect& e) { return e.rig->name; }),
@@ -135,9 +142,7 @@ Table effect_table(const std::vector<Effect>& list, const MechanismStudy& study)
            column("zeta_of_all", "", list, reading(0, &PartReading::zeta)),
            column("zeta_of_least", "", list, reading(last, &PartReading::zeta)),
            column("F0_of_all", "N", list, reading(0, &PartReading::F0)),
-           column("F0_of_least", "N", list, reading(last, &PartReading::F0)),
-           text_column("parameters", list,
-                       [](const Effect& e) { return values_text(*e.rig->mechanism, e.rig->values); })}};
+           column("F0_of_least", "N", list, reading(last, &PartReading::F0)), values_column(std::move(values))}};
 }
 
 /// Rows of input and output amplitudes, each list under a name.

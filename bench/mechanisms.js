@@ -18,21 +18,24 @@ function bar(share) {
   return `background:linear-gradient(to right,transparent ${from}%,${paint} ${from}% ${to}%,transparent ${to}%);min-width:10rem`;
 }
 
-const parameterText = (parameters) =>
-  parameters.map(({ name, value, unit, at_bound: atBound }) => `${name} ${short(value, 3)}${unit === "1" ? "" : ` ${unit}`}${atBound ? " (as far as the search goes)" : ""}`).join(", ");
-
-const levelText = (levels) => `${short(1e3 * levels[0].Y, 3)} to ${short(1e3 * levels[levels.length - 1].Y, 3)}`;
+const parameterText = (parameters) => quantitiesText(parameters, 3, ({ at_bound: atBound }) => (atBound ? " (as far as the search goes)" : ""));
 
 function fitTable({ mechanisms }) {
+  const of = (key) => mechanisms.map((m) => m[key]);
+  const F0 = shownUnit("N", of("F0"));
+  const c = shownUnit("N.s/m", of("c"));
+  const ends = mechanisms.flatMap(({ levels }) => (levels ? [levels[0].Y, levels[levels.length - 1].Y] : []));
+  const length = readable("m", largest([ends]));
+  const levelText = (levels) => [levels[0], levels[levels.length - 1]].map(({ Y }) => short(Y * length.factor, 3)).join(" to ");
   const rows = mechanisms.map((m, i) => {
-    const at = (key, digits) => (m[key] === undefined || m[key] === null ? "–" : { text: rounded(m[key], digits), path: `mechanisms[${i}].${key}`, value: m[key] });
+    const at = (key, digits, factor = 1) => (m[key] === undefined || m[key] === null ? "–" : { text: rounded(m[key] * factor, digits), path: `mechanisms[${i}].${key}`, value: m[key] });
     return [{ text: m.mechanism, class: "text", title: m.meaning }, m.chi2 === undefined ? { text: m.reason, class: "long" } : at("chi2", 3), at("unknowns"),
       m.misfit === undefined ? "–" : { text: `${short(100 * m.misfit, 2)} %`, path: `mechanisms[${i}].misfit`, value: m.misfit },
-      { text: m.parameters ? parameterText(m.parameters) : "", class: "long" }, at("stretch", 2), m.levels ? levelText(m.levels) : "–", at("F0", 3), at("c", 3), signedPercent(m.decay?.bend)];
+      { text: m.parameters ? parameterText(m.parameters) : "", class: "long" }, at("stretch", 2), m.levels ? levelText(m.levels) : "–", at("F0", 3, F0.factor), at("c", 3, c.factor), signedPercent(m.decay?.bend)];
   });
   return [heading("Fitted to the estimates"),
     make("p", { class: "soft" }, "Times plausible: the largest ratio between a fitted parameter and a value that the rig may well have. Bend of the free decay: ζ of its first four extremes over that of its last four, less 1."),
-    grid(["mechanism", "χ²", "unknowns", "largest misfit", "parameters", "times plausible", "levels Y [mm]", "F0 [N]", "c [N.s/m]", "bend of the free decay"], rows, { caption: "Mechanisms fitted to the estimates" })];
+    grid(["mechanism", "χ²", "unknowns", "largest misfit", "parameters", "times plausible", `levels Y [${length.unit}]`, `F0 [${F0.unit}]`, `c [${c.unit}]`, "bend of the free decay"], rows, { caption: "Mechanisms fitted to the estimates" })];
 }
 
 function effectTable({ explained, effects }) {

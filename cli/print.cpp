@@ -7,6 +7,7 @@
 
 #include "core/numbers.hpp"
 #include "core/utf8.hpp"
+#include "scenarios/results/shown_table.hpp"
 #include "scenarios/results/shown_units.hpp"
 
 namespace dualdamp::cli {
@@ -24,25 +25,20 @@ struct Block {
 /// A micro sign is one column wide.
 std::size_t width(const std::string& text) { return core::count_characters(text); }
 
-/// The first rows of a column, in the unit that the user wrote.
-Block block(const scenarios::Column& column, std::size_t rows, const scenarios::ShownUnits& units = {}) {
+std::string cell(const scenarios::Column& column, std::size_t row) {
+  if (column.kind == scenarios::CellKind::text) return column.text(row);
+  const auto text = [&](double number) { return core::format_number(number, column.digits); };
+  if (!std::isfinite(column.numbers[row])) return "-";
+  if (column.intervals.empty() || std::isnan(column.intervals[row][0])) return text(column.numbers[row]);
+  const auto& [low, high] = column.intervals[row];
+  return text(column.numbers[row]) + " (" + text(low) + " to " + text(high) + ")";
+}
+
+Block block(const scenarios::Column& column) {
   Block result;
-  result.is_number = column.kind != scenarios::CellKind::text;
-  double largest = 0.0;
-  if (result.is_number)
-    for (std::size_t i = 0; i < rows; ++i)
-      if (std::isfinite(column.numbers[i])) largest = std::max(largest, std::abs(column.numbers[i]));
-  const scenarios::ShownUnit shown =
-      scenarios::shown_unit(units, scenarios::kind_of(column.unit, column.name), largest)
-          .value_or(scenarios::ShownUnit{column.unit});
-  result.cells.push_back(shown.unit.empty() ? column.name : column.name + " [" + shown.unit + "]");
-  for (std::size_t i = 0; i < rows; ++i) {
-    if (!result.is_number)
-      result.cells.push_back(column.text(i));
-    else
-      result.cells.push_back(
-          std::isfinite(column.numbers[i]) ? core::format_number(column.numbers[i] * shown.factor, digits) : "-");
-  }
+  result.is_number = column.kind != scenarios::CellKind::text && column.intervals.empty();
+  result.cells.push_back(column.unit.empty() ? column.name : column.name + " [" + column.unit + "]");
+  for (std::size_t row = 0; row < column.size(); ++row) result.cells.push_back(cell(column, row));
   return result;
 }
 
@@ -79,7 +75,8 @@ std::string table_text(const scenarios::Table& table, const std::vector<scenario
   const std::size_t all = table.columns.empty() ? 0 : table.columns.front().size();
   const std::size_t rows = std::min(all, max_rows);
   std::vector<Block> blocks;
-  for (const scenarios::Column& column : table.columns) blocks.push_back(block(column, rows, units));
+  for (const scenarios::Column& column : scenarios::in_shown_units(table, units, rows).columns)
+    blocks.push_back(block(column));
   std::string text = aligned(blocks);
   if (rows == all) return text;
   const scenarios::Table* file = file_with_rows_of(table, tables);

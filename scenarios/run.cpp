@@ -13,6 +13,7 @@
 #include "friction_models/registry.hpp"
 #include "scenarios/expectations.hpp"
 #include "scenarios/results/completeness.hpp"
+#include "scenarios/results/shown_table.hpp"
 #include "scenarios/results/shown_units.hpp"
 
 namespace dualdamp::scenarios {
@@ -27,13 +28,23 @@ bool is_document(const Json& value) {
   return value.is_string() && value.get_ref<const std::string&>().find('\n') != std::string::npos;
 }
 
+/// The unit that stands beside a number, under the key `unit`; empty: none does.
+std::string unit_beside(const ResultField& field, const Json& result) {
+  const std::size_t dot = field.path.find_last_of('.');
+  if (!field.unit.empty() || dot == std::string::npos || field.path.find("[]") != std::string::npos) return {};
+  std::string stem = "/" + field.path.substr(0, dot);
+  std::ranges::replace(stem, '.', '/');
+  const Json::json_pointer place(stem + "/unit");
+  return result.contains(place) && result.at(place).is_string() ? result.at(place).get<std::string>() : "";
+}
+
 /// The numbers of the result that are not in a list of records, in the order of the tables of the format.
 void summarise(const Scenario& scenario, const Json& result, Table& table) {
   const ShownUnits units = shown_units(scenario.written_units);
   const auto add = [&](const std::string& name, const Json& value, const std::string& unit) {
     // Sentences are printed separately from numbers. The answer is in the verdict and in the table of estimates.
     if (value.is_structured() || is_document(value) || std::ranges::find(sentences, name) != sentences.end() ||
-        name.ends_with(".text") || name.starts_with("answer"))
+        name.ends_with(".text") || name.ends_with(".unit") || name.starts_with("answer"))
       return;
     constexpr int digits = 9;
     table.columns[0].texts.push_back(name);
@@ -51,7 +62,10 @@ void summarise(const Scenario& scenario, const Json& result, Table& table) {
     const Json::json_pointer place(pointer);
     if (!result.contains(place)) continue;
     const Json& value = result.at(place);
-    if (stem == field.path) add(stem, value, field.unit);
+    if (stem == field.path) {
+      const std::string beside = value.is_number_float() ? unit_beside(field, result) : "";
+      add(stem, value, beside.empty() ? field.unit : beside);
+    }
     if (field.path == stem + "[]")
       for (std::size_t i = 0; i < value.size(); ++i)
         add(stem + "[" + std::to_string(i) + "]", value.at(i), field.unit);
@@ -70,8 +84,7 @@ Answer answer_of(const Scenario& scenario, const RunOptions& options) {
 std::string unit_warning(const Scenario& scenario, const std::vector<Table>& tables) {
   std::set<std::string> kinds;
   for (const ResultField& field : scenario.result_fields) kinds.insert(kind_of(field.unit, field.path));
-  for (const Table& table : tables)
-    for (const Column& column : table.columns) kinds.insert(kind_of(column.unit, column.name));
+  for (const Table& table : tables) kinds.merge(kinds_of(table));
   const std::vector<std::string> unused = unused_units(scenario.written_units, kinds);
   return unused.empty() ? "" : "no quantity of the result is in a unit that was asked for: " + core::joined(unused);
 }

@@ -58,11 +58,14 @@ const Json& value_at(const Json& json, const std::string& path) {
   return *value;
 }
 
+/// The path of the unit that may stand beside a value.
+std::string unit_beside(const std::string& path) { return path.substr(0, path.find_last_of('.') + 1) + "unit"; }
+
 /// A column of JSON values, of which some may be missing.
 class ColumnBuilder {
  public:
   ColumnBuilder(std::string name, std::string unit)
-      : name_(std::move(name)), unit_(unit == "1" ? "" : std::move(unit)) {}
+      : name_(std::move(name)), is_without_unit_(unit.empty()), unit_(unit == "1" ? "" : std::move(unit)) {}
 
   void add(const Json& value) {
     // Lists have separate tables.
@@ -77,6 +80,11 @@ class ColumnBuilder {
     texts_.push_back(!is_value ? "" : value.is_string() ? value.get<std::string>() : value.dump());
   }
 
+  /// The unit that stands beside the next value.
+  void add_unit(const Json& unit) {
+    if (is_without_unit_) row_units_.push_back(unit.is_string() ? unit.get<std::string>() : "");
+  }
+
   [[nodiscard]] bool is_empty() const { return is_empty_; }
   [[nodiscard]] bool is_text() const { return is_text_; }
 
@@ -88,13 +96,17 @@ class ColumnBuilder {
     } else {
       column.kind = is_truth_ ? CellKind::truth : is_count_ ? CellKind::count : CellKind::number;
       column.numbers = std::move(numbers_);
+      const bool has_units = std::ranges::any_of(row_units_, [](const auto& unit) { return !unit.empty(); });
+      if (column.kind == CellKind::number && has_units) column.row_units = std::move(row_units_);
     }
     return column;
   }
 
  private:
   std::string name_;
+  bool is_without_unit_;
   std::string unit_;
+  std::vector<std::string> row_units_;
   std::vector<double> numbers_;
   std::vector<std::string> texts_;
   bool is_empty_ = true;
@@ -186,7 +198,10 @@ class SweepAnswer {
     std::vector<ColumnBuilder> columns;
     if (bracket == std::string::npos) {
       ColumnBuilder column(field.path, field.unit);
-      for (const Json& point : points_) column.add(value_at(point.at("result"), field.path));
+      for (const Json& point : points_) {
+        column.add(value_at(point.at("result"), field.path));
+        column.add_unit(value_at(point.at("result"), unit_beside(field.path)));
+      }
       columns.push_back(std::move(column));
     } else if (bracket + 2 == field.path.size()) {
       constexpr std::size_t longest = 8;
@@ -303,7 +318,10 @@ class SweepAnswer {
       ColumnBuilder column(inner, unit);
       for (const Json& point : points_)
         if (const Json& items = value_at(point.at("result"), list); items.is_array())
-          for (const Json& item : items) column.add(value_at(item, inner));
+          for (const Json& item : items) {
+            column.add(value_at(item, inner));
+            column.add_unit(value_at(item, unit_beside(inner)));
+          }
       if (!column.is_empty()) table.columns.push_back(column.take());
     }
     return table;

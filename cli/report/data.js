@@ -71,7 +71,7 @@ function digitsWithin(value, interval) {
 const prefixes = [[1, ""], [1e-3, "m"], [1e-6, "µ"], [1e-9, "n"]];
 
 /** The SI unit of a quantity, but "angular velocity" for that of an angle: its SI unit is also that of a frequency. */
-const kindOf = (unit, name) => (unit === "rad/s" && /(^|\.)(v|max_speed)$/.test(name) ? "angular velocity" : unit);
+const kindOf = (unit, name) => (unit === "rad/s" && /((^|\.)(v|max_speed)|velocity)(\[\d+\])?$/.test(name) ? "angular velocity" : unit);
 
 /** The unit that the user wrote for such quantities, if numbers up to `largest` are legible in it. */
 function written(unit, largest, name = "") {
@@ -93,4 +93,35 @@ function largest(lists) {
   let most = 0;
   for (const list of lists) for (const value of list) if (Math.abs(value) > most) most = Math.abs(value);
   return most;
+}
+
+/** Unit and factor for numbers of one quantity: the unit that the user wrote, else SI. */
+const shownUnit = (unit, list, name) => written(unit, largest([list]), name) ?? { unit, factor: 1 };
+
+/** "mass 1.2 kg, ratio 3": numbers of any quantities. */
+function quantitiesText(list, digits, more = () => "") {
+  return list.map((one) => {
+    const { unit, factor } = shownUnit(one.unit, [one.value], one.name);
+    return `${one.name} ${short(one.value * factor, digits)}${unit && unit !== "1" ? ` ${unit}` : ""}${more(one)}`;
+  }).join(", ");
+}
+
+/** Numbers of a table whose unit is a text in their row. */
+const hasUnitInRow = ({ name, unit, isText }) => !isText && unit === "" && /(^|\.)(value|std|rms|noise|(profile_)?(low|high)95|(interval|profile)95\[\d\])$/.test(name);
+
+/** The column of these texts: beside `residual.rms` it is `residual.unit`. */
+const unitColumnOf = ({ columns }, column) => (hasUnitInRow(column) ? columns.find(({ name, isText }) => isText && name === column.name.replace(/[^.]*$/, "unit")) : undefined);
+
+/** For each column the unit and factor of its cells, by row. */
+function unitsByRow(table) {
+  const beside = table.columns.map((column) => unitColumnOf(table, column));
+  const names = table.columns.find(({ name, isText }) => isText && name === "name");
+  return table.columns.map((column, j) => {
+    if (!beside[j]) {
+      const whole = column.isText ? { unit: column.unit, factor: 1 } : shownUnit(column.unit, column.values, column.name);
+      return () => whole;
+    }
+    const ofOneUnit = table.columns.filter((_, k) => beside[k] === beside[j]);
+    return (i) => shownUnit(beside[j].texts[i], ofOneUnit.map(({ values: list }) => list[i]), names?.texts[i] ?? column.name);
+  });
 }

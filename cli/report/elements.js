@@ -45,15 +45,22 @@ function grid(head, rows, { tall = false, caption } = {}) {
 }
 
 /** A table of the run, folded. A long table shows only its first rows. */
-function folded(name, { columns, rows, step }, most = 500) {
+function folded(name, table, most = 500) {
+  const { columns, rows, step } = table;
   const shown = Math.min(columns[0]?.values.length ?? 0, most);
   const all = shown === rows;
   const note = all ? "" : ` The page shows ${shown} of ${rows} rows${step > 1 ? `, every ${step}th` : ""}; all are in ${name}.csv.`;
-  const units = columns.map(({ name: column, unit, values: list, isText }) => (!isText && written(unit, largest([list]), column)) || { unit, factor: 1 });
-  const body = Array.from({ length: shown }, (_, i) => columns.map(({ isText, texts, values: list }, j) =>
-    (isText ? texts[i] : { text: list[i] === null ? null : list[i] * units[j].factor, title: texts[i] })));
+  const units = unitsByRow(table);
+  const besides = columns.map((column) => unitColumnOf(table, column));
+  const text = (i, j) => {
+    const numbersBeside = besides.indexOf(columns[j]);
+    return numbersBeside < 0 ? columns[j].texts[i] : units[numbersBeside](i).unit;
+  };
+  const cell = (i, j) => (columns[j].isText ? text(i, j) : { text: columns[j].values[i] === null ? null : columns[j].values[i] * units[j](i).factor, title: columns[j].texts[i] });
+  const body = Array.from({ length: shown }, (_, i) => columns.map((_, j) => cell(i, j)));
+  const unitInHead = (j) => (besides[j] ? "" : units[j](0).unit);
   return make("details", {}, make("summary", {}, `${name}.csv, ${rows} row${rows === 1 ? "" : "s"}`),
     note ? make("p", { class: "soft" }, note.trim()) : null,
-    grid(columns.map(({ name: title }, j) => title + (units[j].unit ? ` [${units[j].unit}]` : "")), body,
+    grid(columns.map(({ name: title }, j) => title + (unitInHead(j) ? ` [${unitInHead(j)}]` : "")), body,
       { tall: true, caption: `${name}.csv` }));
 }

@@ -147,7 +147,9 @@ std::unique_ptr<const Question> ask_fit(CheckedValues&& values) {
                                        values.excitation, std::move(setup.excitations), std::move(warnings));
 }
 
-Table law_table(const std::vector<identify::Fit>& fits, const std::vector<std::size_t>& order) {
+/// `unit`: of the rms.
+Table law_table(const std::vector<identify::Fit>& fits, const std::vector<std::size_t>& order,
+                const std::string& unit) {
   Table table{.name = "laws", .key = "laws"};
   Column law{.name = "law", .kind = CellKind::text};
   Column count{.name = "parameters", .kind = CellKind::count};
@@ -168,6 +170,7 @@ Table law_table(const std::vector<identify::Fit>& fits, const std::vector<std::s
     criterion.numbers.push_back(fit.AICc);
     weight.numbers.push_back(std::isnan(fit.AICc) ? none : weight_of(fit) / sum);
     rms.numbers.push_back(fit.outcome.ok() ? fit.signals.front().rms : none);
+    rms.row_units.push_back(unit);
     units.numbers.push_back(fit.noise_units);
     reason.texts.push_back(fit.outcome.reason);
   }
@@ -201,7 +204,7 @@ Answer FitQuestion::run(const RunContext& /*context*/) const {
   answer.result["law"] = laws_text(best.rig);
   add_fit(best, data_, answer);
   answer.result["laws"] = nullptr;
-  answer.tables.push_back(law_table(fits, order));
+  answer.tables.push_back(law_table(fits, order, residual_unit(best, data_)));
   add_curves(best, data_, "fit", answer);
   if (!validation_.empty()) {
     const identify::Prediction prediction = identify::predict_records(

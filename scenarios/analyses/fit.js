@@ -22,16 +22,23 @@ function scenarioBox({ scenario }) {
   return make("section", {}, make("h2", {}, "The fitted rig as a scenario"), make("pre", { "data-path": "scenario" }, scenario));
 }
 
+// The file of the compared laws states no unit of their residuals.
+if (run.analysis === "fit" && run.result?.residual && tables.laws) tables.laws.get("rms").unit = run.result.residual.unit;
+
 /** What was sought, first of all: values with their intervals, and how large the residuals are. */
 function fittedNumbers({ parameters, residual }) {
   const digits = (one) => digitsWithin(one.value, one.interval95);
-  const range = (one) => (one.interval95.includes(null) ? "–" : one.interval95.map((end) => short(end, digits(one))).join(" to "));
-  const rows = parameters.map((one, i) => [one.name,
-    { text: make("span", { "data-path": `parameters[${i}].value`, "data-value": JSON.stringify(one.value) }, short(one.value, digits(one)), make("small", { class: "under" }, range(one))), class: "text" },
-    { text: one.unit, class: "text" }, { text: one.reason ?? "", class: "long" }]);
+  const rows = parameters.map((one, i) => {
+    const { unit, factor } = shownUnit(one.unit, [one.value, ...one.interval95], one.name);
+    const range = one.interval95.includes(null) ? "–" : one.interval95.map((end) => short(end * factor, digits(one))).join(" to ");
+    return [one.name,
+      { text: make("span", { "data-path": `parameters[${i}].value`, "data-value": JSON.stringify(one.value) }, short(one.value * factor, digits(one)), make("small", { class: "under" }, range)), class: "text" },
+      { text: unit, class: "text" }, { text: one.reason ?? "", class: "long" }];
+  });
   const noise = residual.noise_units === null ? "" : `, ${short(residual.noise_units, 3)} times the noise`;
+  const { unit, factor } = shownUnit(residual.unit, [residual.rms]);
   return [make("h2", {}, "Fitted numbers"), grid(["", "value (95 %)", "unit", ""], rows, { caption: "Fitted numbers" }),
-    make("p", { class: "soft" }, `Residuals: ${short(residual.rms, 4)} ${residual.unit}${noise}.`)];
+    make("p", { class: "soft" }, `Residuals: ${short(residual.rms * factor, 4)} ${unit}${noise}.`)];
 }
 
 views.fit = { shown: ["rig", "scenario", "residual"], before: fittedNumbers, charts: () => [...overlays("fit", "fitted"), ...overlays("prediction", "predicted")], after: (result) => [scenarioBox(result)] };

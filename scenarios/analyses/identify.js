@@ -16,9 +16,15 @@ function ellipse(estimate) {
   };
 }
 
-const range = (interval, unit = '') =>
-    (interval && interval[0] !== null ? `95 %: ${short(interval[0], 4)} to ${short(interval[1], 4)}${unit}` :
-                                        'no interval');
+/** Numbers of the estimates in the unit that the user wrote, else in SI. */
+const unitsOfEstimates = {c: 'N.s/m', F0: 'N', x_f: 'm'};
+const shownAs = (key, list) =>
+    key in unitsOfEstimates ? shownUnit(unitAt(`estimates[].${key}`, unitsOfEstimates[key]), list) : {unit: '', factor: 1};
+
+const range = (interval, {unit, factor}) =>
+    (interval && interval[0] !== null ?
+         `95 %: ${short(interval[0] * factor, 4)} to ${short(interval[1] * factor, 4)}${unit && ` ${unit}`}` :
+         'no interval');
 
 /** The answer with its ranges, or that there is none and why. */
 function answerBox({answer, answer_reason: reason}) {
@@ -27,7 +33,8 @@ function answerBox({answer, answer_reason: reason}) {
         'section', {class: 'answer'}, make('h2', {}, 'No answer'),
         make('p', {'data-path': 'answer_reason'}, reason));
   const shown =
-      [['ζ', 'zeta', ''], ['F0', 'F0', ` ${unitAt('estimates[].F0', 'N')}`], ['c', 'c', ` ${unitAt('estimates[].c', 'N.s/m')}`]].filter(([, key]) => answer[key] !== null);
+      [['ζ', 'zeta'], ['F0', 'F0'], ['c', 'c']].filter(([, key]) => answer[key] !== null)
+          .map(([label, key]) => [label, key, shownAs(key, [answer[key], ...(answer.interval95?.[key] ?? [])])]);
   return make(
       'section', {class: 'answer'}, make('h2', {}, 'Answer'),
       make(
@@ -41,7 +48,7 @@ function answerBox({answer, answer_reason: reason}) {
                         'data-value': JSON.stringify(answer[key]),
                         title: String(answer[key])
                       },
-                      short(answer[key], 5) + unit,
+                      short(answer[key] * unit.factor, 5) + (unit.unit && ` ${unit.unit}`),
                       make('small', {class: 'under'}, range(answer.interval95?.[key], unit)))))),
       make('p', {}, `By ${answer.method}: ${reason}.`));
 }
@@ -93,45 +100,40 @@ function ledger({assumptions, family_level: level, tested, sensitivities}) {
   ].filter(Boolean);
 }
 
-/** Lengths of the estimates in the unit of the data's columns, where it is known. */
-function lengthUnit(values) {
-  const si = unitAt('estimates[].x_f', 'm');
-  return written(si, largest([values.filter((value) => typeof value === 'number')])) || {unit: si, factor: 1};
-}
-
 /** A cell with a length: what is shown is scaled, what it stands for is SI. */
 const lengthCell = (value, {factor}, path) =>
     ({text: typeof value === 'number' ? value * factor : value, title: `${value}`, path, value});
 
 function estimateTable(estimates) {
-  const length = lengthUnit(estimates.map((e) => e.x_f));
-  const both = (value, interval, path) => ({
+  const length = shownAs('x_f', estimates.map((e) => e.x_f));
+  const [c, F0] = ['c', 'F0'].map((key) => shownAs(key, estimates.flatMap((e) => [e[key], ...(e.interval95?.[key] ?? [])])));
+  const both = (value, interval, path, {factor} = {factor: 1}) => ({
     text: value === null ?
         '–' :
         make(
-            'span', {}, short(value, 5),
+            'span', {}, short(value * factor, 5),
             interval && interval[0] !== null ?
-                make('small', {class: 'under'}, ` ${short(interval[0], 4)} to ${short(interval[1], 4)}`) :
+                make('small', {class: 'under'}, ` ${short(interval[0] * factor, 4)} to ${short(interval[1] * factor, 4)}`) :
                 null),
     path,
     value
   });
   return grid(
-      ['method', '', 'ζ (95 %)', `c [${unitAt('estimates[].c', 'N.s/m')}] (95 %)`, `x_f [${length.unit}]`, `F0 [${unitAt('estimates[].F0', 'N')}] (95 %)`, 'because'],
+      ['method', '', 'ζ (95 %)', `c [${c.unit}] (95 %)`, `x_f [${length.unit}]`, `F0 [${F0.unit}] (95 %)`, 'because'],
       estimates.map(
           (e, i) =>
               [{text: e.method, class: 'text'},
                {text: e.usable ? '✓ usable' : '✗ not usable', class: `text ${e.usable ? 'good' : 'bad'}`},
                both(e.zeta, e.interval95?.zeta, `estimates[${i}].zeta`),
-               both(e.c, e.interval95?.c, `estimates[${i}].c`), lengthCell(e.x_f, length, `estimates[${i}].x_f`),
-               both(e.F0, e.interval95?.F0, `estimates[${i}].F0`), {text: e.diagnostics.reason, class: 'long'}]),
+               both(e.c, e.interval95?.c, `estimates[${i}].c`, c), lengthCell(e.x_f, length, `estimates[${i}].x_f`),
+               both(e.F0, e.interval95?.F0, `estimates[${i}].F0`, F0), {text: e.diagnostics.reason, class: 'long'}]),
       {caption: 'Estimates'});
 }
 
 /** The straight lines x = a + b Y behind the estimates. */
 function lineTable(estimates) {
   const at = (i, key) => `estimates[${i}].diagnostics.line.${key}`;
-  const length = lengthUnit(estimates.map(({diagnostics: {line}}) => line?.intercept));
+  const length = shownAs('x_f', estimates.map(({diagnostics: {line}}) => line?.intercept));
   const rows = estimates.flatMap(({method, diagnostics: {line}}, i) => (line ? [[
     {text: method, class: 'text'}, {text: line.slope, path: at(i, 'slope')},
     lengthCell(line.intercept, length, at(i, 'intercept')), {text: line.G, path: at(i, 'G')}
@@ -228,12 +230,14 @@ function lawCharts(estimates) {
   return estimates.filter((e) => e.laws)
       .flatMap((e) => {
         const allowed = e.laws.filter((law) => !law.rejected);
+        const end = (key, i) => {
+          const {unit, factor} = shownAs(key, e.hull95[key]);
+          return `${short(e.hull95[key][i] * factor, 4)}${unit && ` ${unit}`} (${e.hull_ends[key][i]})`;
+        };
         return [['zeta', 'ζ', ''], ['F0', 'F0', unitAt('estimates[].F0', 'N')]].map(
             ([key, label, unit]) => chart({
               title: `${label}, law by law`,
-              note: `${allowed.length} of ${e.laws.length} laws are allowed; the hull goes from ${
-                  short(e.hull95[key][0], 4)} (${e.hull_ends[key][0]}) to ${short(e.hull95[key][1], 4)} (${
-                  e.hull_ends[key][1]})`,
+              note: `${allowed.length} of ${e.laws.length} laws are allowed; the hull goes from ${end(key, 0)} to ${end(key, 1)}`,
               x: {label, unit},
               y: {label: 'law, best first', unit: '', whole: true},
               series: allowed.map((law, i) => {
@@ -279,19 +283,25 @@ function furtherTables({estimates}) {
           heading(`Further parameters, ${e.method}`),
           grid(
               ['parameter', 'value', 'unit', 'standard error', '95 %'],
-              others.map(
-                  (o) =>
-                      [o.name, o.value, o.unit, o.std,
-                       o.interval95 ? `${short(o.interval95[0], 5)} to ${short(o.interval95[1], 5)}` : null])));
-    if (candidates?.length)
+              others.map((o) => {
+                const {unit, factor} = shownUnit(o.unit, [o.value, ...(o.interval95 ?? [])], o.name);
+                const scaled = (value) => (value === null ? null : value * factor);
+                return [
+                  o.name, scaled(o.value), unit, scaled(o.std),
+                  o.interval95 ? o.interval95.map((value) => short(scaled(value), 5)).join(' to ') : null
+                ];
+              })));
+    if (candidates?.length) {
+      const length = shownAs('x_f', candidates.map((c) => c.residual_deviation));
       out.push(
           heading(`Laws compared, ${e.method}`),
           grid(
-              ['law', 'weight', 'AICc', 'BIC', `residual deviation [${unitAt('estimates[].x_f', 'm')}]`, 'parameters'],
+              ['law', 'weight', 'AICc', 'BIC', `residual deviation [${length.unit}]`, 'parameters'],
               candidates.map(
                   (c) =>
-                      [c.law, c.weight, c.AICc, c.BIC, c.residual_deviation,
-                       c.parameters.map((p) => `${p.name} ${short(p.value, 4)} ${p.unit}`).join(', ')])));
+                      [c.law, c.weight, c.AICc, c.BIC, lengthCell(c.residual_deviation, length),
+                       quantitiesText(c.parameters, 4)])));
+    }
   }
   return out;
 }

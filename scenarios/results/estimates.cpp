@@ -175,58 +175,54 @@ Table estimate_table(const std::vector<identify::Estimate>& estimates) {
   return table;
 }
 
-/// The same for a terminal: a number with its interval is one text.
+constexpr int few = 5;  ///< digits in a terminal
+
+/// The same for a terminal: a number with its interval is one cell.
 Table readable_estimates(const std::vector<identify::Estimate>& estimates,
                          const identify::KnownConstants& constants) {
   using identify::Estimate;
-  const auto digits = [](double value, int count) {
-    return std::isfinite(value) ? core::format_number(value, count) : std::string("-");
-  };
-  const auto text = [&](double identify::ParameterSet::* member,
-                        identify::Interval identify::ParameterIntervals::* interval) {
-    return [=](const Estimate& estimate) {
-      if (!estimate.outcome.ok()) return std::string("-");
-      constexpr int few = 5;
-      std::string cell = digits(estimate.value.*member, few);
-      if (estimate.interval95 && cell != "-") {
-        const auto& [low, high] = (*estimate.interval95).*interval;
-        cell += " (" + digits(low, few) + " to " + digits(high, few) + ")";
-      }
-      return cell;
-    };
+  const auto with_interval = [&](const std::string& name, std::string unit, double identify::ParameterSet::* member,
+                                 identify::Interval identify::ParameterIntervals::* interval) {
+    Column cells{.name = name + " (95 %)", .unit = std::move(unit)};
+    cells.digits = few;
+    for (const Estimate& estimate : estimates) {
+      const bool exists = estimate.outcome.ok();
+      cells.numbers.push_back(exists ? estimate.value.*member : none);
+      cells.intervals.push_back(exists && estimate.interval95 ? (*estimate.interval95).*interval
+                                                              : identify::Interval{none, none});
+    }
+    return cells;
   };
   using Set = identify::ParameterSet;
   using Intervals = identify::ParameterIntervals;
   Table table{"estimates",
               {text_column("method", estimates, &Estimate::method),
                text_column("usable", estimates, [](const Estimate& e) { return e.usable ? "yes" : "no"; }),
-               text_column("zeta (95 %)", estimates, text(&Set::zeta, &Intervals::zeta)),
-               text_column("c (95 %) [" + constants.unit("N.s/m") + "]", estimates, text(&Set::c, &Intervals::c)),
-               text_column("F0 (95 %) [" + constants.unit("N") + "]", estimates, text(&Set::F0, &Intervals::F0))}};
+               with_interval("zeta", "", &Set::zeta, &Intervals::zeta),
+               with_interval("c", constants.unit("N.s/m"), &Set::c, &Intervals::c),
+               with_interval("F0", constants.unit("N"), &Set::F0, &Intervals::F0)}};
   table.is_file = false;
   return table;
 }
 
 /// Further parameters of all estimates for a terminal.
 Table readable_others(const std::vector<identify::Estimate>& estimates, const identify::KnownConstants& constants) {
-  constexpr int few = 5;
-  Table table{"parameters",
-              {{.name = "method", .kind = CellKind::text},
-               {.name = "parameter", .kind = CellKind::text},
-               {.name = "value (95 %)", .kind = CellKind::text},
-               {.name = "unit", .kind = CellKind::text}}};
-  table.is_file = false;
-  for (const identify::Estimate& estimate : estimates) {
+  Column method{.name = "method", .kind = CellKind::text};
+  Column name{.name = "parameter", .kind = CellKind::text};
+  Column value{.name = "value (95 %)"};
+  Column unit{.name = "unit", .kind = CellKind::text};
+  value.digits = few;
+  for (const identify::Estimate& estimate : estimates)
     for (const identify::FurtherParameter& parameter : estimate.others) {
-      std::string value = core::format_number(parameter.value, few);
-      if (parameter.interval95)
-        value += " (" + core::format_number((*parameter.interval95)[0], few) + " to " +
-                 core::format_number((*parameter.interval95)[1], few) + ")";
-      const std::array<std::string, 4> row = {estimate.method, parameter.name, value,
-                                              constants.unit(parameter.unit)};
-      for (std::size_t i = 0; i < row.size(); ++i) table.columns[i].texts.push_back(row[i]);
+      method.texts.push_back(estimate.method);
+      name.texts.push_back(parameter.name);
+      value.numbers.push_back(parameter.value);
+      value.intervals.push_back(parameter.interval95.value_or(identify::Interval{none, none}));
+      unit.texts.push_back(constants.unit(parameter.unit));
     }
-  }
+  value.row_units = unit.texts;
+  Table table{"parameters", {method, name, value, unit}};
+  table.is_file = false;
   return table;
 }
 

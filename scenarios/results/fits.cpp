@@ -37,19 +37,26 @@ Table parameter_table(const identify::Fit& fit) {
   };
   Table table{.name = "parameters"};
   table.columns.push_back(text_column("name", list, [](const FittedParameter& p) { return p.parameter.name; }));
-  table.columns.push_back(
-      text_column("unit", list, [&](const FittedParameter& p) { return unit_in(fit, p.parameter.unit); }));
+  const Column unit =
+      text_column("unit", list, [&](const FittedParameter& p) { return unit_in(fit, p.parameter.unit); });
+  table.columns.push_back(unit);
   table.columns.push_back(column("value", "", list, &FittedParameter::value));
   table.columns.push_back(column("std", "", list, &FittedParameter::std));
   table.columns.push_back(column("low95", "", list, end_of(&FittedParameter::interval95, 0)));
   table.columns.push_back(column("high95", "", list, end_of(&FittedParameter::interval95, 1)));
   table.columns.push_back(column("profile_low95", "", list, end_of(&FittedParameter::profile95, 0)));
   table.columns.push_back(column("profile_high95", "", list, end_of(&FittedParameter::profile95, 1)));
+  for (Column& column : table.columns)
+    if (column.kind == CellKind::number) column.row_units = unit.texts;
   table.columns.push_back(text_column("remark", list, [](const FittedParameter& p) { return p.reason; }));
   return table;
 }
 
 }  // namespace
+
+std::string residual_unit(const identify::Fit& fit, const identify::Experiments& experiments) {
+  return unit_in(fit, signal_of(fit.signals.front(), experiments).unit);
+}
 
 void add_fit(const identify::Fit& fit, const identify::Experiments& experiments, Answer& answer) {
   Json& result = answer.result;
@@ -71,7 +78,7 @@ void add_fit(const identify::Fit& fit, const identify::Experiments& experiments,
     answer.warnings.push_back("not identifiable: " + trade.text);
   }
   result["residual"] = {{"rms", fit.signals.front().rms},
-                        {"unit", unit_in(fit, signal_of(fit.signals.front(), experiments).unit)},
+                        {"unit", residual_unit(fit, experiments)},
                         {"noise_units", finite_or_null(fit.noise_units)}};
   for (const std::string& warning : fit.warnings) answer.warnings.push_back(warning);
   if (std::isnan(fit.noise_units))

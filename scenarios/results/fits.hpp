@@ -13,6 +13,9 @@ namespace dualdamp::scenarios {
 /// Keys `parameters`, `not_identifiable`, `residual`, `signals`, `covariance`, and the table of parameters.
 void add_fit(const identify::Fit& fit, const identify::Experiments& experiments, Answer& answer);
 
+/// Of the residuals of the first signal.
+[[nodiscard]] std::string residual_unit(const identify::Fit& fit, const identify::Experiments& experiments);
+
 /// Measured and fitted values, one table for each signal of each record, named PREFIX_RECORD_SIGNAL.
 void add_curves(const identify::Fit& fit, const identify::Experiments& experiments, const std::string& prefix,
                 Answer& answer);

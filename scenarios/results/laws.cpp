@@ -30,10 +30,15 @@ Json law_json(const LawAnswer& law) {
           {"weight", finite_or_null(law.weight)}};
 }
 
-std::string with_ends(double value, const identify::Interval& ends) {
-  constexpr int digits = 4;
-  return core::format_number(value, digits) + " (" + core::format_number(ends[0], digits) + " to " +
-         core::format_number(ends[1], digits) + ")";
+Column with_ends(std::string name, std::string unit, const std::vector<LawAnswer>& laws,
+                 double identify::ParameterSet::* member, identify::Interval LawAnswer::* interval) {
+  Column cells{.name = std::move(name), .unit = std::move(unit)};
+  cells.digits = 4;
+  for (const LawAnswer& law : laws) {
+    cells.numbers.push_back(law.value.*member);
+    cells.intervals.push_back(law.*interval);
+  }
+  return cells;
 }
 
 Table readable_laws(const std::vector<LawAnswer>& laws, const identify::KnownConstants& constants) {
@@ -45,9 +50,8 @@ Table readable_laws(const std::vector<LawAnswer>& laws, const identify::KnownCon
        text("", [](const LawAnswer& law) { return law.rejected ? "rejected" : "allowed"; }),
        text("p", [](const LawAnswer& law) { return core::format_number(law.p_value, few); }),
        text("severity", [](const LawAnswer& law) { return core::format_number(law.severity, few); }),
-       text("zeta (95 %)", [](const LawAnswer& law) { return with_ends(law.value.zeta, law.zeta_interval95); }),
-       text("F0 (95 %) [" + constants.unit("N") + "]",
-            [](const LawAnswer& law) { return with_ends(law.value.F0, law.F0_interval95); }),
+       with_ends("zeta (95 %)", "", laws, &identify::ParameterSet::zeta, &LawAnswer::zeta_interval95),
+       with_ends("F0 (95 %)", constants.unit("N"), laws, &identify::ParameterSet::F0, &LawAnswer::F0_interval95),
        text("weight", [](const LawAnswer& law) { return core::format_number(law.weight, few); })}};
   table.is_file = false;
   return table;

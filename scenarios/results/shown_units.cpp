@@ -61,8 +61,10 @@ std::string ask_for_units(std::string_view list, std::map<std::string, std::stri
 }
 
 std::string kind_of(const std::string& unit, std::string_view name) {
-  const std::string_view last = name.substr(name.find_last_of('.') + 1);
-  return unit == "rad/s" && (last == "v" || last == "max_speed") ? angular_velocity : unit;
+  std::string_view last = name.substr(name.find_last_of('.') + 1);
+  last = last.substr(0, last.find('['));  // velocity[1]: that of the second record
+  const bool is_velocity = last == "v" || last == "max_speed" || last.ends_with("velocity");
+  return unit == "rad/s" && is_velocity ? angular_velocity : unit;
 }
 
 bool is_asked_for(std::string_view path) { return path.starts_with(asked); }

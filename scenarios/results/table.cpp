@@ -3,9 +3,19 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/numbers.hpp"
 #include "scenarios/format/json.hpp"
 
 namespace dualdamp::scenarios {
+
+std::string quantities_text(const std::vector<Quantity>& quantities) {
+  constexpr int digits = 4;
+  std::string text;
+  for (const auto& [name, value, unit] : quantities)
+    text += (text.empty() ? "" : ", ") + name + " " + core::format_number(value, digits) +
+            (unit.empty() || unit == "1" ? "" : " " + unit);
+  return text;
+}
 
 std::size_t Column::size() const {
   if (!choices.empty()) return choices.size();

@@ -2,6 +2,7 @@
 /// The lists of a result, stored by columns, so that a list of a million records is never a million JSON objects. A
 /// table is converted row by row to JSON, CSV and printed text.
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -20,7 +21,17 @@ enum class CellKind {
   text,
 };
 
-/// Numbers (NaN: no value) or texts.
+/// A number with a unit of its own, within a text.
+struct Quantity {
+  std::string name;
+  double value = 0.0;
+  std::string unit;  ///< SI; "1": none
+};
+
+/// "mass 1.2 kg, ratio 3"
+[[nodiscard]] std::string quantities_text(const std::vector<Quantity>& quantities);
+
+/// Numbers (NaN: no value) or texts. The last members are for printed tables; files leave them out.
 struct Column {
   std::string name;
   std::string unit;  ///< empty: no unit
@@ -29,6 +40,11 @@ struct Column {
   CellKind kind = CellKind::number;
   /// For texts with few different values: row i has `texts[choices[i]]`. Empty: row i has `texts[i]`.
   std::vector<std::uint32_t> choices = {};
+  /// The SI unit of each number, if the rows are of different quantities; files state it in a column of texts.
+  std::vector<std::string> row_units = {};
+  std::vector<std::array<double, 2>> intervals = {};   ///< behind each number: 1.2 (1.1 to 1.3); NaN: none
+  std::vector<std::vector<Quantity>> quantities = {};  ///< of which each text consists
+  int digits = 9;                                      ///< of printed numbers
 
   [[nodiscard]] std::size_t size() const;
   [[nodiscard]] const std::string& text(std::size_t row) const {

@@ -220,6 +220,8 @@ TEST_CASE("rotation: a velocity is not shown in the unit of a frequency", "[scen
   const auto stated = scenarios::shown_units({{"excitation.frequency", "Hz"}, {"initial.velocity", "deg/s"}});
   CHECK(shown(stated, "omega") == "Hz");
   CHECK(shown(stated, "final.v") == "deg/s");
+  for (const char* parameter : {"velocity", "velocity[1]", "stribeck_velocity"})
+    CHECK(shown(stated, parameter) == "deg/s");
   const auto asked = [](const std::string& list) {
     std::map<std::string, std::string> written;
     CHECK(scenarios::ask_for_units(list, written).empty());
