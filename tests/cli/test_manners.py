@@ -6,6 +6,7 @@ usage: test_manners.py PROGRAM ROOT [TEST...]
 
 import json
 import math
+import re
 import sys
 import unittest
 from pathlib import Path
@@ -133,6 +134,22 @@ analysis: {type: free_decay, peaks: 100}
         self.run_program("run", ROOT / "scenarios/examples/xy_curve.yaml", "--out", "example")
         rows = [[line for line in (self.folder / out / "curve.csv").read_text().splitlines() if not line.startswith("#")] for out in ("mine", "example")]
         self.assertEqual(*rows)
+
+    def test_messages_on_the_pages_are_those_of_the_program(self):
+        """Each block of a page that begins with FILE.yaml:LINE:COLUMN: the file is made anew from the line that it shows."""
+        found = []
+        for page in (ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))):
+            for block in re.findall(r"```\w*\n(.*?)```", page.read_text(), re.DOTALL):
+                message = re.match(r"([\w.-]+\.yaml):(\d+):\d+: (?:error|warning): [^\n]*\n  \| ([^\n]*)\n", block)
+                if not message:
+                    continue
+                name, number, line = message.groups()
+                lines = ["schema: dualdamp/1", *[""] * (int(number) - 2), line]
+                self.write(name, "\n".join(lines[-int(number):]) + "\n")
+                with self.subTest(page=str(page), block=block):
+                    self.assertIn(block, self.run_program("check", name, status=3).stderr)
+                found.append(page.name)
+        self.assertIn("user-guide.md", found)
 
 
 if __name__ == "__main__":
