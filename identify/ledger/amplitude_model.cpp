@@ -265,12 +265,10 @@ void move(const Eigen::VectorXd& step, const Taken& taken, Parameters& at) {
         std::clamp(step[2 + static_cast<Eigen::Index>(j)], -most_relaxed, most_relaxed);
 }
 
-/// The fit with sigma_Y = `ratio` sigma_x. `relaxed`: start of the coefficients taken.
-AmplitudeFit fit_with(SteadyStates states, const PlainFriction& begin, const Taken& taken, double ratio,
-                      double relaxed) {
+/// The fit with sigma_Y = `ratio` sigma_x.
+AmplitudeFit fit_with(SteadyStates states, const Parameters& begin, const Taken& taken, double ratio) {
   AmplitudeFit fit;
-  fit.at = {begin, states.none_relaxed()};
-  for (const std::size_t j : taken) fit.at.g[static_cast<Eigen::Index>(j)] = relaxed;
+  fit.at = begin;
   const KnownDeviations& known = states.known();
   fit.deviations = {ratio > 1e3 ? 0.0 : 1e-3, ratio > 1e3 ? 1e-3 : 1e-3 * ratio, 1e-2};
   if (is_stated(known)) fit.deviations = {known.sigma_x, known.sigma_Y, 1e-2};
@@ -309,21 +307,14 @@ AmplitudeFit fit_with(SteadyStates states, const PlainFriction& begin, const Tak
 /// The fit with the best ratio of the deviations. Some 25 states hardly determine it, so it has a prior: sensors of
 /// equal relative accuracy, with a factor of three as one standard deviation. At one frequency without phases the
 /// record does not determine it at all, because the gain of Y on x hardly varies: only x has errors then.
-AmplitudeFit best_fit(const SteadyStates& states, const PlainFriction& begin, const Taken& taken,
-                      double relaxed = 0.0) {
-  if (is_stated(states.known())) return fit_with(states, begin, taken, 1.0, relaxed);
-  if (states.frequencies() < 2 && states.phases() == 0) return fit_with(states, begin, taken, 0.0, relaxed);
-  double Y = 0.0;
-  double x = 0.0;
-  for (const SteadyPoint& point : states.points()) {
-    Y += point.Y;
-    x += point.x;
-  }
+AmplitudeFit best_fit(const SteadyStates& states, const Parameters& begin, const Taken& taken) {
+  if (is_stated(states.known())) return fit_with(states, begin, taken, 1.0);
+  if (states.frequencies() < 2 && states.phases() == 0) return fit_with(states, begin, taken, 0.0);
   const double deviation = std::log(3.0);
   AmplitudeFit best;
   double least = std::numeric_limits<double>::infinity();
   for (const double share : {0.03, 0.1, 0.3, 0.55, 1.0, 1.8, 3.3, 10.0}) {
-    AmplitudeFit fit = fit_with(states, begin, taken, share * Y / x, relaxed);
+    AmplitudeFit fit = fit_with(states, begin, taken, share * mean_ratio(states.points()));
     const double deviance = fit.deviance + std::pow(std::log(share) / deviation, 2);
     if (deviance < least || !std::isfinite(best.deviance)) {
       best = std::move(fit);
@@ -366,6 +357,25 @@ KnownConstants constants_at(const AmplitudeFit& fit, const SteadyStates& states,
   return constants;
 }
 
+/// The fit with more relaxations free than `fit`. It is never worse: it may begin at `fit` as well, and may stay.
+AmplitudeFit fit_beside(const AmplitudeFit& fit, const SteadyStates& states, const Taken& hidden,
+                        const Taken& taken) {
+  Parameters begin{start_beside(fit.at.friction, states.points()), states.none_relaxed()};
+  AmplitudeFit best = best_fit(states, begin, taken);
+  const auto try_from = [&](const Parameters& start) {
+    AmplitudeFit other = best_fit(states, start, taken);
+    if (other.deviance < best.deviance) best = std::move(other);
+  };
+  // A term of second order has no slope at zero: the fit begins away from it.
+  if (std::ranges::any_of(taken, [&](std::size_t j) { return std::ranges::find(hidden, j) != hidden.end(); }))
+    for (const double g : {0.02, -0.02}) {
+      for (const std::size_t j : taken) begin.g[static_cast<Eigen::Index>(j)] = g;
+      try_from(begin);
+    }
+  if (best.deviance > fit.deviance) try_from(fit.at);
+  return best.deviance > fit.deviance ? fit : best;
+}
+
 JointModel amplitude_model_of(const AmplitudeFit& fit, const SteadyStates& states, const Taken& relaxed,
                               double unit, const KnownConstants& stated) {
   const KnownConstants constants = constants_at(fit, states, stated);
@@ -384,18 +394,8 @@ JointModel amplitude_model_of(const AmplitudeFit& fit, const SteadyStates& state
   leave_out_unseen(states, fit.at.friction, relaxed, model);
   model.is_stated = is_stated(states.known());
   set_noise(states.amplitudes(), states.phases(), states.smooth_columns(), model);
-  model.refit = [states, begin = start_beside(fit.at.friction, states.points()), hidden = model.hidden, unit,
-                 stated](const Taken& taken) {
-    const bool second_order =
-        std::ranges::any_of(taken, [&](std::size_t j) { return std::ranges::find(hidden, j) != hidden.end(); });
-    AmplitudeFit best = best_fit(states, begin, taken);
-    // A term of second order has no slope at zero: the fit begins away from it.
-    constexpr double away = 0.02;
-    for (const double g : second_order ? std::vector<double>{away, -away} : std::vector<double>{}) {
-      AmplitudeFit other = best_fit(states, begin, taken, g);
-      if (other.deviance < best.deviance) best = std::move(other);
-    }
-    return amplitude_model_of(best, states, taken, unit, stated);
+  model.refit = [states, fit, hidden = model.hidden, unit, stated](const Taken& taken) {
+    return amplitude_model_of(fit_beside(fit, states, hidden, taken), states, taken, unit, stated);
   };
   const double to_force = constants.stiffness * unit;
   // The column of the stiffness is at constant F0 = k x_f.
@@ -429,7 +429,7 @@ std::variant<JointModel, std::string> amplitude_model(const Record& record, cons
   double ratio = 1.0;
   while (points.size() >= fewest) {
     const SteadyStates states(points, true, stated);
-    const AmplitudeFit fit = best_fit(states, first_guess(points), {});
+    const AmplitudeFit fit = best_fit(states, {first_guess(points), states.none_relaxed()}, {});
     if (!std::isfinite(fit.deviance)) return "no damping ratio and friction force fit the steady states";
     if (drop_sticking(points, fit.at.friction, said)) continue;
     const double freedom = static_cast<double>(states.amplitudes() - states.smooth_columns());

@@ -69,6 +69,16 @@ Deviations largest_deviations(const std::vector<SteadyPoint>& points) {
   return {largest(squares.x), largest(squares.Y), largest(squares.phase)};
 }
 
+double mean_ratio(const std::vector<SteadyPoint>& points) {
+  double Y = 0.0;
+  double x = 0.0;
+  for (const SteadyPoint& point : points) {
+    Y += point.Y;
+    x += point.x;
+  }
+  return Y / x;
+}
+
 void limit(Deviations& deviations, const Deviations& largest) {
   const double excess = std::max(deviations.x / largest.x, deviations.Y / largest.Y);
   if (excess > 1.0) deviations.x /= excess, deviations.Y /= excess;

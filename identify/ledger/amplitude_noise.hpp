@@ -34,6 +34,9 @@ struct Deviations {
 /// states with phases are too few for them. All noise of the amplitudes may be in x or in Y.
 [[nodiscard]] Deviations largest_deviations(const std::vector<SteadyPoint>& points);
 
+/// The mean of Y over the mean of x.
+[[nodiscard]] double mean_ratio(const std::vector<SteadyPoint>& points);
+
 /// Deviations of the same proportions of x to Y that are not larger.
 void limit(Deviations& deviations, const Deviations& largest);
 
