@@ -15,8 +15,6 @@ namespace {
 using identify::Estimate;
 using scenarios::Json;
 
-Json number_json(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-
 Json interval_json(const std::optional<identify::ParameterIntervals>& intervals,
                    identify::Interval identify::ParameterIntervals::* member) {
   if (!intervals) return nullptr;
@@ -33,20 +31,20 @@ Json estimate_json(const Estimate& estimate) {
   json["F0"] = estimate.value.F0;
   json["zeta95"] = interval_json(estimate.interval95, &identify::ParameterIntervals::zeta);
   json["F095"] = interval_json(estimate.interval95, &identify::ParameterIntervals::F0);
-  json["p_value"] = estimate.lack_of_fit ? number_json(estimate.lack_of_fit->p_value) : Json(nullptr);
+  json["p_value"] = estimate.lack_of_fit ? scenarios::finite_or_null(estimate.lack_of_fit->p_value) : Json(nullptr);
   // The method's own diagnostics, without the ledger of assumptions.
   json["usable"] = estimate.usable && !(estimate.lack_of_fit && estimate.lack_of_fit->fired);
   return json;
 }
 
 Json consequence_json(const Consequence& consequence) {
-  return {{"distance", number_json(consequence.distance)},
-          {"harm", number_json(consequence.harm())},
-          {"harm_zeta", number_json(consequence.harm_zeta)},
-          {"harm_F0", number_json(consequence.harm_F0)},
-          {"attainable_power", number_json(consequence.attainable_power)},
-          {"cramer_rao_zeta", number_json(consequence.cramer_rao_zeta)},
-          {"cramer_rao_F0", number_json(consequence.cramer_rao_F0)}};
+  return {{"distance", scenarios::finite_or_null(consequence.distance)},
+          {"harm", scenarios::finite_or_null(consequence.harm())},
+          {"harm_zeta", scenarios::finite_or_null(consequence.harm_zeta)},
+          {"harm_F0", scenarios::finite_or_null(consequence.harm_F0)},
+          {"attainable_power", scenarios::finite_or_null(consequence.attainable_power)},
+          {"cramer_rao_zeta", scenarios::finite_or_null(consequence.cramer_rao_zeta)},
+          {"cramer_rao_F0", scenarios::finite_or_null(consequence.cramer_rao_F0)}};
 }
 
 /// Why a part of a motion could not be measured; empty if all of it was.
@@ -145,7 +143,8 @@ void run_motion(const Grid& grid, const sim::SteadyStateOptions& options, std::s
                  {"sensors", measured.sensors.name},
                  {"seed", grid.at(measured.number).seed}};
     line.update(consequence_json(measured.consequence));
-    line["unmeasured"] = {number_json(measured.unmeasured[0]), number_json(measured.unmeasured[1])};
+    line["unmeasured"] = {scenarios::finite_or_null(measured.unmeasured[0]),
+                          scenarios::finite_or_null(measured.unmeasured[1])};
     if (!measured.reason.empty()) line["reason"] = measured.reason;
     line["estimates"] = Json::array();
     for (const identify::MethodEntry* method : grid.question().methods)

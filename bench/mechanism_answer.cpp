@@ -54,7 +54,7 @@ Json explanation_json(const Explanation& explanation, const MechanismStudy& stud
   }
   json["chi2"] = fit.chi2;
   json["misfit"] = explanation.misfit;
-  json["stretch"] = std::isfinite(explanation.stretch) ? Json(explanation.stretch) : Json(nullptr);
+  json["stretch"] = scenarios::finite_or_null(explanation.stretch);
   json["bend"] = bend_of(fit.readings);
   json["F0"] = fit.friction.F0;
   json["c"] = fit.friction.c;

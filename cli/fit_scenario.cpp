@@ -6,6 +6,7 @@
 #include <tuple>
 #include <utility>
 
+#include "cli/option_text.hpp"
 #include "core/diagnostics.hpp"
 #include "core/numbers.hpp"
 #include "identify/fit/rig.hpp"
@@ -18,20 +19,12 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// The text as a quoted YAML string. A file name may hold any character.
-std::string in_quotes(const std::string& text) {
-  std::string result = "'";
-  for (const char c : text) result += c == '\'' ? "''" : std::string(1, c);
-  return result + "'";
-}
-
 /// Options such as `x=mm` as a YAML map.
 std::string map_of(const std::vector<std::string>& list) {
   std::string text;
   for (const std::string& item : list) {
-    const std::size_t sign = std::min(item.find('='), item.size());
-    text += (text.empty() ? "" : ", ") + item.substr(0, sign) + ": " +
-            in_quotes(sign < item.size() ? item.substr(sign + 1) : std::string());
+    const auto [name, value] = split_at_equals(item);
+    text += (text.empty() ? "" : ", ") + name + ": " + in_quotes(value);
   }
   return "{" + text + "}";
 }
@@ -50,8 +43,8 @@ std::string data_of(const std::vector<std::string>& files, const RecordCommand& 
     if (command.loop) item += ", loop: true";
     if (!command.drive.empty()) item += ", drive: " + command.drive;
     for (const std::string& sigma : command.sigmas) {
-      const std::size_t sign = std::min(sigma.find('='), sigma.size());
-      item += ", sigma_" + sigma.substr(0, sign) + ": " + (sign < sigma.size() ? sigma.substr(sign + 1) : "");
+      const auto [name, value] = split_at_equals(sigma);
+      item += ", sigma_" + name + ": " + value;
     }
     list += (list.empty() ? "{" : ", {") + item + "}";
   }

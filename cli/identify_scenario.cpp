@@ -4,16 +4,11 @@
 #include <string>
 #include <tuple>
 
+#include "cli/option_text.hpp"
+
 namespace dualdamp::cli {
 
 namespace {
-
-/// The text as a quoted YAML string. A file name may hold any character.
-std::string quoted(const std::string& text) {
-  std::string result = "'";
-  for (const char c : text) result += c == '\'' ? "''" : std::string(1, c);
-  return result + "'";
-}
 
 /// Adds options such as `--unit x=mm` as a YAML map.
 void add_maps(const FileOptions& command, scenarios::LoadOptions& options) {
@@ -21,16 +16,14 @@ void add_maps(const FileOptions& command, scenarios::LoadOptions& options) {
                                           {"--column", "columns", &command.columns},
                                           {"--scale", "scale", &command.scales}})
     for (const std::string& text : *list) {
-      const std::size_t sign = std::min(text.find('='), text.size());
-      options.set.push_back({std::string("analysis.") + key + "." + text.substr(0, sign) + "=" +
-                                 quoted(sign < text.size() ? text.substr(sign + 1) : std::string()),
-                             option});
+      const auto [name, value] = split_at_equals(text);
+      options.set.push_back({std::string("analysis.") + key + "." + name + "=" + in_quotes(value), option});
     }
 }
 
 /// Adds the options about the data file.
 void add_file_options(const FileOptions& command, scenarios::LoadOptions& options) {
-  if (!command.decimal.empty()) options.set.push_back({"analysis.decimal=" + quoted(command.decimal), "--decimal"});
+  if (!command.decimal.empty()) options.set.push_back({"analysis.decimal=" + in_quotes(command.decimal), "--decimal"});
   if (command.no_header) options.set.push_back({"analysis.no_header=true", "--no-header"});
   add_maps(command, options);
 }
@@ -47,7 +40,7 @@ bool is_scenario(const std::string& file) { return file.ends_with(".yaml") || fi
 scenarios::Scenario scenario_of(const IdentifyCommand& command) {
   scenarios::LoadOptions options;
   options.data_anywhere = true;
-  options.set = {{"analysis.data=" + quoted(command.data), "DATA"}};
+  options.set = {{"analysis.data=" + in_quotes(command.data), "DATA"}};
   if (!command.frequency.empty()) options.set.push_back({"excitation.type=base_harmonic", "--frequency"});
   for (const auto& [path, value, option] :
        {std::tuple{"system.mass", &command.mass, "--mass"},
@@ -63,7 +56,7 @@ scenarios::Scenario scenario_of(const IdentifyCommand& command) {
   add_file_options(command, options);
   if (!command.methods.empty()) {
     std::string names;
-    for (const std::string& name : command.methods) names += (names.empty() ? "" : ", ") + quoted(name);
+    for (const std::string& name : command.methods) names += (names.empty() ? "" : ", ") + in_quotes(name);
     options.set.push_back({"analysis.methods=[" + names + "]", "--method"});
   }
   scenarios::Scenario scenario = scenarios::parse_scenario(
@@ -77,7 +70,7 @@ scenarios::Scenario scenario_of(const NextCommand& command) {
   const bool from_scenario = is_scenario(command.data);
   options.data_anywhere = !from_scenario;
   if (from_scenario) options.instead = "design";
-  if (!from_scenario) options.set.push_back({"analysis.data=" + quoted(command.data), "DATA"});
+  if (!from_scenario) options.set.push_back({"analysis.data=" + in_quotes(command.data), "DATA"});
   if (!from_scenario && !command.frequency.empty())
     options.set.push_back({"excitation.type=base_harmonic", "--frequency"});
   for (const auto& [path, value, option] : {std::tuple{"system.mass", &command.mass, "--mass"},

@@ -3,6 +3,7 @@
 #include "bench/analyses.hpp"
 #include "bench/contest/contest.hpp"
 #include "bench/contest/export.hpp"
+#include "cli/option_text.hpp"
 #include "core/diagnostics.hpp"
 #include "scenarios/run.hpp"
 
@@ -36,11 +37,11 @@ std::string export_stress_test(const ExportCommand& command) {
 scenarios::Scenario scenario_of(const ScoreCommand& command) {
   std::vector<bench::Answers> answers;
   for (const std::string& text : command.answers) {
-    const std::size_t sign = text.find('=');
-    if (sign == std::string::npos || sign == 0)
+    auto [name, file] = split_at_equals(text);
+    if (name.empty() || name.size() == text.size())
       throw core::InputError(
           core::Diagnostic{{"--answers", 0, 0, {}}, "answers need a name", "NAME=FILE", text, {}});
-    answers.push_back({text.substr(0, sign), text.substr(sign + 1)});
+    answers.push_back({std::move(name), std::move(file)});
   }
   return bench::scored_scenario(loader(command.file, command.set), command.key, answers);
 }

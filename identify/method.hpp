@@ -1,5 +1,5 @@
 #pragma once
-/// The contract of an identification method: a record in, an estimate out. A header of a method defines its
+/// The contract of an identification method: a record in, an estimate out. A header of a method declares its
 /// `MethodEntry`; `methods.cpp` lists them.
 
 #include <span>

@@ -3,8 +3,6 @@
 /// more work (`Engine::work`) ends with an outcome that says so. A search that has a limit of its own sets it, so
 /// that no single motion runs past that limit. Of nested limits the inner one counts.
 
-#include <limits>
-
 namespace dualdamp::sim {
 
 class WorkLimit {

@@ -54,20 +54,20 @@ class Advisor {
   }
 
   /// Advice for candidates of the same plan: the engines compute their states, or their release, once.
-  [[nodiscard]] std::vector<Advice> advice(std::span<const CandidateMeasurement> same) const {
+  [[nodiscard]] std::vector<MeasurementAdvice> advice(std::span<const CandidateMeasurement> same) const {
     const ContinuedRecord continued(record_, rivals_, own_, same.front().plan);
     if (!continued.possible()) return {};
-    std::vector<Advice> list;
+    std::vector<MeasurementAdvice> list;
     for (const CandidateMeasurement& candidate : same)
       if (auto one = advice(candidate, continued)) list.push_back(std::move(*one));
     return list;
   }
 
  private:
-  [[nodiscard]] std::optional<Advice> advice(const CandidateMeasurement& candidate,
-                                             const ContinuedRecord& continued) const {
+  [[nodiscard]] std::optional<MeasurementAdvice> advice(const CandidateMeasurement& candidate,
+                                                        const ContinuedRecord& continued) const {
     const Widths before = widths_of(record_.study.intervals, moved_);
-    Advice advice{.candidate = candidate};
+    MeasurementAdvice advice{.candidate = candidate};
     std::map<std::size_t, std::optional<LawIntervals>> shared;
     Widths after;
     double power = 0.0;
@@ -151,12 +151,12 @@ std::string percent(double share) {
   return (value < all ? core::format_number(value, digits) : std::to_string(std::llround(value))) + " %";
 }
 
-std::string text_of(const Advice& advice, const LawIntervals& now) {
+std::string text_of(const MeasurementAdvice& advice, const LawIntervals& now) {
   const auto half = [](const Interval& ends, double value) { return 0.5 * (ends[1] - ends[0]) / value; };
   const double zeta = half(now.zeta_hull, now.mean.zeta);
   const double F0 = half(now.F0_hull, now.mean.F0);
   const auto between = [&](double Shrinkage::* one, double now) {
-    const auto by_law = [one](const Outcome& outcome) { return outcome.hull.*one; };
+    const auto by_law = [one](const LawOutcome& outcome) { return outcome.hull.*one; };
     const auto [least, most] = std::ranges::minmax(advice.outcomes, {}, by_law);
     return " (+-" + percent(now * by_law(least)) + " to +-" + percent(now * by_law(most)) + " by the true law)";
   };
@@ -194,18 +194,19 @@ std::variant<Design, std::string> design_after(const Record& record, const Known
   const std::vector<CandidateMeasurement> candidates =
       candidates_after(studied.states, constants, design.now.mean.zeta);
   const std::vector<std::span<const CandidateMeasurement>> groups = by_plan(candidates);
-  std::vector<std::vector<Advice>> advice(groups.size());
+  std::vector<std::vector<MeasurementAdvice>> advice(groups.size());
   sim::in_parts(groups.size(), 1, 0, [&](std::size_t first, std::size_t count) {
     for (std::size_t i = first; i < first + count; ++i) advice[i] = advisor.advice(groups[i]);
   });
-  for (std::vector<Advice>& group : advice) {
-    for (Advice& one : group) {
+  for (std::vector<MeasurementAdvice>& group : advice) {
+    for (MeasurementAdvice& one : group) {
       one.text = text_of(one, design.now);
       design.advice.push_back(std::move(one));
     }
   }
   if (design.advice.empty()) return "no law that the record allows has steady states under any candidate";
-  std::ranges::stable_sort(design.advice, {}, [](const Advice& one) { return one.hull.zeta * one.hull.F0; });
+  std::ranges::stable_sort(design.advice, {},
+                           [](const MeasurementAdvice& one) { return one.hull.zeta * one.hull.F0; });
   return design;
 }
 

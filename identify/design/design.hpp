@@ -27,16 +27,16 @@ struct Shrinkage {
 };
 
 /// What a measurement would do if this law is the true one.
-struct Outcome {
+struct LawOutcome {
   std::string law;
   Shrinkage hull;
 };
 
-struct Advice {
+struct MeasurementAdvice {
   CandidateMeasurement candidate;
-  Shrinkage hull;                   ///< expected width of the hull: the mean of the outcomes
-  std::vector<Outcome> outcomes{};  ///< of each law that the record allows
-  Shrinkage average;                ///< expected standard deviation of the average over laws
+  Shrinkage hull;                      ///< expected width of the hull: the mean of the outcomes
+  std::vector<LawOutcome> outcomes{};  ///< of each law that the record allows
+  Shrinkage average;                   ///< expected standard deviation of the average over laws
   double power =
       0.0;  ///< mean share of the wrong laws which the record allows that are rejected; NaN: there is none
   std::string text;
@@ -44,7 +44,7 @@ struct Advice {
 
 struct Design {
   LawIntervals now;
-  std::vector<Advice> advice;  ///< the best first: by the hull of zeta and F0 together
+  std::vector<MeasurementAdvice> advice;  ///< the best first: by the hull of zeta and F0 together
 };
 
 /// The advice after a record of steady states, or why there is none. `moved`: standard deviations of zeta and F0 by

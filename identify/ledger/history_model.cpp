@@ -135,7 +135,7 @@ class Histories {
     model.zeta_parts = model.F0_parts;
     for (std::size_t j = 0; j < list_.ways.size(); ++j) {
       const auto own = static_cast<Eigen::Index>(j);
-      if (list_.ways[j].kind == Way::Kind::friction_of_test) model.F0_parts[own] = 1.0;
+      if (list_.ways[j].kind == Way::Kind::friction_of_history) model.F0_parts[own] = 1.0;
       if (list_.ways[j].term != nullptr && list_.ways[j].term->one_sided)
         model.zeta_parts[own] = unit_force_ / scale_.speed / (2.0 * std::sqrt(force.m * force.k));
     }
@@ -269,7 +269,7 @@ class Histories {
       const Way& way = list_.ways[j];
       const double g = at.g[static_cast<Eigen::Index>(j)];
       if (way.kind == Way::Kind::constant) by.push_back(way.by);
-      if (way.kind == Way::Kind::friction_of_test) parameters.F0 += g * share_of(way, t);
+      if (way.kind == Way::Kind::friction_of_history) parameters.F0 += g * share_of(way, t);
       if (way.kind != Way::Kind::force) continue;
       const double unit = way.term->assumption == Assumption::sensors ? 1.0 : unit_force_;
       forces.emplace_back([term = way.term, unit, scale = scale_](const SampledOscillator::Instant& instant) {
@@ -357,7 +357,7 @@ class Histories {
       const Way& way = list_.ways[wanted[j]];
       const Eigen::Index to = base + static_cast<Eigen::Index>(j);
       if (way.kind == Way::Kind::force) result.col(to) = derivatives.col(from++);
-      if (way.kind == Way::Kind::friction_of_test)
+      if (way.kind == Way::Kind::friction_of_history)
         result.col(to) = result.col(1) * (share_of(way, t) / layout.shared()[1].scale);
     }
     return result;
@@ -365,7 +365,7 @@ class Histories {
 
   /// Share of a free friction force of one test in every test, so that F0 stays the mean over all tests.
   [[nodiscard]] double share_of(const Way& way, std::size_t test) {
-    return way.test == test ? 1.0 : -1.0 / (static_cast<double>(fit_.tests().size()) - 1.0);
+    return way.history == test ? 1.0 : -1.0 / (static_cast<double>(fit_.tests().size()) - 1.0);
   }
 
   /// Rows of one reading, with the columns of what is free in its sensor.
@@ -391,7 +391,7 @@ class Histories {
         if (kind == Way::Kind::zero_drift) errors.drift = g * length;
       });
       const auto zero = std::ranges::find_if(
-          owner.zeros_, [&](const FreeZero& other) { return other.test == test && other.sensor == sensor; });
+          owner.zeros_, [&](const FreeZero& other) { return other.history == test && other.sensor == sensor; });
       const Eigen::Index place = zero - owner.zeros_.begin();
       if (zero != owner.zeros_.end()) errors.zero = zero->unit * at.zeros[place];
       Eigen::MatrixXd rows = reading_rows(measured, motion, errors, columns, slopes);

@@ -32,7 +32,7 @@ void add_contrasts(HistoryWays& list, std::size_t tests) {
   const std::size_t contrasts = tests < 2 ? 0 : tests == 2 ? 1 : std::min(tests, most);
   for (std::size_t t = 0; t < contrasts; ++t)
     add(list, Assumption::stationarity, "friction force of history " + std::to_string(t + 1) + " free",
-        {.kind = Kind::friction_of_test, .test = t});
+        {.kind = Kind::friction_of_history, .history = t});
 }
 
 void add_reading(HistoryWays& list, const std::string& signal, MotionSensor sensor) {

@@ -16,7 +16,7 @@ enum class MotionSensor { x, v, a };
 
 /// The zero of a sensor of v or of a, in one history. It is always free: no force depends on it.
 struct FreeZero {
-  std::size_t test = 0;
+  std::size_t history = 0;
   MotionSensor sensor = MotionSensor::v;
   double unit = 1.0;  ///< m/s or m/s^2
   double near = 0.0;  ///< a value near it, in this unit
@@ -26,10 +26,10 @@ struct FreeZero {
 
 /// What a relaxation sets free.
 struct Way {
-  enum class Kind { constant, force, friction_of_test, gain, delay, zero, zero_drift } kind = Kind::constant;
+  enum class Kind { constant, force, friction_of_history, gain, delay, zero, zero_drift } kind = Kind::constant;
   SampledOscillator::By by = SampledOscillator::By::mass;  ///< of a constant
   const HistoryTerm* term = nullptr;                       ///< of a force
-  std::size_t test = 0;
+  std::size_t history = 0;
   MotionSensor sensor = MotionSensor::x;
 };
 

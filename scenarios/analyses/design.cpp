@@ -16,7 +16,7 @@ namespace dualdamp::scenarios {
 
 namespace {
 
-using identify::Advice;
+using identify::MeasurementAdvice;
 
 Section design_keys() {
   std::vector<Field> fields = data_fields();
@@ -60,13 +60,13 @@ Json shrinkage_json(const identify::Shrinkage& shrinkage) {
 }
 
 /// The least and the largest of the outcomes.
-Json range_json(const Advice& advice, double identify::Shrinkage::* one) {
-  const auto by_law = [one](const identify::Outcome& outcome) { return outcome.hull.*one; };
+Json range_json(const MeasurementAdvice& advice, double identify::Shrinkage::* one) {
+  const auto by_law = [one](const identify::LawOutcome& outcome) { return outcome.hull.*one; };
   const auto [least, most] = std::ranges::minmax(advice.outcomes, {}, by_law);
   return {finite_or_null(by_law(least)), finite_or_null(by_law(most))};
 }
 
-Json advice_json(const Advice& advice) {
+Json advice_json(const MeasurementAdvice& advice) {
   return {{"measurement", advice.candidate.name},
           {"cost", advice.candidate.cost},
           {"hull_shrinks_to", shrinkage_json(advice.hull)},
@@ -78,16 +78,16 @@ Json advice_json(const Advice& advice) {
           {"text", advice.text}};
 }
 
-Table candidate_table(const std::vector<Advice>& list) {
+Table candidate_table(const std::vector<MeasurementAdvice>& list) {
   const auto real = [&](const std::string& name, auto get) { return column(name, "", list, get); };
   return {"candidates",
-          {text_column("measurement", list, [](const Advice& advice) { return advice.candidate.name; }),
-           real("cost", [](const Advice& advice) { return advice.candidate.cost; }),
-           real("hull_zeta", [](const Advice& advice) { return advice.hull.zeta; }),
-           real("hull_F0", [](const Advice& advice) { return advice.hull.F0; }),
-           real("average_zeta", [](const Advice& advice) { return advice.average.zeta; }),
-           real("average_F0", [](const Advice& advice) { return advice.average.F0; }),
-           real("power", [](const Advice& advice) { return advice.power; })}};
+          {text_column("measurement", list, [](const MeasurementAdvice& advice) { return advice.candidate.name; }),
+           real("cost", [](const MeasurementAdvice& advice) { return advice.candidate.cost; }),
+           real("hull_zeta", [](const MeasurementAdvice& advice) { return advice.hull.zeta; }),
+           real("hull_F0", [](const MeasurementAdvice& advice) { return advice.hull.F0; }),
+           real("average_zeta", [](const MeasurementAdvice& advice) { return advice.average.zeta; }),
+           real("average_F0", [](const MeasurementAdvice& advice) { return advice.average.F0; }),
+           real("power", [](const MeasurementAdvice& advice) { return advice.power; })}};
 }
 
 ResultFields design_fields() {
@@ -110,7 +110,7 @@ ResultFields design_fields() {
 }
 
 std::string summary_of(const identify::Design& design) {
-  const Advice& best = design.advice.front();
+  const MeasurementAdvice& best = design.advice.front();
   constexpr double little = 0.9;
   if (best.hull.zeta > little && best.hull.F0 > little) return "nothing on the list narrows the ranges by a tenth";
   return best.text;
@@ -139,7 +139,7 @@ Answer DesignQuestion::run(const RunContext& context) const {
   result["advice"] = summary_of(design);
   result["hull95"] = {{"zeta", design.now.zeta_hull}, {"F0", design.now.F0_hull}};
   result["candidates"] = Json::array();
-  for (const Advice& advice : design.advice) result["candidates"].push_back(advice_json(advice));
+  for (const MeasurementAdvice& advice : design.advice) result["candidates"].push_back(advice_json(advice));
   answer.tables.push_back(candidate_table(design.advice));
   for (Table& table : law_tables(design.now, methods.constants)) answer.tables.push_back(std::move(table));
   return answer;

@@ -17,8 +17,8 @@ using friction::Direction;
 
 namespace {
 
-constexpr double precision = 1e-12;
-constexpr double close = 1e-10;          // likewise relative to the amplitude
+constexpr double precision = 1e-12;      // relative to the amplitude
+constexpr double close = 1e-10;          // likewise
 constexpr int patience_if_close = 1000;  // forcing periods
 constexpr int max_doublings = 60;
 constexpr int most_unknown = 3;     // amplitudes without a steady state in a row

@@ -3,8 +3,6 @@
 
 namespace dualdamp::sim {
 
-class Interval;
-
 struct Energy {
   double input = 0.0;     ///< work of the moving base on spring and damper, and of the external force on the mass
   double friction = 0.0;  ///< work done against the friction laws

@@ -376,16 +376,19 @@ Estimate den_hartog_fit(const Record& record, const KnownConstants& constants, c
 }
 
 constinit const MethodEntry den_hartog_fit_method{
-    "den_hartog_fit",
-    "damping ratio and friction force from the exact amplitude law, at any frequencies",
-    "Coulomb and viscous friction, no sticking, errors in x alone; checked: sticking pairs are left out, quadratic "
-    "term F-test, natural frequency F-test (several frequencies), measured phases where there are any",
-    "(x + G x_f)^2 + (H x_f)^2 = (Y/q)^2, Eqs (3)-(6), by nonlinear least squares over zeta, x_f and, if asked "
-    "for, wn",
-    "denhartog1931, hundal1979, liang2004identifying",
-    RecordKind::states,
-    lacks_pairs,
-    call_of<den_hartog_fit>,
-    AssumptionSet::all_but()};
+    .name = "den_hartog_fit",
+    .summary = "damping ratio and friction force from the exact amplitude law, at any frequencies",
+    .assumes =
+        "Coulomb and viscous friction, no sticking, errors in x alone; checked: sticking pairs are left out, quadratic "
+        "term F-test, natural frequency F-test (several frequencies), measured phases where there are any",
+    .equation =
+        "(x + G x_f)^2 + (H x_f)^2 = (Y/q)^2, Eqs (3)-(6), by nonlinear least squares over zeta, x_f and, if asked "
+        "for, wn",
+    .sources = "denhartog1931, hundal1979, liang2004identifying",
+    .needs = RecordKind::states,
+    .lacks = lacks_pairs,
+    .call = call_of<den_hartog_fit>,
+    .rests_on = AssumptionSet::all_but(),
+};
 
 }  // namespace dualdamp::identify

@@ -182,15 +182,17 @@ Estimate energy_balance(const Record& record, const KnownConstants& constants, c
 }
 
 constinit const MethodEntry energy_balance_method{
-    "energy_balance",
-    "viscous damping and friction force from the work of the base, exact at any frequency",
-    "Coulomb and viscous friction, a harmonic base, two turning points in a period, a true phase; checked: "
-    "quadratic term F-test, the bias where the mean square speed was not measured",
-    "pi k Y X_1 sin(phi) = 4 F0 x + c integral v^2 dt over a period",
-    "tomlinson1979, liang2006balancing",
-    RecordKind::states,
-    lacks_energy,
-    call_of<energy_balance>,
-    AssumptionSet::all_but(Assumption::spring, Assumption::one_mode, Assumption::symmetry)};
+    .name = "energy_balance",
+    .summary = "viscous damping and friction force from the work of the base, exact at any frequency",
+    .assumes =
+        "Coulomb and viscous friction, a harmonic base, two turning points in a period, a true phase; checked: "
+        "quadratic term F-test, the bias where the mean square speed was not measured",
+    .equation = "pi k Y X_1 sin(phi) = 4 F0 x + c integral v^2 dt over a period",
+    .sources = "tomlinson1979, liang2006balancing",
+    .needs = RecordKind::states,
+    .lacks = lacks_energy,
+    .call = call_of<energy_balance>,
+    .rests_on = AssumptionSet::all_but(Assumption::spring, Assumption::one_mode, Assumption::symmetry),
+};
 
 }  // namespace dualdamp::identify

@@ -326,16 +326,19 @@ Estimate harmonic_balance(const Record& record, const KnownConstants& constants)
 }
 
 constinit const MethodEntry harmonic_balance_method{
-    "harmonic_balance",
-    "viscous damping, friction force and the friction-velocity curve from the balance of the first harmonic",
-    "harmonic balance, no sticking, friction a function of velocity; checked: sticking pairs are left out, "
-    "quadratic friction F-test, the bias of harmonic balance at the estimate, Abel inversion beside the fitted "
-    "curve",
-    "k Y sin(phi) = sum_n C_n kappa_n (w X)^n, f(v) = sum_n C_n |v|^n sgn(v), C_0 = F0, C_1 = c",
-    "iourtchenko2002, tomlinson1980",
-    RecordKind::states,
-    lacks_pairs,
-    call_of<harmonic_balance>,
-    AssumptionSet::all_but()};
+    .name = "harmonic_balance",
+    .summary =
+        "viscous damping, friction force and the friction-velocity curve from the balance of the first harmonic",
+    .assumes =
+        "harmonic balance, no sticking, friction a function of velocity; checked: sticking pairs are left out, "
+        "quadratic friction F-test, the bias of harmonic balance at the estimate, Abel inversion beside the fitted "
+        "curve",
+    .equation = "k Y sin(phi) = sum_n C_n kappa_n (w X)^n, f(v) = sum_n C_n |v|^n sgn(v), C_0 = F0, C_1 = c",
+    .sources = "iourtchenko2002, tomlinson1980",
+    .needs = RecordKind::states,
+    .lacks = lacks_pairs,
+    .call = call_of<harmonic_balance>,
+    .rests_on = AssumptionSet::all_but(),
+};
 
 }  // namespace dualdamp::identify

@@ -296,15 +296,17 @@ Estimate law_selection(const Record& record, const KnownConstants& constants, co
 }
 
 constinit const MethodEntry law_selection_method{
-    "law_selection",
-    "compares Coulomb + viscous friction with other laws on amplitude pairs",
-    "no sticking, errors in x alone, harmonic balance for the difference between laws; checked: sticking pairs are "
-    "left out, F test of the best wider law; what amplitudes cannot tell apart is said",
-    "least squares in x of ((k - m w^2) X)^2 + Phi(w X, X)^2 = (k Y)^2, ranked by AICc or BIC",
-    "burnham2002, schwarz1978, denhartog1931",
-    RecordKind::states,
-    lacks_pairs,
-    call_of<law_selection>,
-    AssumptionSet::all_but()};
+    .name = "law_selection",
+    .summary = "compares Coulomb + viscous friction with other laws on amplitude pairs",
+    .assumes =
+        "no sticking, errors in x alone, harmonic balance for the difference between laws; checked: sticking pairs are "
+        "left out, F test of the best wider law; what amplitudes cannot tell apart is said",
+    .equation = "least squares in x of ((k - m w^2) X)^2 + Phi(w X, X)^2 = (k Y)^2, ranked by AICc or BIC",
+    .sources = "burnham2002, schwarz1978, denhartog1931",
+    .needs = RecordKind::states,
+    .lacks = lacks_pairs,
+    .call = call_of<law_selection>,
+    .rests_on = AssumptionSet::all_but(),
+};
 
 }  // namespace dualdamp::identify

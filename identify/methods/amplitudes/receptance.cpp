@@ -272,15 +272,17 @@ Estimate receptance(const Record& record, const KnownConstants& constants) {
 }
 
 constinit const MethodEntry receptance_method{
-    "receptance",
-    "viscous damping and friction force from amplitude and phase over frequency",
-    "harmonic balance, no sticking, a true phase; checked: sticking pairs are left out, linear term F-test, the "
-    "bias of harmonic balance at the estimate, the limacon where the input was constant",
-    "Im(k Y/X exp(i phi)) = c w + 4 F0/(pi X); Re = k - m w^2",
-    "tomlinson1980",
-    RecordKind::states,
-    lacks_receptance,
-    call_of<receptance>,
-    AssumptionSet::all_but(Assumption::spring, Assumption::one_mode, Assumption::symmetry)};
+    .name = "receptance",
+    .summary = "viscous damping and friction force from amplitude and phase over frequency",
+    .assumes =
+        "harmonic balance, no sticking, a true phase; checked: sticking pairs are left out, linear term F-test, the "
+        "bias of harmonic balance at the estimate, the limacon where the input was constant",
+    .equation = "Im(k Y/X exp(i phi)) = c w + 4 F0/(pi X); Re = k - m w^2",
+    .sources = "tomlinson1980",
+    .needs = RecordKind::states,
+    .lacks = lacks_receptance,
+    .call = call_of<receptance>,
+    .rests_on = AssumptionSet::all_but(Assumption::spring, Assumption::one_mode, Assumption::symmetry),
+};
 
 }  // namespace dualdamp::identify

@@ -13,15 +13,17 @@ Estimate resonance_least_squares(const Record& record, const KnownConstants& con
 }
 
 constinit const MethodEntry resonance_least_squares_method{
-    "resonance_least_squares",
-    "damping ratio and friction force from a straight line through amplitude pairs",
-    "excitation at w = wn, zeta small, no sticking, errors in x alone; checked: sticking pairs are left out, "
-    "quadratic friction F-test, what the method would make of its own estimate by the exact law",
-    "x = a + b Y, zeta = 1/(2 b), x_f = -a/G(zeta), G by Eq (4) at w = wn",
-    "liang2004identifying",
-    RecordKind::pairs,
-    lacks_resonance_pairs,
-    call_of<resonance_least_squares>,
-    AssumptionSet::all_but()};
+    .name = "resonance_least_squares",
+    .summary = "damping ratio and friction force from a straight line through amplitude pairs",
+    .assumes =
+        "excitation at w = wn, zeta small, no sticking, errors in x alone; checked: sticking pairs are left out, "
+        "quadratic friction F-test, what the method would make of its own estimate by the exact law",
+    .equation = "x = a + b Y, zeta = 1/(2 b), x_f = -a/G(zeta), G by Eq (4) at w = wn",
+    .sources = "liang2004identifying",
+    .needs = RecordKind::pairs,
+    .lacks = lacks_resonance_pairs,
+    .call = call_of<resonance_least_squares>,
+    .rests_on = AssumptionSet::all_but(),
+};
 
 }  // namespace dualdamp::identify

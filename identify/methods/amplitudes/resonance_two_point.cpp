@@ -131,7 +131,7 @@ void add_uncertainty(const ResonanceData& data, const TwoPointSensitivity& s, co
 Estimate resonance_two_point(const Record& record, const KnownConstants& constants,
                              const TwoPointOptions& options) {
   Estimate estimate;
-  estimate.method = "resonance_two_point";
+  estimate.method = resonance_two_point_method.name;
   const std::optional<ResonanceData> data = prepare(record, constants, options, estimate);
   if (!data) return estimate;
   std::vector<Datum> sliding;
@@ -160,15 +160,17 @@ Estimate resonance_two_point(const Record& record, const KnownConstants& constan
 }
 
 constinit const MethodEntry resonance_two_point_method{
-    "resonance_two_point",
-    "damping ratio and friction force from two amplitude pairs",
-    "excitation at w = wn, zeta small, no sticking; checked: sticking pairs are left out, what the method would "
-    "make of its own estimate by the exact law",
-    "zeta = (Y2 - Y1)/(2 (x2 - x1)), x_f = (x1 Y2 - x2 Y1)/(G(zeta) (Y1 - Y2)), G by Eq (4) at w = wn",
-    "liang2004identifying",
-    RecordKind::pairs,
-    lacks_resonance_pairs,
-    call_of<resonance_two_point>,
-    AssumptionSet::all_but()};
+    .name = "resonance_two_point",
+    .summary = "damping ratio and friction force from two amplitude pairs",
+    .assumes =
+        "excitation at w = wn, zeta small, no sticking; checked: sticking pairs are left out, what the method would "
+        "make of its own estimate by the exact law",
+    .equation = "zeta = (Y2 - Y1)/(2 (x2 - x1)), x_f = (x1 Y2 - x2 Y1)/(G(zeta) (Y1 - Y2)), G by Eq (4) at w = wn",
+    .sources = "liang2004identifying",
+    .needs = RecordKind::pairs,
+    .lacks = lacks_resonance_pairs,
+    .call = call_of<resonance_two_point>,
+    .rests_on = AssumptionSet::all_but(),
+};
 
 }  // namespace dualdamp::identify

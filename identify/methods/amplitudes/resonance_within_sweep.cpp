@@ -262,16 +262,18 @@ Estimate resonance_within_sweep(const Record& record, const KnownConstants& cons
 }
 
 constinit const MethodEntry resonance_within_sweep_method{
-    "resonance_within_sweep",
-    "one damping ratio and a friction force for each sweep from parallel lines",
-    "excitation at w = wn, zeta small, no sticking, errors in x alone, friction that may drift between sweeps but "
-    "not within one; checked: sticking pairs are left out, quadratic friction F-test, separate slopes F-test, what "
-    "the method would make of its own estimate by the exact law",
-    "x = a_j + b Y, zeta = 1/(2 b), x_f,j = -a_j/G(zeta), G by Eq (4) at w = wn",
-    "liang2004identifying, draper1998, welch1947",
-    RecordKind::pairs,
-    lacks_sweeps,
-    call_of<resonance_within_sweep>,
-    AssumptionSet::all_but(Assumption::stationarity)};
+    .name = "resonance_within_sweep",
+    .summary = "one damping ratio and a friction force for each sweep from parallel lines",
+    .assumes =
+        "excitation at w = wn, zeta small, no sticking, errors in x alone, friction that may drift between sweeps but "
+        "not within one; checked: sticking pairs are left out, quadratic friction F-test, separate slopes F-test, what "
+        "the method would make of its own estimate by the exact law",
+    .equation = "x = a_j + b Y, zeta = 1/(2 b), x_f,j = -a_j/G(zeta), G by Eq (4) at w = wn",
+    .sources = "liang2004identifying, draper1998, welch1947",
+    .needs = RecordKind::pairs,
+    .lacks = lacks_sweeps,
+    .call = call_of<resonance_within_sweep>,
+    .rests_on = AssumptionSet::all_but(Assumption::stationarity),
+};
 
 }  // namespace dualdamp::identify

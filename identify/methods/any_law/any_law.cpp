@@ -226,15 +226,18 @@ void widen(const ParameterSet& by, Estimate& estimate) {
 
 using enum Assumption;
 constinit const MethodEntry any_law_method{
-    "any_law",
-    "ranges of zeta and F0 over all friction laws that the record allows",
-    "one law of the library up to a largest severity; sensors and drive as stated; checked: each law by its misfit",
-    "hull and average over laws of the profile likelihood over severity, readings by the engines in time",
-    "brynjarsdottir2014, pasquier2015, birge1932",
-    RecordKind::states,
-    lacks_readings,
-    call_of<any_law>,
-    AssumptionSet::all_but(constants, spring, friction_velocity, friction_displacement),
-    true};
+    .name = "any_law",
+    .summary = "ranges of zeta and F0 over all friction laws that the record allows",
+    .assumes =
+        "one law of the library up to a largest severity; sensors and drive as stated; checked: each law by its misfit",
+    .equation =
+        "hull and average over laws of the profile likelihood over severity, readings by the engines in time",
+    .sources = "brynjarsdottir2014, pasquier2015, birge1932",
+    .needs = RecordKind::states,
+    .lacks = lacks_readings,
+    .call = call_of<any_law>,
+    .rests_on = AssumptionSet::all_but(constants, spring, friction_velocity, friction_displacement),
+    .takes_seconds = true,
+};
 
 }  // namespace dualdamp::identify

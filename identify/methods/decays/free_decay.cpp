@@ -290,7 +290,7 @@ DecayFit decay_fit(const Solution& solution, std::size_t unknowns, double unit) 
 
 Estimate free_decay(const Record& record, const KnownConstants& constants, const FreeDecayOptions& options) {
   Estimate estimate;
-  estimate.method = "free_decay";
+  estimate.method = free_decay_method.name;
   std::optional<Extremes> extremes = take_extremes(record, constants, estimate);
   if (!extremes) return estimate;
   const std::optional<Solution> solution = solve_moving(*extremes, options.zero_offset, constants, estimate);
@@ -320,16 +320,19 @@ Estimate free_decay(const Record& record, const KnownConstants& constants, const
 }
 
 constinit const MethodEntry free_decay_method{
-    "free_decay",
-    "damping ratio and friction force from the decrements of a free vibration",
-    "linear spring, zeta < 1, the mass moves through every half swing; checked: extremes alternate, extremes after "
-    "the stop are left out, half period against mass and stiffness, cubic term F-test",
-    "X_(i+1) = R X_i - x_f (1 + R), R = exp(-pi zeta/sqrt(1 - zeta^2)); R = -(e_3 - e_1)/(e_2 - e_0) of signed "
-    "extremes e about any offset",
-    "feeny1996decrement, liang1998decrement",
-    RecordKind::decay,
-    lacks_decay,
-    call_of<free_decay>,
-    AssumptionSet::all_but(Assumption::drive)};
+    .name = "free_decay",
+    .summary = "damping ratio and friction force from the decrements of a free vibration",
+    .assumes =
+        "linear spring, zeta < 1, the mass moves through every half swing; checked: extremes alternate, extremes after "
+        "the stop are left out, half period against mass and stiffness, cubic term F-test",
+    .equation =
+        "X_(i+1) = R X_i - x_f (1 + R), R = exp(-pi zeta/sqrt(1 - zeta^2)); R = -(e_3 - e_1)/(e_2 - e_0) of signed "
+        "extremes e about any offset",
+    .sources = "feeny1996decrement, liang1998decrement",
+    .needs = RecordKind::decay,
+    .lacks = lacks_decay,
+    .call = call_of<free_decay>,
+    .rests_on = AssumptionSet::all_but(Assumption::drive),
+};
 
 }  // namespace dualdamp::identify

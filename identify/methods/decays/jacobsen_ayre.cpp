@@ -102,15 +102,18 @@ Estimate jacobsen_ayre(const Record& record, const KnownConstants& constants, co
 }
 
 constinit const MethodEntry jacobsen_ayre_method{
-    "jacobsen_ayre",
-    "rule of thumb: damping ratio from the large swings, friction from the small ones; biased, a baseline",
-    "viscous damping alone rules the first two swings, dry friction alone the last two, extremes about zero; "
-    "checked: extremes alternate, the bias that follows from the estimate itself",
-    "zeta = ln(X_0/X_2)/(2 pi), x_f = (X_(n-3) - X_(n-1))/4",
-    "jacobsen1958, liang1998decrement",
-    RecordKind::decay,
-    lacks_decay,
-    call_of<jacobsen_ayre>,
-    AssumptionSet::all_but(Assumption::drive)};
+    .name = "jacobsen_ayre",
+    .summary =
+        "rule of thumb: damping ratio from the large swings, friction from the small ones; biased, a baseline",
+    .assumes =
+        "viscous damping alone rules the first two swings, dry friction alone the last two, extremes about zero; "
+        "checked: extremes alternate, the bias that follows from the estimate itself",
+    .equation = "zeta = ln(X_0/X_2)/(2 pi), x_f = (X_(n-3) - X_(n-1))/4",
+    .sources = "jacobsen1958, liang1998decrement",
+    .needs = RecordKind::decay,
+    .lacks = lacks_decay,
+    .call = call_of<jacobsen_ayre>,
+    .rests_on = AssumptionSet::all_but(Assumption::drive),
+};
 
 }  // namespace dualdamp::identify

@@ -224,7 +224,7 @@ void compare_cutoffs(const std::vector<NumberedHistory>& histories, const Regres
 Estimate acceleration_velocity_displacement(const Record& record, const KnownConstants& constants,
                                             const RegressionOptions& options) {
   Estimate estimate;
-  estimate.method = "acceleration_velocity_displacement";
+  estimate.method = acceleration_velocity_displacement_method.name;
   const std::vector<NumberedHistory> histories = usable_histories(record, options, estimate);
   if (histories.empty()) return estimate;
   if (std::string fault = fault_of_unknowns(constants, have_force(histories)); !fault.empty()) {
@@ -284,15 +284,17 @@ std::optional<ForceParameters> regressed_forces(const Record& record, const Know
 }
 
 constinit const MethodEntry acceleration_velocity_displacement_method{
-    "acceleration_velocity_displacement",
-    "mass, stiffness and friction by regressing the forces on acceleration, velocity and displacement",
-    "constant sample rate; mass, stiffness or force known; white noise; checked: condition of the "
-    "columns, a term v|v|, agreement of several cut-off frequencies",
-    "k (y - x) + f = m a + c v + F0 sgn v + offset, least squares over samples with |v| > least speed",
-    "chen1996, janot2019",
-    RecordKind::history,
-    lacks_histories,
-    call_of<acceleration_velocity_displacement>,
-    AssumptionSet::all_but(Assumption::drive)};
+    .name = "acceleration_velocity_displacement",
+    .summary = "mass, stiffness and friction by regressing the forces on acceleration, velocity and displacement",
+    .assumes =
+        "constant sample rate; mass, stiffness or force known; white noise; checked: condition of the "
+        "columns, a term v|v|, agreement of several cut-off frequencies",
+    .equation = "k (y - x) + f = m a + c v + F0 sgn v + offset, least squares over samples with |v| > least speed",
+    .sources = "chen1996, janot2019",
+    .needs = RecordKind::history,
+    .lacks = lacks_histories,
+    .call = call_of<acceleration_velocity_displacement>,
+    .rests_on = AssumptionSet::all_but(Assumption::drive),
+};
 
 }  // namespace dualdamp::identify

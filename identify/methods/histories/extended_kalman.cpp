@@ -209,7 +209,7 @@ void judge(const FilterRun& run, const std::optional<FilterRun>& wider, Estimate
 
 Estimate extended_kalman(const Record& record, const KnownConstants& constants, const KalmanOptions& options) {
   Estimate estimate;
-  estimate.method = "extended_kalman";
+  estimate.method = extended_kalman_method.name;
   const std::optional<NumberedHistory> longest = longest_history(record, constants, estimate);
   if (!longest) return estimate;
   const auto& [number, history] = *longest;
@@ -262,15 +262,17 @@ Estimate extended_kalman(const Record& record, const KnownConstants& constants, 
 }
 
 constinit const MethodEntry extended_kalman_method{
-    "extended_kalman",
-    "viscous and Coulomb friction as states of an extended Kalman filter on the displacement",
-    "mass and stiffness known, y and force without error, a smooth sign of the velocity; checked: twice the width "
-    "of that sign, the innovations",
-    "v' = [k (y - x) + f - c v - F0 tanh(v/e)]/m, F0' = c' = 0, extended Kalman filter on x",
-    "liang2004identifying, detchmendy1966",
-    RecordKind::history,
-    lacks_histories,
-    call_of<extended_kalman>,
-    AssumptionSet::all_but(Assumption::drive)};
+    .name = "extended_kalman",
+    .summary = "viscous and Coulomb friction as states of an extended Kalman filter on the displacement",
+    .assumes =
+        "mass and stiffness known, y and force without error, a smooth sign of the velocity; checked: twice the width "
+        "of that sign, the innovations",
+    .equation = "v' = [k (y - x) + f - c v - F0 tanh(v/e)]/m, F0' = c' = 0, extended Kalman filter on x",
+    .sources = "liang2004identifying, detchmendy1966",
+    .needs = RecordKind::history,
+    .lacks = lacks_histories,
+    .call = call_of<extended_kalman>,
+    .rests_on = AssumptionSet::all_but(Assumption::drive),
+};
 
 }  // namespace dualdamp::identify

@@ -230,7 +230,7 @@ ParameterReading reading_of(const CorrelatedFit& fit, const KnownConstants& cons
 
 Estimate friction_force(const Record& record, const KnownConstants& constants, const RegressionOptions& options) {
   Estimate estimate;
-  estimate.method = "friction_force";
+  estimate.method = friction_force_method.name;
   const std::vector<FrictionSamples> histories = friction_samples(record, constants, options, estimate);
   if (histories.empty()) return estimate;
   const SlidingLine line = sliding_line(histories, options);
@@ -270,15 +270,17 @@ Estimate friction_force(const Record& record, const KnownConstants& constants, c
 }
 
 constinit const MethodEntry friction_force_method{
-    "friction_force",
-    "friction force over velocity and displacement, contact stiffness and transition velocity",
-    "mass and stiffness known, signals without lag or gain error, white noise; checked: a term in x, which gain "
-    "errors and wrong constants leave",
-    "F = k (y - x) + f - m a; F = c v + F0 sgn v + offset for |v| > least speed",
-    "liang2004identifying",
-    RecordKind::history,
-    lacks_histories,
-    call_of<friction_force>,
-    AssumptionSet::all_but(Assumption::drive)};
+    .name = "friction_force",
+    .summary = "friction force over velocity and displacement, contact stiffness and transition velocity",
+    .assumes =
+        "mass and stiffness known, signals without lag or gain error, white noise; checked: a term in x, which gain "
+        "errors and wrong constants leave",
+    .equation = "F = k (y - x) + f - m a; F = c v + F0 sgn v + offset for |v| > least speed",
+    .sources = "liang2004identifying",
+    .needs = RecordKind::history,
+    .lacks = lacks_histories,
+    .call = call_of<friction_force>,
+    .rests_on = AssumptionSet::all_but(Assumption::drive),
+};
 
 }  // namespace dualdamp::identify

@@ -134,7 +134,7 @@ void report(std::vector<ForwardTest>& tests, const ForwardLayout& layout, const 
 
 Estimate output_error(const Record& record, const KnownConstants& constants, const RegressionOptions& options) {
   Estimate estimate;
-  estimate.method = "output_error";
+  estimate.method = output_error_method.name;
   ForwardFit forward(record, constants, options, estimate);
   if (!forward.problem().empty()) {
     refuse(estimate, forward.problem());
@@ -156,15 +156,17 @@ Estimate output_error(const Record& record, const KnownConstants& constants, con
 }
 
 constinit const MethodEntry output_error_method{
-    "output_error",
-    "friction with which a simulated motion comes closest to the measured displacement",
-    "linear spring, Coulomb and viscous friction, white noise; checked: v|v| term "
-    "t-test, residuals that are alike from sample to sample",
-    "min sum [x_i - x(t_i; c, F0, x(0), v(0))]^2, m x'' + c x' + k x + F0 sgn x' = k y + f",
-    "ljung1999, leine2004",
-    RecordKind::history,
-    lacks_histories,
-    call_of<output_error>,
-    AssumptionSet::all_but(Assumption::drive)};
+    .name = "output_error",
+    .summary = "friction with which a simulated motion comes closest to the measured displacement",
+    .assumes =
+        "linear spring, Coulomb and viscous friction, white noise; checked: v|v| term "
+        "t-test, residuals that are alike from sample to sample",
+    .equation = "min sum [x_i - x(t_i; c, F0, x(0), v(0))]^2, m x'' + c x' + k x + F0 sgn x' = k y + f",
+    .sources = "ljung1999, leine2004",
+    .needs = RecordKind::history,
+    .lacks = lacks_histories,
+    .call = call_of<output_error>,
+    .rests_on = AssumptionSet::all_but(Assumption::drive),
+};
 
 }  // namespace dualdamp::identify

@@ -94,7 +94,7 @@ ForceParameters line_through(const EstimateCurve& curve, const KnownConstants& c
 
 Estimate random_decrement(const Record& record, const KnownConstants& constants) {
   Estimate estimate;
-  estimate.method = "random_decrement";
+  estimate.method = random_decrement_method.name;
   const std::optional<NumberedHistory> longest = longest_history(record, constants, estimate);
   if (!longest) return estimate;
   const auto& [number, history] = *longest;
@@ -144,15 +144,18 @@ Estimate random_decrement(const Record& record, const KnownConstants& constants)
 }
 
 constinit const MethodEntry random_decrement_method{
-    "random_decrement",
-    "equivalent damping of a random response over its amplitude; not to be used for the Coulomb friction",
-    "long stationary response to a white excitation; the averaged stretches are taken for a free decay, which they "
-    "are not where there is dry friction: never usable",
-    "zeta_eq(a) = zeta + 2 F0/(pi k a) of the mean of stretches that begin at an extreme near a",
-    "cole1973",
-    RecordKind::history,
-    lacks_histories,
-    call_of<random_decrement>,
-    AssumptionSet::all_but(Assumption::drive)};
+    .name = "random_decrement",
+    .summary =
+        "equivalent damping of a random response over its amplitude; not to be used for the Coulomb friction",
+    .assumes =
+        "long stationary response to a white excitation; the averaged stretches are taken for a free decay, which they "
+        "are not where there is dry friction: never usable",
+    .equation = "zeta_eq(a) = zeta + 2 F0/(pi k a) of the mean of stretches that begin at an extreme near a",
+    .sources = "cole1973",
+    .needs = RecordKind::history,
+    .lacks = lacks_histories,
+    .call = call_of<random_decrement>,
+    .rests_on = AssumptionSet::all_but(Assumption::drive),
+};
 
 }  // namespace dualdamp::identify

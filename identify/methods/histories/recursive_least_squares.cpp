@@ -157,7 +157,7 @@ std::string fault_of(const RecursiveFit& result) {
 Estimate recursive_least_squares(const Record& record, const KnownConstants& constants,
                                  const RecursiveOptions& options) {
   Estimate estimate;
-  estimate.method = "recursive_least_squares";
+  estimate.method = recursive_least_squares_method.name;
   const std::vector<FrictionSamples> histories = friction_samples(record, constants, options, estimate);
   if (histories.empty()) return estimate;
   if (!(options.forgetting > 0.0 && options.forgetting <= 1.0)) {
@@ -192,15 +192,17 @@ Estimate recursive_least_squares(const Record& record, const KnownConstants& con
 }
 
 constinit const MethodEntry recursive_least_squares_method{
-    "recursive_least_squares",
-    "viscous and Coulomb friction followed over time, with forgetting",
-    "mass and stiffness known, white noise, friction that drifts slowly; checked: agreement of both "
-    "halves of the record where nothing is forgotten",
-    "z = k (y - x) + f - m a, psi = (v, sgn v), theta += P psi (z - psi^T theta)/(l + psi^T P psi)",
-    "liang2004identifying, ljung1999",
-    RecordKind::history,
-    lacks_histories,
-    call_of<recursive_least_squares>,
-    AssumptionSet::all_but(Assumption::drive)};
+    .name = "recursive_least_squares",
+    .summary = "viscous and Coulomb friction followed over time, with forgetting",
+    .assumes =
+        "mass and stiffness known, white noise, friction that drifts slowly; checked: agreement of both "
+        "halves of the record where nothing is forgotten",
+    .equation = "z = k (y - x) + f - m a, psi = (v, sgn v), theta += P psi (z - psi^T theta)/(l + psi^T P psi)",
+    .sources = "liang2004identifying, ljung1999",
+    .needs = RecordKind::history,
+    .lacks = lacks_histories,
+    .call = call_of<recursive_least_squares>,
+    .rests_on = AssumptionSet::all_but(Assumption::drive),
+};
 
 }  // namespace dualdamp::identify

@@ -240,7 +240,7 @@ std::optional<BootstrapSpread> spread_of(const History& history, const Averages&
 
 Estimate stochastic_averaging(const Record& record, const KnownConstants& constants) {
   Estimate estimate;
-  estimate.method = "stochastic_averaging";
+  estimate.method = stochastic_averaging_method.name;
   const std::optional<NumberedHistory> longest = longest_history(record, constants, estimate);
   if (!longest) return estimate;
   const auto& [number, history] = *longest;
@@ -276,15 +276,17 @@ Estimate stochastic_averaging(const Record& record, const KnownConstants& consta
 }
 
 constinit const MethodEntry stochastic_averaging_method{
-    "stochastic_averaging",
-    "friction from the distribution of the amplitude of a random response",
-    "long stationary response to an excitation that is white about the natural frequency, small damping; checked: "
-    "third moment of the amplitude, friction against the spring's force",
-    "p(A) = A exp(-alpha A - beta A^2)/Z, F0 = pi m D alpha/(8 W), c = m D beta/W^2",
-    "liang2004identifying, roberts1986",
-    RecordKind::history,
-    lacks_histories,
-    call_of<stochastic_averaging>,
-    AssumptionSet::all_but(Assumption::drive)};
+    .name = "stochastic_averaging",
+    .summary = "friction from the distribution of the amplitude of a random response",
+    .assumes =
+        "long stationary response to an excitation that is white about the natural frequency, small damping; checked: "
+        "third moment of the amplitude, friction against the spring's force",
+    .equation = "p(A) = A exp(-alpha A - beta A^2)/Z, F0 = pi m D alpha/(8 W), c = m D beta/W^2",
+    .sources = "liang2004identifying, roberts1986",
+    .needs = RecordKind::history,
+    .lacks = lacks_histories,
+    .call = call_of<stochastic_averaging>,
+    .rests_on = AssumptionSet::all_but(Assumption::drive),
+};
 
 }  // namespace dualdamp::identify

@@ -32,7 +32,7 @@ struct DataItem {
 [[nodiscard]] std::vector<DataItem> items_of(const Json& analysis, const std::vector<DataFile>& files,
                                              const std::string& key);
 
-/// Limits of a fitted parameter; NaN: the limit of the law.
+/// Limits of a fitted parameter, as texts; empty: the limit of the law.
 struct Bound {
   std::string name;
   std::string low;
@@ -65,7 +65,7 @@ struct SetupFault {
 /// Throws `core::InputError` if there are faults.
 void refuse(const std::vector<SetupFault>& faults);
 
-/// Experiments of all items; data that cannot be used are reported in `faults`, with the `index` of the item.
+/// Experiments of all items; data that cannot be used are reported in `faults`.
 [[nodiscard]] identify::Experiments experiments_from(const std::vector<DataItem>& items, const std::string& key,
                                                      const sim::Model& model, const Sought& sought,
                                                      std::vector<SetupFault>& faults);

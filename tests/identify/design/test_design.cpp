@@ -56,9 +56,9 @@ Record amplitudes(Normal& normal, double noise = 0.003, double spread = 0.0) {
   return record;
 }
 
-const Advice& named(const Design& design, const std::string& name) {
+const MeasurementAdvice& named(const Design& design, const std::string& name) {
   const auto found =
-      std::ranges::find(design.advice, name, [](const Advice& advice) { return advice.candidate.name; });
+      std::ranges::find(design.advice, name, [](const MeasurementAdvice& advice) { return advice.candidate.name; });
   REQUIRE(found != design.advice.end());
   return *found;
 }
@@ -70,8 +70,8 @@ TEST_CASE("design: after amplitudes alone their phases tell laws apart, and repe
   const auto found = design_after(amplitudes(normal), {mass, stiffness, natural}, {}, {.without = slow_laws});
   REQUIRE(std::holds_alternative<Design>(found));
   const Design& design = std::get<Design>(found);
-  const Advice& phases = named(design, "record the phase of the same states");
-  const Advice& again = named(design, "repeat the same states");
+  const MeasurementAdvice& phases = named(design, "record the phase of the same states");
+  const MeasurementAdvice& again = named(design, "repeat the same states");
   // The share that any_law rejects, with the error of the laws: less than a test between two exact laws would.
   CHECK(phases.power > 0.2);
   CHECK(phases.power > 1.5 * again.power);
@@ -104,7 +104,7 @@ TEST_CASE("design: no measurement is expected to widen the ranges, however diffe
   REQUIRE(std::holds_alternative<Design>(found));
   const Design& design = std::get<Design>(found);
   constexpr double rounding = 1.01;
-  for (const Advice& advice : design.advice) {
+  for (const MeasurementAdvice& advice : design.advice) {
     INFO(advice.candidate.name);
     CHECK(advice.hull.zeta < rounding);
     CHECK(advice.hull.F0 < rounding);

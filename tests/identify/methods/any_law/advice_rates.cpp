@@ -54,7 +54,7 @@ std::optional<Followed> followed_advice(const LawRig& rig, const identify::rigs:
   const auto* design = std::get_if<Design>(&found);
   if (design == nullptr) return std::nullopt;
   // A release cannot be read together with states.
-  const auto best = std::ranges::find_if(design->advice, [](const Advice& advice) {
+  const auto best = std::ranges::find_if(design->advice, [](const MeasurementAdvice& advice) {
     return std::holds_alternative<std::vector<PlannedState>>(advice.candidate.plan);
   });
   if (best == design->advice.end()) return std::nullopt;
@@ -66,7 +66,7 @@ std::optional<Followed> followed_advice(const LawRig& rig, const identify::rigs:
   const auto after_equal = answer_of(rig, together(first, equal), options);
   if (!after_advice || !after_equal) return std::nullopt;
   const LawIntervals& now = design->now;
-  const auto own = std::ranges::find(best->outcomes, departure.name, &Outcome::law);
+  const auto own = std::ranges::find(best->outcomes, departure.name, &LawOutcome::law);
   const Shrinkage promised = own == best->outcomes.end() ? best->hull : own->hull;
   return Followed{.advice = best->candidate.name,
                   .expected = {best->hull.zeta, best->hull.F0},
