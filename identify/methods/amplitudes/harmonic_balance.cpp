@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "identify/methods/amplitudes/fundamental_laws.hpp"
 #include "identify/methods/amplitudes/steady_states.hpp"
 #include "identify/models/force_parameters.hpp"
 #include "identify/statistics/decompositions.hpp"
