@@ -23,7 +23,8 @@ void add_maps(const FileOptions& command, scenarios::LoadOptions& options) {
 
 /// Adds the options about the data file.
 void add_file_options(const FileOptions& command, scenarios::LoadOptions& options) {
-  if (!command.decimal.empty()) options.set.push_back({"analysis.decimal=" + in_quotes(command.decimal), "--decimal"});
+  if (!command.decimal.empty())
+    options.set.push_back({"analysis.decimal=" + in_quotes(command.decimal), "--decimal"});
   if (command.no_header) options.set.push_back({"analysis.no_header=true", "--no-header"});
   add_maps(command, options);
 }
