@@ -32,7 +32,7 @@ SHIPPED = sorted(path.relative_to(ROOT) for folder in ("examples", "paper") for 
 
 SCENARIOS = [path for path in SHIPPED if path.stem not in LONG or os.environ.get("DUALDAMP_ALL_SCENARIOS")]
 # Friction departs from Coulomb and viscous there, or the method reads the damping alone.
-WITHOUT_ANSWER = {"open_question_any_law", "open_question_two_frequencies", "random_decrement", "section4_laws", "section4_subsets"}
+WITHOUT_ANSWER = {"open_question_two_frequencies", "random_decrement", "section4_laws", "section4_subsets"}
 
 
 def same(document):

@@ -36,8 +36,8 @@ bool answered_elsewhere(const Scenario& scenario) { return scenario.analysis_nam
 /// Scenarios of records without an answer, because friction is not Coulomb and viscous, or because a method
 /// estimates the damping alone.
 bool has_no_answer(const std::filesystem::path& path) {
-  const std::set<std::string> names = {"open_question_any_law", "open_question_two_frequencies", "section4_laws",
-                                       "section4_subsets", "random_decrement"};
+  const std::set<std::string> names = {"open_question_two_frequencies", "section4_laws", "section4_subsets",
+                                       "random_decrement"};
   return names.contains(path.stem().string());
 }
 
