@@ -58,8 +58,8 @@ const Json& value_at(const Json& json, const std::string& path) {
   return *value;
 }
 
-/// The path of the unit that may stand beside a value.
-std::string unit_beside(const std::string& path) { return path.substr(0, path.find_last_of('.') + 1) + "unit"; }
+/// The path of the unit that may stand beside the value at `path`.
+std::string path_of_unit(const std::string& path) { return path.substr(0, path.find_last_of('.') + 1) + "unit"; }
 
 /// A column of JSON values, of which some may be missing.
 class ColumnBuilder {
@@ -200,7 +200,7 @@ class SweepAnswer {
       ColumnBuilder column(field.path, field.unit);
       for (const Json& point : points_) {
         column.add(value_at(point.at("result"), field.path));
-        column.add_unit(value_at(point.at("result"), unit_beside(field.path)));
+        column.add_unit(value_at(point.at("result"), path_of_unit(field.path)));
       }
       columns.push_back(std::move(column));
     } else if (bracket + 2 == field.path.size()) {
@@ -320,7 +320,7 @@ class SweepAnswer {
         if (const Json& items = value_at(point.at("result"), list); items.is_array())
           for (const Json& item : items) {
             column.add(value_at(item, inner));
-            column.add_unit(value_at(item, unit_beside(inner)));
+            column.add_unit(value_at(item, path_of_unit(inner)));
           }
       if (!column.is_empty()) table.columns.push_back(column.take());
     }

@@ -120,23 +120,7 @@ class Motions {
       finding.verdict = Verdict::exception;
       finding.text = fmt::format("switching that leaves the motion as it is: {}", gap.silent);
     }
-    if (finding.verdict == Verdict::agreed && friction_gives_out_work()) {
-      finding.verdict = Verdict::disagree;
-      finding.text = fmt::format("friction gives out {:.3e} J", -first_.energy.friction);
-    }
     findings_.push_back(std::move(finding));
-  }
-
-  /// No passive law gives out more work than it took in since its unstretched start. The bonds of `bristle` start
-  /// stretched, and so may a `gap_spring`.
-  [[nodiscard]] bool friction_gives_out_work() const {
-    const auto starts_unstretched = [](const Json& law) {
-      const std::string name = law.at("law");
-      return name != "bristle" && name != "gap_spring" && friction::find_law(name)->is_passive;
-    };
-    constexpr double rounding = 1e-9;
-    return std::ranges::all_of(scenario_.at("system").at("friction"), starts_unstretched) &&
-           first_.energy.friction < -rounding * first_.energy_scale;
   }
 
   /// Whether the motion grows without bound: x is still finite, its square is not.
@@ -187,6 +171,18 @@ class Motions {
     for (std::size_t i = 0; i < more.size(); ++i) to[i] += more[i];
   }
 
+  /// No passive law gives out more work than it took in since its unstretched start. The bonds of `bristle` start
+  /// stretched, and so may a `gap_spring`.
+  [[nodiscard]] bool friction_gives_out_work() const {
+    const auto starts_unstretched = [](const Json& law) {
+      const std::string name = law.at("law");
+      return name != "bristle" && name != "gap_spring" && friction::find_law(name)->is_passive;
+    };
+    constexpr double rounding = 1e-9;
+    return std::ranges::all_of(scenario_.at("system").at("friction"), starts_unstretched) &&
+           first_.energy.friction < -rounding * first_.energy_scale;
+  }
+
   void check_energy() {
     if (runs_away()) {
       findings_.push_back({"energy balance", Verdict::exception, 0.0, away});
@@ -212,6 +208,10 @@ class Motions {
     } else if (!(finding.worst <= allowed)) {
       finding.verdict = Verdict::disagree;
       finding.text = fmt::format("defect {:.2e} of the energy exchanged", defect);
+    }
+    if (finding.verdict == Verdict::agreed && friction_gives_out_work()) {
+      finding.verdict = Verdict::disagree;
+      finding.text = fmt::format("friction gives out {:.3e} J", -first_.energy.friction);
     }
     findings_.push_back(std::move(finding));
   }

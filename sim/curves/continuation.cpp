@@ -1,7 +1,6 @@
 #include "sim/curves/continuation.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <complex>
 #include <numbers>
@@ -305,15 +304,51 @@ Branch Continuation::ended(BranchEnd end, const std::string& warning) {
 }
 
 std::string_view name_of(ChangeKind kind) {
-  constexpr std::array<std::string_view, 10> names{"sequence",       "sticking",  "stops", "fold", "flip",
-                                                   "neimark_sacker", "stability", "jump",  "rest", "end"};
-  return names.at(static_cast<std::size_t>(kind));
+  switch (kind) {
+    case ChangeKind::sequence:
+      return "sequence";
+    case ChangeKind::sticking:
+      return "sticking";
+    case ChangeKind::stops:
+      return "stops";
+    case ChangeKind::fold:
+      return "fold";
+    case ChangeKind::flip:
+      return "flip";
+    case ChangeKind::neimark_sacker:
+      return "neimark_sacker";
+    case ChangeKind::stability:
+      return "stability";
+    case ChangeKind::jump:
+      return "jump";
+    case ChangeKind::rest:
+      return "rest";
+    case ChangeKind::end:
+      return "end";
+  }
+  return "";
 }
 
 std::string_view name_of(BranchEnd end) {
-  constexpr std::array<std::string_view, 8> names{"range", "orbit",  "points", "edge",
-                                                  "step",  "growth", "work",   "rest"};
-  return names.at(static_cast<std::size_t>(end));
+  switch (end) {
+    case BranchEnd::range:
+      return "range";
+    case BranchEnd::orbit:
+      return "orbit";
+    case BranchEnd::points:
+      return "points";
+    case BranchEnd::edge:
+      return "edge";
+    case BranchEnd::step:
+      return "step";
+    case BranchEnd::growth:
+      return "growth";
+    case BranchEnd::work:
+      return "work";
+    case BranchEnd::rest:
+      return "rest";
+  }
+  return "";
 }
 
 Branch continue_branch(const Model& model, BranchParameter parameter, double from, double to,
