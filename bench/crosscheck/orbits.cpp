@@ -32,10 +32,11 @@ double largest_multiplier(const sim::SteadyState& state) {
 
 /// Whether the transient is not settled although by the largest Floquet multiplier nothing of it is left. With a
 /// Floquet multiplier on the unit circle there is a continuum of orbits, along which a motion may creep at any
-/// speed.
+/// speed. Nor is it a contradiction if the search itself saw the motion still approach after more periods.
 bool contradicts(const sim::SteadyState& state, const sim::Transient& motion) {
   constexpr double safely = 1e-20;
   return state.outcome.ok() && motion.outcome.ok() && !motion.settled && motion.closure > closure_tolerance &&
+         state.transient_periods < motion.periods &&
          std::pow(largest_multiplier(state), motion.periods / state.period_ratio) < safely;
 }
 

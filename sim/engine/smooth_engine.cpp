@@ -146,8 +146,19 @@ void SmoothEngine::allow() {
 /// Largest error of the last step over what is allowed.
 double SmoothEngine::excess_error() const {
   double largest = 0.0;
-  for (std::size_t k = 0; k < error_.size(); ++k) largest = std::max(largest, std::abs(error_[k]) / allowed_[k]);
-  return std::isfinite(largest) ? largest : infinity;
+  for (std::size_t k = 0; k < error_.size(); ++k) {
+    const double excess = std::abs(error_[k]) / allowed_[k];
+    // max() would pass over what is not a number.
+    if (!std::isfinite(excess)) return infinity;
+    largest = std::max(largest, excess);
+  }
+  return largest;
+}
+
+/// Near the end of the range the terms of a step and of its dense output overflow before the motion itself does.
+bool SmoothEngine::is_near_end_of_range() const {
+  constexpr double safe = 1e280;
+  return !std::ranges::all_of(X_, [](double value) { return std::abs(value) < safe; });
 }
 
 /// A softening spring pushes outward beyond sqrt(-k/k3), and the mass is infinitely far away within a finite time.
@@ -268,6 +279,10 @@ bool SmoothEngine::advance(double left) {
     h_ = h * std::clamp(ideal, largest_cut, 0.7);
     if (h_ < 1e-14 * longest && use_implicit_steps()) h_ = first_step();
     if (h_ < 1e-100 * longest) break;
+  }
+  if (is_near_end_of_range() && !has_run_away()) {
+    leave_range();
+    return false;
   }
   outcome_ = {core::OutcomeKind::not_finite,
               "the equation of motion could not be integrated at t = " + std::to_string(time()) +

@@ -95,6 +95,7 @@ class SmoothEngine final : public Engine {
   void lay_interval();
   void set_scales();
   void allow();
+  [[nodiscard]] bool is_near_end_of_range() const;
   [[nodiscard]] bool has_run_away() const;
   [[nodiscard]] double first_step();
   [[nodiscard]] double shortest_period() const;

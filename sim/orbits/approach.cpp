@@ -150,11 +150,21 @@ std::optional<Orbit> Approach::closed(const State& state) {
 bool Approach::has_arrived(const State& state) {
   if (!candidate_ || (passed_ - candidate_->found_at) % candidate_->orbit.period_ratio != 0) return false;
   candidate_->attraction.observe(state);
-  if (candidate_->attraction.approaches()) return true;
+  if (candidate_->attraction.approaches() && holds_ahead(*candidate_)) return true;
   if (candidate_->attraction.leaves()) {
     others_.push_back(std::move(candidate_->orbit));
     candidate_.reset();
   }
+  return false;
+}
+
+/// Whether a motion that seems to approach the candidate would do so from where it is led. If motions never part,
+/// it does. A test costs up to twenty periods of the orbit, so after a failure the next one waits.
+bool Approach::holds_ahead(const Candidate& candidate) {
+  if (motions_ != Motions::may_part || has_past_) return true;
+  if (passed_ < next_look_ahead_) return false;
+  if (candidate.attraction.holds_ahead(solver_.patient_map_over(candidate.orbit.period_ratio))) return true;
+  next_look_ahead_ = passed_ + 8 + passed_ / 8;
   return false;
 }
 
@@ -222,8 +232,7 @@ Orbit Approach::at_start(const Candidate& candidate) {
 /// The candidate, if the limit of periods is reached and the motion has come nearer to it up to then.
 std::optional<Orbit> Approach::nearly_there(SteadyState& result) {
   if (!candidate_ || growth_.is_endless()) return std::nullopt;
-  const Attraction& attraction = candidate_->attraction;
-  if (!(attraction.deviation() < 0.9 * attraction.first_deviation())) return std::nullopt;
+  if (!candidate_->attraction.has_come_nearer()) return std::nullopt;
   result.warnings.emplace_back("the motion still approaches this steady state after " + std::to_string(passed_) +
                                " forcing periods");
   return at_start(*candidate_);

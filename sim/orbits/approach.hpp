@@ -41,6 +41,7 @@ class Approach {
   [[nodiscard]] std::optional<Orbit> look(const ForcingPeriod& period, SteadyState& result);
   [[nodiscard]] std::optional<Orbit> closed(const State& state);
   [[nodiscard]] bool has_arrived(const State& state);
+  [[nodiscard]] bool holds_ahead(const Candidate& candidate);
   [[nodiscard]] int worth_trying();
   [[nodiscard]] bool is_due();
   void try_candidate(const State& state);
@@ -70,10 +71,11 @@ class Approach {
   std::vector<Orbit> others_;
   long passed_ = 0;  ///< forcing periods since the start
   Patience patience_;
-  long begun_at_;          ///< work of the engine before this motion
-  long next_trial_;        ///< number of periods at which Newton's method is tried whatever the closure
-  long next_trial_work_;   ///< the same as work of the motion
-  long next_closing_ = 0;  ///< when a motion that came back over several periods is examined again
+  long begun_at_;             ///< work of the engine before this motion
+  long next_trial_;           ///< number of periods at which Newton's method is tried whatever the closure
+  long next_trial_work_;      ///< the same as work of the motion
+  long next_look_ahead_ = 0;  ///< when a motion that seemed to approach the candidate is examined again
+  long next_closing_ = 0;     ///< when a motion that came back over several periods is examined again
   double divergence_ = 0.0;
   bool is_told_ = false;  ///< divergence_ has been computed
 };

@@ -51,22 +51,57 @@ VectorXd Attraction::from_orbit(const State& state) const {
   return free;
 }
 
+/// The condition for two deviations, one period apart.
+bool Attraction::comes_closer(const VectorXd& before, const VectorXd& after) const {
+  const VectorXd linear = monodromy_ * before;
+  const double gain = before.squaredNorm() / (norm(before) + norm(linear));
+  return norm(after - linear) <= 0.5 * gain;
+}
+
+/// The state with these free coordinates.
+State Attraction::at(const VectorXd& deviation) const {
+  VectorXd all = VectorXd::Zero(scale_.size());
+  all(free_) = deviation;
+  State state = displaced(orbit_, all.cwiseProduct(scale_));
+  // Far from the orbit the mass may move the other way.
+  if (state.direction != friction::Direction::none && state.v != 0.0)
+    state.direction = state.v < 0.0 ? friction::Direction::backward : friction::Direction::forward;
+  return state;
+}
+
+bool Attraction::holds_ahead(PeriodMap& map) const {
+  constexpr int doublings = 20;
+  constexpr double left = 0.1;
+  const double least = std::max(left * norm(last_), resolution_);
+  MatrixXd power = monodromy_;
+  for (int i = 0; i < doublings; ++i) {
+    power = (power * power).eval();
+    const VectorXd before = power * last_;
+    if (!(norm(before) > least)) break;
+    const VectorXd after = from_orbit(map.from(at(before), Monodromy::without).end);
+    if (!map.outcome().ok() || after.size() == 0) return false;
+    if (after.norm() > resolution_ && !comes_closer(before, after)) return false;
+  }
+  return true;
+}
+
+bool Attraction::has_come_nearer() const {
+  if (deviations_.size() < 2) return false;
+  constexpr double nearer = 0.9;
+  const auto half = deviations_.begin() + static_cast<std::ptrdiff_t>(deviations_.size() / 2);
+  return *std::max_element(half, deviations_.end()) < nearer * *std::max_element(deviations_.begin(), half);
+}
+
 void Attraction::observe(const State& state) {
   const VectorXd now = from_orbit(state);
   const bool comparable = now.size() > 0 && last_.size() > 0;
   // At v = 0 the mode must be the same too, because friction jumps there.
   const bool there = now.size() > 0 && now.norm() <= resolution_ && same_mode(state, orbit_);
-  bool closer = false;
-  if (comparable && !there) {
-    const VectorXd linear = monodromy_ * last_;
-    const double gain = last_.squaredNorm() / (norm(last_) + norm(linear));
-    closer = norm(now - linear) <= 0.5 * gain;
-  }
+  const bool closer = comparable && !there && comes_closer(last_, now);
   approaching_ = there || closer ? approaching_ + 1 : 0;
   deviation_ = now.size() > 0 ? norm(now) : std::numeric_limits<double>::infinity();
-  const bool first = nearest_ == 0.0;
-  if (first) first_ = deviation_;
-  nearest_ = first ? deviation_ : std::min(nearest_, deviation_);
+  nearest_ = nearest_ == 0.0 ? deviation_ : std::min(nearest_, deviation_);
+  if (std::isfinite(deviation_)) deviations_.push_back(deviation_);
   last_ = now;
 }
 

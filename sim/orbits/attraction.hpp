@@ -10,8 +10,14 @@
 /// In this norm the linear motion approaches the orbit in every period. The motion itself does so too if it differs
 /// from the linear one by less than half of this gain. The condition must hold in several periods in a row. The
 /// difference is of second order in d, so it becomes ever smaller beside the gain as the motion approaches.
+///
+/// A motion far away that winds slowly obeys the condition by chance where it turns: there friction that falls
+/// short of the linear one has no speed to act on. So the condition must also hold at the deviations M^k d that the
+/// linear motion would have later, with k = 2, 4, 8, ... until a tenth of |d|_P is left: within the first turn, one
+/// of them is an eighth to a quarter of a turn ahead.
 
 #include <Eigen/Core>
+#include <vector>
 
 #include "sim/orbits/period_map.hpp"
 
@@ -28,16 +34,20 @@ class Attraction {
 
   /// Whether enough periods in a row brought the motion closer by the condition above.
   [[nodiscard]] bool approaches() const { return approaching_ >= enough_; }
+  /// Whether the condition holds at later deviations of the linear motion too. `map`: over a period of the orbit.
+  [[nodiscard]] bool holds_ahead(PeriodMap& map) const;
   /// Whether the motion is twice as far away as it has been: it approaches something else.
   [[nodiscard]] bool leaves() const { return deviation_ > 2.0 * nearest_; }
-  /// Deviation now, and the first one, in the norm above.
-  [[nodiscard]] double deviation() const { return deviation_; }
-  [[nodiscard]] double first_deviation() const { return first_; }
+  /// Whether the motion has come nearer so far: the largest deviation of the later half of the time against that of
+  /// the first half. The deviation of a motion that winds rises and falls.
+  [[nodiscard]] bool has_come_nearer() const;
 
  private:
   static constexpr int enough_ = 3;
 
   [[nodiscard]] Eigen::VectorXd from_orbit(const State& state) const;
+  [[nodiscard]] bool comes_closer(const Eigen::VectorXd& before, const Eigen::VectorXd& after) const;
+  [[nodiscard]] State at(const Eigen::VectorXd& deviation) const;
   [[nodiscard]] double norm(const Eigen::VectorXd& d) const { return (root_ * d).norm(); }
 
   State orbit_;
@@ -49,7 +59,7 @@ class Attraction {
   Eigen::VectorXd last_;            ///< deviation one period ago; empty: not comparable
   double deviation_ = 0.0;
   double nearest_ = 0.0;
-  double first_ = 0.0;
+  std::vector<double> deviations_;  ///< once in each period that begins in the mode of the orbit
   int approaching_ = 0;
 };
 

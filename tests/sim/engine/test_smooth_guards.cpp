@@ -249,3 +249,25 @@ TEST_CASE("smooth engine: a mass that touches rest and goes on as before has not
   CHECK(engine->outcome().ok());
   CHECK(touches > 0);
 }
+
+TEST_CASE("smooth engine: what a motion says is a number up to the end of the range", "[sim][smooth]") {
+  // It grows by exp(535) in a second and would reach 1e308 m/s after 1.33 s.
+  sim::Model model;
+  model.oscillator = {.mass = 0.129, .stiffness = 1648.0, .damping = -72.0};
+  model.excitation = {.type = sim::ExcitationType::base_ramp, .slope = -0.00135};
+  model.friction = {law("coulomb", {{"kinetic", 0.001}})};
+  for (const SolverKind kind : {SolverKind::explicit_steps, SolverKind::implicit_steps}) {
+    model.solver.kind = kind;
+    const auto engine = sim::make_engine(model);
+    double fastest = 0.0;
+    while (const sim::Interval* interval = engine->next(2.0)) {
+      for (const double part : {0.0, 0.2, 0.5, 0.9, 1.0}) {
+        const sim::Sample sample = interval->at(part * interval->duration);
+        if (!std::isfinite(sample.x) || !std::isfinite(sample.v)) FAIL("not a number at " << sample.t << " s");
+        fastest = std::max(fastest, std::abs(sample.v));
+      }
+    }
+    CHECK(engine->outcome().reason == "the motion left the range of double precision");
+    CHECK(fastest > 1e280);
+  }
+}

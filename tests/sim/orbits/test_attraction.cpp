@@ -79,6 +79,19 @@ TEST_CASE("a motion that stays beside the orbit never approaches it") {
   CHECK_FALSE(attraction.approaches());
 }
 
+TEST_CASE("a motion comes nearer if it does so over a whole winding") {
+  const sim::ForcingPeriod o = orbit(0.9, 0.05);
+  for (const double radius : {0.99, 1.0, 1.01}) {
+    // An ellipse, five times as long as wide: at its ends the deviation is the largest.
+    sim::Attraction attraction(o, swing_omega, 1e-9);
+    for (int i = 0; i < 220; ++i) {
+      const double size = std::pow(radius, i);
+      attraction.observe(at(1.0 + size * std::cos(0.05 * i), 0.5 + 0.2 * size * swing_omega * std::sin(0.05 * i)));
+    }
+    CHECK(attraction.has_come_nearer() == (radius < 1.0));
+  }
+}
+
 TEST_CASE("a motion comes back after its shortest period") {
   for (const int period : {1, 2, 7, 64}) {
     sim::Recurrence recurrence(swing_omega);

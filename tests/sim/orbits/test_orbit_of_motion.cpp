@@ -350,3 +350,28 @@ TEST_CASE("a motion that winds towards its orbit is not looked at anew in each p
   // With a check of the orbit in each period there would be 611,144.
   CHECK(state.certificate.searches < 500'000);
 }
+
+TEST_CASE("a motion that turns slowly far from an orbit is not taken to approach it") {
+  // The fast drive makes friction a dashpot of slow motions up to 0.1 m/s; beyond that the negative damping gives
+  // more than friction takes, from an amplitude of 4 F/(pi |c| omega) = 6.4 m on. At each turning point of the slow
+  // motion several forcing periods in a row agree with the dashpot.
+  sim::Model model;
+  model.oscillator = {.mass = 1.0, .stiffness = 1.0, .damping = -0.01};
+  model.excitation = {.type = sim::ExcitationType::force_harmonic, .amplitude = 5.0, .frequency = 50.0};
+  const std::vector<friction::Law> laws = {
+      test::law("coulomb", {{"kinetic", 0.05}}),
+      test::law("stribeck", {{"kinetic", 0.05}, {"static", 0.051}, {"stribeck_velocity", 1.0}}),
+      test::law(
+          "lugre",
+          {{"kinetic", 0.05}, {"static", 0.05}, {"stribeck_velocity", 0.1}, {"sigma0", 1000.0}, {"sigma1", 1.0}})};
+  for (const friction::Law& law : laws) {
+    model.friction = {law};
+    model.initial = {.position = 10.0};
+    const sim::SteadyState outside = sim::steady_state(model);
+    CHECK(outside.outcome.reason.find("the amplitude still grows") != std::string::npos);
+    model.initial = {.position = 0.1};
+    const sim::SteadyState inside = sim::steady_state(model);
+    CHECK(inside.outcome.ok());
+    CHECK(inside.peak == Approx(0.002).epsilon(0.01));
+  }
+}
