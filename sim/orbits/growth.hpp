@@ -119,7 +119,7 @@ class Creep {
     factor_ = last_ > 0.0 ? closure / last_ : 0.0;
     constexpr double as_before = 0.85;
     constexpr double growing = 1.05;
-    constexpr double decaying = 1.25;  // one that falls like 1/n halves; contacts that age take some of it too
+    constexpr double decaying = 1.4;  // one that falls like 1/n halves; contacts that age take up to a third
     goes_on_ = period_ >= earliest && falls_ && amplitude < growing * amplitude_ &&
                amplitude_ < decaying * amplitude && is_in_band(before) && is_in_band(factor_) &&
                factor_ >= as_before * before;

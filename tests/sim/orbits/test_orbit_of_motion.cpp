@@ -307,13 +307,18 @@ TEST_CASE("a closure that falls by a constant factor is no creep, one that falls
   sim::Creep growing;
   sim::Creep winding;
   sim::Creep decaying;
+  sim::Creep aging;
   for (int n = 1; n <= 32; ++n) {
+    // rate_state below break-away, when the contact is about as old as the motion: its state is ln(1 + t V/L).
+    const double age = 1.0 + 0.0209 * n;
+    aging.observe(0.0209 / (age * std::log(age)), std::pow(age, -1.2));
     creep.observe(1.0 / n, 1.0);
     growing.observe(1.0 / n, n);
     decaying.observe(1.0 / n, 1.0 / n);
     winding.observe((n % 2 == 0 ? 1.0 : 0.5) / n, 1.0);
   }
   CHECK(creep.goes_on());
+  CHECK(aging.goes_on());
   CHECK(!growing.goes_on());
   CHECK(!winding.goes_on());
   CHECK(!decaying.goes_on());
