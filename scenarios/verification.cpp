@@ -279,11 +279,19 @@ struct Way {
   sim::Solver solver;
 };
 
+/// Whether explicit steps would be limited by the fast one of two decays: a thousand of them for an implicit one at
+/// a damping ratio of a thousand.
+bool is_heavily_damped(const sim::Oscillator& rig) {
+  constexpr double heavy = 10.0;
+  return rig.damping > 2.0 * heavy * rig.mass * sim::natural_frequency(rig);
+}
+
 /// Steps of the other kind; for a motion of the exact engine those of both kinds.
 std::vector<Way> other_ways(const sim::Model& model) {
   const std::string end = " at tolerance " + core::format_number(tight, 1);
   const Way explicit_way = {"smooth engine, explicit steps" + end, {sim::SolverKind::explicit_steps, tight}};
   const Way implicit_way = {"smooth engine, implicit steps" + end, {sim::SolverKind::implicit_steps, tight}};
+  if (sim::is_exact(model) && is_heavily_damped(model.oscillator)) return {implicit_way, explicit_way};
   if (sim::is_exact(model)) return {explicit_way, implicit_way};
   if (model.solver.kind == sim::SolverKind::implicit_steps) return {explicit_way};
   return {implicit_way};

@@ -220,6 +220,20 @@ TEST_CASE("verification: a creep whose steps add up their errors is confirmed by
   CHECK_THAT(result.verification->engine, Catch::Contains("implicit"));
 }
 
+TEST_CASE("verification: a heavily damped motion is confirmed by implicit steps first",
+          "[scenarios][verification]") {
+  // Damping ratio 1000. Explicit steps take a thousand times as many: 13 s.
+  const scenarios::RunResult result = scenarios::run(scenarios::parse_scenario(
+      "schema: dualdamp/1\nsystem: {mass: 0.012, stiffness: 2286562, damping: 331294, friction: {law: "
+      "contact_compliance, kinetic: 0.012, contact_stiffness: 130325568}}\nexcitation: {type: base_ramp, velocity: "
+      "7.97e-05}\nanalysis: {type: simulate, duration: 0.91}\nnumerics: {verify: true}\n",
+      "test.yaml"));
+  REQUIRE(result.verification.has_value());
+  INFO(result.verification->reason);
+  CHECK(result.verification->agrees);
+  CHECK_THAT(result.verification->engine, Catch::Contains("implicit"));
+}
+
 TEST_CASE("verification: a speed is measured by the largest of the motion, not by those at its events",
           "[scenarios][verification]") {
   // Stick-slip that ends in the middle of a slip, at less than half of its largest speed.
