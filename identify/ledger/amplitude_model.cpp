@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "identify/ledger/amplitude_noise.hpp"
+#include "identify/ledger/amplitude_step.hpp"
 #include "identify/ledger/amplitude_terms.hpp"
 #include "identify/ledger/stated_noise.hpp"
 #include "identify/methods/amplitudes/steady_states.hpp"
@@ -39,12 +40,6 @@ Asked slope(const At& at, double step) {
 
 constexpr double small = 1e-5;
 
-/// Plain friction, and a coefficient for each relaxation.
-struct Parameters {
-  PlainFriction friction;
-  Eigen::VectorXd g;
-};
-
 /// Rows of one linearisation, each over its deviation; rows of phases follow those of amplitudes.
 struct Rows {
   Eigen::VectorXd residuals;
@@ -53,9 +48,6 @@ struct Rows {
   std::vector<Reading> readings;  ///< lengths in units of the largest amplitude
   double log_variances = 0.0;     ///< half the log of the determinant of V
 };
-
-/// Relaxations that are fitted beside the friction, by their numbers.
-using Taken = std::vector<std::size_t>;
 
 class SteadyStates {
  public:
@@ -106,7 +98,7 @@ class SteadyStates {
 
   /// Linearised at the parameters and at the true amplitudes of the last call; then updates these amplitudes.
   /// Columns of relaxations that are not wanted are zero.
-  Rows linearise(const Parameters& at, const Deviations& deviations, const Taken& wanted) {
+  Rows linearise(const SteadyParameters& at, const Deviations& deviations, const Taken& wanted) {
     Rows rows;
     const Eigen::Index count = amplitudes() + phases();
     rows.residuals.resize(count);
@@ -136,7 +128,7 @@ class SteadyStates {
   [[nodiscard]] bool has_trend() const { return sweeps_ > 2; }
 
   /// Friction displacement of a sweep less the mean over all sweeps, which is x_f.
-  [[nodiscard]] double excess(int sweep, const Parameters& at) const {
+  [[nodiscard]] double excess(int sweep, const SteadyParameters& at) const {
     const auto first = static_cast<Eigen::Index>(terms_.size());
     double sum = 0.0;
     for (int j = 0; j < contrasts(); ++j) sum += at.g[first + j] * (j == sweep ? 1.0 : -1.0 / (sweeps_ - 1.0));
@@ -145,7 +137,7 @@ class SteadyStates {
   }
 
   /// The drive that a state needs, with every relaxation by its coefficient.
-  [[nodiscard]] std::complex<double> drive(const SteadyPoint& point, const Parameters& at, double x) const {
+  [[nodiscard]] std::complex<double> drive(const SteadyPoint& point, const SteadyParameters& at, double x) const {
     PlainFriction friction = at.friction;
     friction.x_f += excess(point.sweep, at);
     const std::complex<double> plain = plain_drive(friction, x, point.r);
@@ -159,18 +151,18 @@ class SteadyStates {
 
   /// Column of a parameter: the derivative of the needed drive.
   template <typename Change>
-  [[nodiscard]] Asked column(const SteadyPoint& point, const Parameters& at, double x, double step,
+  [[nodiscard]] Asked column(const SteadyPoint& point, const SteadyParameters& at, double x, double step,
                              const Change& change) const {
     return slope(
         [&](double h) {
-          Parameters moved = at;
+          SteadyParameters moved = at;
           change(moved, h);
           return drive(point, moved, x);
         },
         step);
   }
 
-  void add_state(std::size_t i, const Parameters& at, const Deviations& deviations, Eigen::Index phase_row,
+  void add_state(std::size_t i, const SteadyParameters& at, const Deviations& deviations, Eigen::Index phase_row,
                  const Taken& wanted, Rows& rows) {
     const SteadyPoint& point = points_[i];
     double& xi = true_x_[i];
@@ -202,12 +194,12 @@ class SteadyStates {
     rows.readings[i] = {ReadingKind::amplitude, point.number, by_x[0] == 0.0 ? 0.0 : -L(0, 0) / by_x[0]};
     if (has_phase) rows.readings[static_cast<std::size_t>(phase_row)] = {ReadingKind::phase, point.number, L(1, 1)};
     put(column(point, at, xi, small * std::max(at.friction.zeta, 1e-3),
-               [](Parameters& p, double h) { p.friction.zeta += h; }),
+               [](SteadyParameters& p, double h) { p.friction.zeta += h; }),
         rows.base.col(0));
-    put(column(point, at, xi, small, [](Parameters& p, double h) { p.friction.x_f += h; }), rows.base.col(1));
+    put(column(point, at, xi, small, [](SteadyParameters& p, double h) { p.friction.x_f += h; }), rows.base.col(1));
     for (const std::size_t number : wanted) {
       const auto j = static_cast<Eigen::Index>(number);
-      put(column(point, at, xi, small, [j](Parameters& p, double h) { p.g[j] += h; }), rows.relaxed.col(j));
+      put(column(point, at, xi, small, [j](SteadyParameters& p, double h) { p.g[j] += h; }), rows.relaxed.col(j));
     }
     const Asked solved = factor.solve(residual);
     xi = std::max(point.x + x_variance * by_x.dot(solved), 1e-3 * point.x);
@@ -225,7 +217,7 @@ class SteadyStates {
 };
 
 struct AmplitudeFit {
-  Parameters at;
+  SteadyParameters at;
   Deviations deviations;
   Rows rows;
   double deviance = std::numeric_limits<double>::infinity();  ///< -2 log-likelihood
@@ -254,32 +246,24 @@ double scale_of(const SteadyStates& states, const Eigen::VectorXd& residuals, Ei
   return std::sqrt(std::max(left.squaredNorm() / freedom, 1e-28));
 }
 
-/// One Gauss-Newton step, limited in length.
-void move(const Eigen::VectorXd& step, const Taken& taken, Parameters& at) {
-  const double most = 0.5 * at.friction.zeta;
-  at.friction.zeta = std::max(1e-5, at.friction.zeta + std::clamp(step[0], -most, most));
-  at.friction.x_f += std::clamp(step[1], -0.3, 0.3);
-  constexpr double most_relaxed = 0.2;
-  for (std::size_t j = 0; j < taken.size(); ++j)
-    at.g[static_cast<Eigen::Index>(taken[j])] +=
-        std::clamp(step[2 + static_cast<Eigen::Index>(j)], -most_relaxed, most_relaxed);
-}
-
-/// The fit with sigma_Y = `ratio` sigma_x.
-AmplitudeFit fit_with(SteadyStates states, const Parameters& begin, const Taken& taken, double ratio) {
+/// The fit with sigma_Y = `ratio` sigma_x. A fit that once came near zeta = 0 climbs from there by half of zeta in
+/// a step, so it may need more steps than most.
+AmplitudeFit fit_with(SteadyStates states, const SteadyParameters& begin, const Taken& taken, double ratio) {
   AmplitudeFit fit;
   fit.at = begin;
   const KnownDeviations& known = states.known();
   fit.deviations = {ratio > 1e3 ? 0.0 : 1e-3, ratio > 1e3 ? 1e-3 : 1e-3 * ratio, 1e-2};
   if (is_stated(known)) fit.deviations = {known.sigma_x, known.sigma_Y, 1e-2};
-  constexpr int iterations = 14;
-  for (int i = 0; i < iterations; ++i) {
+  constexpr int fewest = 14;
+  constexpr int most = 40;
+  for (int i = 1; i <= most; ++i) {
     fit.rows = states.linearise(fit.at, fit.deviations, taken);
     const Eigen::MatrixXd columns = free_columns(fit.rows.base, fit.rows.relaxed, taken);
     const Eigen::VectorXd step = pivoted_least_squares(columns, fit.rows.residuals);
     if (!step.allFinite()) return fit;
-    move(step, taken, fit.at);
-    if (i + 1 == iterations) break;
+    const SteadyParameters before = fit.at;
+    take_step(step, taken, fit.at);
+    if (i == most || (i >= fewest && is_settled(before, fit.at))) break;
     const Eigen::VectorXd left = fit.rows.residuals - columns * step;
     const double amplitude = scale_of(states, left, 0, states.amplitudes());
     fit.scatter = amplitude;
@@ -307,7 +291,7 @@ AmplitudeFit fit_with(SteadyStates states, const Parameters& begin, const Taken&
 /// The fit with the best ratio of the deviations. Some 25 states hardly determine it, so it has a prior: sensors of
 /// equal relative accuracy, with a factor of three as one standard deviation. At one frequency without phases the
 /// record does not determine it at all, because the gain of Y on x hardly varies: only x has errors then.
-AmplitudeFit best_fit(const SteadyStates& states, const Parameters& begin, const Taken& taken) {
+AmplitudeFit best_fit(const SteadyStates& states, const SteadyParameters& begin, const Taken& taken) {
   if (is_stated(states.known())) return fit_with(states, begin, taken, 1.0);
   if (states.frequencies() < 2 && states.phases() == 0) return fit_with(states, begin, taken, 0.0);
   const double deviation = std::log(3.0);
@@ -360,9 +344,9 @@ KnownConstants constants_at(const AmplitudeFit& fit, const SteadyStates& states,
 /// The fit with more relaxations free than `fit`. It is never worse: it may begin at `fit` as well, and may stay.
 AmplitudeFit fit_beside(const AmplitudeFit& fit, const SteadyStates& states, const Taken& hidden,
                         const Taken& taken) {
-  Parameters begin{start_beside(fit.at.friction, states.points()), states.none_relaxed()};
+  SteadyParameters begin{start_beside(fit.at.friction, states.points()), states.none_relaxed()};
   AmplitudeFit best = best_fit(states, begin, taken);
-  const auto try_from = [&](const Parameters& start) {
+  const auto try_from = [&](const SteadyParameters& start) {
     AmplitudeFit other = best_fit(states, start, taken);
     if (other.deviance < best.deviance) best = std::move(other);
   };
