@@ -16,6 +16,8 @@ namespace {
 
 /// Least share of a column's length beside the base columns: below it the relaxation cannot be told from them.
 constexpr double told_apart = 1e-4;
+/// The same of what is left of it beside the base, beside the relaxations taken: below it they are one departure.
+constexpr double told_from_taken = 5e-3;
 /// Standard errors at which a departure is found in four records of five.
 constexpr double found_at = 2.8;
 /// Noise that columns and residuals share changes their product by at most this many times what one draw of it
@@ -31,6 +33,7 @@ struct Projection {
   double freedom = 0.0;
   double scale_freedom = 0.0;        ///< of the deviation that a statistic is divided by
   std::vector<std::size_t> indices;  ///< of the relaxations that can be told apart
+  std::vector<std::size_t> alike;    ///< of those that could be, were it not for the relaxations taken
   Eigen::MatrixXd unit;              ///< their columns beside the base, of unit length
   Eigen::VectorXd lengths;
   Eigen::MatrixXd shifts;  ///< of the base parameters for a unit of each relaxation
@@ -48,6 +51,13 @@ Eigen::MatrixXd finite_columns(Eigen::MatrixXd columns) {
   return columns;
 }
 
+/// Lengths of columns beside a base.
+Eigen::VectorXd lengths_beside(const Eigen::MatrixXd& base, const Eigen::MatrixXd& columns) {
+  const Eigen::VectorXd scale = base.colwise().norm().cwiseMax(1e-300);
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(base * scale.cwiseInverse().asDiagonal());
+  return (columns - base * (scale.cwiseInverse().asDiagonal() * qr.solve(columns))).colwise().norm();
+}
+
 Projection project(const JointModel& model, const std::vector<std::size_t>& taken) {
   const Eigen::Index own = model.base.cols();
   const Eigen::MatrixXd base = free_columns(model.base, model.relaxed, taken);
@@ -63,9 +73,15 @@ Projection project(const JointModel& model, const std::vector<std::size_t>& take
   // A statistic may depend on one channel, or on all: the mean of both degrees of freedom.
   result.scale_freedom = 0.5 * (result.freedom + std::min(result.freedom, std::max(2.0, model.scale_freedom)));
   if (model.is_stated) result.scale_freedom = std::max(2.0, std::min(model.scale_freedom, model.other_freedom));
-  for (Eigen::Index j = 0; j < beside.cols(); ++j)
-    if (beside.col(j).norm() > told_apart * columns.col(j).norm())
-      result.indices.push_back(static_cast<std::size_t>(j));
+  Eigen::VectorXd lengths = beside.colwise().norm();
+  if (!taken.empty()) lengths = lengths_beside(model.base, columns);
+  for (Eigen::Index j = 0; j < beside.cols(); ++j) {
+    const double least = told_apart * columns.col(j).norm();
+    if (!(lengths[j] > least)) continue;
+    const double left = beside.col(j).norm();
+    const bool told = taken.empty() || (left > least && left > told_from_taken * lengths[j]);
+    (told ? result.indices : result.alike).push_back(static_cast<std::size_t>(j));
+  }
   const auto count = static_cast<Eigen::Index>(result.indices.size());
   result.unit.resize(base.rows(), count);
   result.lengths.resize(count);
@@ -273,7 +289,8 @@ std::vector<RelaxationTest> candidates(const JointModel& model, std::vector<Rela
 /// What is left for the other relaxations once the model is fitted with a candidate and those taken.
 struct Rest {
   double p_value = 1.0;
-  double misfit = 0.0;  ///< of the fit; if its likelihood is not known, the gain by one more relaxation
+  double misfit = 0.0;             ///< of the fit; if its likelihood is not known, the gain by one more relaxation
+  std::vector<std::size_t> alike;  ///< relaxations that cannot be told from the candidate and those taken
   ParameterSet value;
   KnownConstants constants;
 };
@@ -285,6 +302,7 @@ Rest rest_of(const JointModel& model, std::vector<std::size_t> taken, std::size_
   rest.value = fitted.value;
   rest.constants = fitted.constants;
   const Projection projection = project(fitted, taken);
+  rest.alike = projection.alike;
   if (!std::isfinite(projection.residuals.squaredNorm())) {
     rest.misfit = std::numeric_limits<double>::infinity();
     return rest;
@@ -325,7 +343,10 @@ Departure charged(const JointModel& model, const std::vector<std::size_t>& taken
     if (is_hidden(i) && !of_friction) continue;
     const bool as_well = rests[i].misfit <= rests[best].misfit + equal_likelihood &&
                          (rests[i].p_value >= family_level || rests[best].p_value < family_level);
-    if (i != best && as_well) departure.explanations.push_back(list[i]);
+    // Those with nearly the same column differ by the finest detail of the model, and by chance.
+    const bool alike = std::ranges::find(rests[best].alike, list[i].index) != rests[best].alike.end() &&
+                       rests[i].misfit <= rests[best].misfit + far_better;
+    if (i != best && (as_well || alike)) departure.explanations.push_back(list[i]);
   }
   return departure;
 }

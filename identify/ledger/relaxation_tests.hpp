@@ -10,7 +10,8 @@
 /// the model and the others are tested again beside it, until none rejects or four are taken.
 ///
 /// A relaxation that explains nearly as much (log-likelihood within `equal_likelihood` of the best, at equal number
-/// of parameters) is named beside it: the record cannot tell them apart.
+/// of parameters) is named beside it: the record cannot tell them apart. So is one of which next to nothing is left
+/// beside it: such relaxations are one departure, and none is tested beside another.
 ///
 /// Far from the fit no single test may reject, because the misfit is in the residuals of all. Where the model
 /// misses the record as a whole (misfit.hpp), every relaxation is fitted, and the best is taken if it explains far

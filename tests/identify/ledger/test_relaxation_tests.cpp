@@ -126,3 +126,16 @@ TEST_CASE("A relaxation whose column is not finite is not tested, and the others
     CHECK(std::ranges::find(found.alone, std::size_t{1}) == found.alone.end());
   }
 }
+
+TEST_CASE("A relaxation that can hardly be told from one already charged is no second departure") {
+  JointModel model = line_with(8.0, 4);
+  // The fourth relaxation is the square but for 0.1 %, and the residuals hold some of this small difference.
+  const Eigen::VectorXd u = 0.5 * model.relaxed.col(3);
+  const Eigen::VectorXd wave = (9.0 * u.array()).cos();
+  model.relaxed.col(3) = model.relaxed.col(0) + 1e-3 * wave;
+  model.relaxations[3] = {Assumption::constants, "nearly the square"};
+  model.residuals += 1.5 * wave;
+  const RelaxationTests found = test_relaxations(model);
+  REQUIRE(found.departures.size() == 1);
+  CHECK(found.departures[0].explanations.size() == 2);
+}
