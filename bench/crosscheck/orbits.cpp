@@ -32,12 +32,16 @@ double largest_multiplier(const sim::SteadyState& state) {
 
 /// Whether the transient is not settled although by the largest Floquet multiplier nothing of it is left. With a
 /// Floquet multiplier on the unit circle there is a continuum of orbits, along which a motion may creep at any
-/// speed. Nor is it a contradiction if the search itself saw the motion still approach after more periods.
-bool contradicts(const sim::SteadyState& state, const sim::Transient& motion) {
+/// speed.
+bool is_slower_than_multiplier(const sim::SteadyState& state, const sim::Transient& motion) {
   constexpr double safely = 1e-20;
   return state.outcome.ok() && motion.outcome.ok() && !motion.settled && motion.closure > closure_tolerance &&
-         state.transient_periods < motion.periods &&
          std::pow(largest_multiplier(state), motion.periods / state.period_ratio) < safely;
+}
+
+/// It is no contradiction if the search itself saw the motion still approach after more periods.
+bool contradicts(const sim::SteadyState& state, const sim::Transient& motion) {
+  return is_slower_than_multiplier(state, motion) && state.transient_periods < motion.periods;
 }
 
 /// The transient, tested for closure over the periods of the steady state, since a subharmonic does not close over
@@ -52,7 +56,7 @@ sim::Transient transient(const sim::Model& model, const sim::SteadyState& state)
                                          .give_up = [&] { return patience.is_over(); }});
   };
   sim::Transient motion = follow(usual_periods);
-  if (!contradicts(state, motion)) return motion;
+  if (!is_slower_than_multiplier(state, motion)) return motion;
   sim::Transient longer = follow(most_periods);
   // If the motion could not be followed further, the contradiction remains.
   return longer.settled || (longer.outcome.ok() && longer.periods > motion.periods) ? longer : motion;

@@ -247,7 +247,8 @@ double scale_of(const SteadyStates& states, const Eigen::VectorXd& residuals, Ei
 }
 
 /// The fit with sigma_Y = `ratio` sigma_x. A fit that once came near zeta = 0 climbs from there by half of zeta in
-/// a step, so it may need more steps than most.
+/// a step, so it may need more steps than most. Amplitudes alone hardly show some relaxations, and more steps only
+/// take these further from what is possible.
 AmplitudeFit fit_with(SteadyStates states, const SteadyParameters& begin, const Taken& taken, double ratio) {
   AmplitudeFit fit;
   fit.at = begin;
@@ -255,7 +256,7 @@ AmplitudeFit fit_with(SteadyStates states, const SteadyParameters& begin, const 
   fit.deviations = {ratio > 1e3 ? 0.0 : 1e-3, ratio > 1e3 ? 1e-3 : 1e-3 * ratio, 1e-2};
   if (is_stated(known)) fit.deviations = {known.sigma_x, known.sigma_Y, 1e-2};
   constexpr int fewest = 14;
-  constexpr int most = 40;
+  const int most = states.with_phases() ? 40 : fewest;
   for (int i = 1; i <= most; ++i) {
     fit.rows = states.linearise(fit.at, fit.deviations, taken);
     const Eigen::MatrixXd columns = free_columns(fit.rows.base, fit.rows.relaxed, taken);

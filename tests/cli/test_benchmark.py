@@ -358,8 +358,8 @@ class Benchmark(unittest.TestCase):
         numbers = json.loads((self.folder / "export/key.json").read_text())["numbers"]
         lines = [json.loads(line) for line in (self.folder / "run/cases.jsonl").read_text().splitlines()[1:]]
         self.assertEqual([line["law"] for line in lines], ["coulomb_viscous", "lugre", "lugre + displacement_gain"])
-        # 4: the record contradicts what single laws assume, and there is no answer.
-        for place, option, status in ((0, "", 0), (1, ", without: [lugre]", 4), (2, ", without: [lugre]", 0)):
+        # 4: a gain that is off contradicts the stated constants, too, and there is no answer.
+        for place, option, status in ((0, "", 0), (1, ", without: [lugre]", 0), (2, ", without: [lugre]", 4)):
             path = self.folder / f"{place}.yaml"
             path.write_text(record % (f"export/cases/{numbers.index(place) + 1:06d}.csv", option))
             self.call("run", path, "--out", self.folder / str(place), "--quiet", status=status)
@@ -369,7 +369,7 @@ class Benchmark(unittest.TestCase):
                 # An answer also holds the estimate with the departure set free: then its interval may be wider.
                 self.assertGreater(low, 1 - 1e-6)
                 self.assertLess(high, 1 + 1e-6)
-                self.assertLess(abs(low - 1) + abs(high - 1), 2e-6 if place < 2 else 0.05)
+                self.assertLess(abs(low - 1) + abs(high - 1), 0.25 if place == 1 else 2e-6)
 
     def test_consequences(self):
         out, _ = self.score()
