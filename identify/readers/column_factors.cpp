@@ -26,7 +26,8 @@ struct ScaleUnit {
   bool is_sensitivity = false;  ///< signal per quantity, as mV/g; else quantity per signal
 };
 
-/// Tries each `/` of the text: one side must be a unit of the column, the other one is the unit of the signal.
+/// Tries each `/` of the text: one side must be a unit of the column, the other one is the unit of the signal. A
+/// mass makes a force of an acceleration.
 std::optional<ScaleUnit> read_scale_unit(const std::string& unit, const KnownColumn& known,
                                          core::Coordinate coordinate) {
   for (std::size_t at = unit.rfind('/'); at != std::string::npos && at > 0; at = unit.rfind('/', at - 1)) {
@@ -39,12 +40,22 @@ std::optional<ScaleUnit> read_scale_unit(const std::string& unit, const KnownCol
       return ScaleUnit{*factor, above, true};
   }
   if (const auto whole = core::unit_factor(unit, known.unit, coordinate).value) return ScaleUnit{*whole, {}, false};
+  if (known.unit == "N")  // a mass times an acceleration
+    if (const auto mass = core::unit_factor(unit, "kg", coordinate).value)
+      return ScaleUnit{*mass, core::unit_for(coordinate, "m/s^2"), false};
   return std::nullopt;
 }
 
 /// Angles, their rates, and frequencies must state a unit: numbers in degrees look like numbers in radians.
 bool is_angular(const KnownColumn& known, core::Coordinate coordinate) {
   return core::unit_for(coordinate, known.unit).starts_with("rad");
+}
+
+/// What else a column of the base's acceleration is good for.
+std::string other_reading(const KnownColumn& known, const std::string& unit, core::Coordinate coordinate) {
+  if (known.name != "y" || !core::unit_factor(unit, "m/s^2", coordinate).value) return {};
+  return "; where friction acts against the base, its acceleration is the column 'force' with the scale -m, and x is "
+         "the motion relative to the base";
 }
 
 }  // namespace
@@ -117,7 +128,7 @@ double ColumnFactors::factor_of(KnownColumn known, const std::string& stated, co
                 "the unit of column " + name +
                     (known.unit == "N" && name == "Y" ? ", the amplitude of the force" : "") + ": " + factor.fault,
                 core::describe_dimension(known.unit, options_.coordinate) + "; in the file as '" + name +
-                    " [unit]', or as --unit " + name + "=UNIT",
+                    " [unit]', or as --unit " + name + "=UNIT" + other_reading(known, unit, options_.coordinate),
                 factor.suggestion);
 }
 

@@ -401,34 +401,3 @@ TEST_CASE("What is said of a column that is not there is refused") {
   options.scales = {{"v", "2"}};
   CHECK_THROWS_AS(parse_record(text, options), core::InputError);
 }
-
-TEST_CASE("A scale with an uncertainty is refused with one without it") {
-  const auto refused = [](const std::string& scale) {
-    return refusal([&] {
-      (void)parse_record("t [s],x [V]\n0,1\n1,-2\n2,3\n",
-                         ReadOptions{.scales = {{"x", scale}}, .name = "data.csv"});
-    });
-  };
-  for (const char* scale : {"2.5 mm/V \xc2\xb1 1 %", "2.5 mm/V +- 0.1 mm/V", "(2.5 +- 0.1) mm/V"}) {
-    const std::string said = refused(scale);
-    CHECK(mentions(said, "the scale of column x states an uncertainty, which only 'identify' uses"));
-    CHECK(mentions(said, "allowed: '2.5 mm/V'"));
-  }
-  CHECK(mentions(refused("+-2 mm/V"), "states an uncertainty"));
-}
-
-TEST_CASE("A scale in the column's own unit is refused with one that does") {
-  const auto refused = [](const std::string& heading, const std::string& scale) {
-    const std::string text = "Y [mm],x [mm],f [Hz]," + heading + "\n1,2,5,90\n2,3,6,80\n";
-    return refusal(
-        [&] { (void)parse_record(text, ReadOptions{.scales = {{"phase", scale}}, .name = "data.csv"}); });
-  };
-  const std::string said = refused("phase [deg]", "-1 deg");
-  CHECK(mentions(said,
-                 "the scale of column phase is for numbers without a unit, and those of the column are in deg"));
-  CHECK(mentions(said, "allowed: '-1', which leaves the numbers in deg"));
-  CHECK(refused("phase [deg]", "-1") == "accepted");
-  CHECK(mentions(refused("phase [V]", "-1 deg"), "allowed: such as '-1 rad/V'"));
-  CHECK(refused("phase [V]", "-1 rad/V") == "accepted");
-  CHECK(mentions(refused("phase [V]", "-1 deg/mA"), "is for numbers in mA, and those of the column are in V"));
-}
