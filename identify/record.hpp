@@ -80,6 +80,9 @@ struct History {
   std::vector<double> a;      ///< its acceleration [m/s^2]
   std::vector<double> force;  ///< force on the mass beside spring, damper and friction [N]
   std::string sweep;          ///< label; may be empty
+  /// For messages: what gaps in the times have left out; why it gives no x-Y pair. Empty: nothing, or not asked.
+  std::string gaps = {};
+  std::string no_pair = {};
 };
 
 /// All that was measured; kinds of data that were not measured are empty.

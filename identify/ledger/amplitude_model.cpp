@@ -89,7 +89,7 @@ class SteadyStates {
   [[nodiscard]] std::vector<Relaxation> relaxations() const {
     std::vector<Relaxation> list;
     for (const AmplitudeTerm* term : terms_)
-      list.push_back({term->assumption, std::string(term->test), term->sign});
+      list.push_back({term->assumption, std::string(term->test), term->sign, term->freed});
     for (int j = 0; j < contrasts(); ++j)
       list.push_back({Assumption::stationarity, "friction force of sweep " + std::to_string(j + 1) + " free"});
     if (has_trend()) list.push_back({Assumption::stationarity, "friction force that drifts from sweep to sweep"});
@@ -336,8 +336,8 @@ void leave_out_unseen(const SteadyStates& states, const PlainFriction& friction,
 KnownConstants constants_at(const AmplitudeFit& fit, const SteadyStates& states, KnownConstants constants) {
   for (std::size_t j = 0; j < states.terms().size(); ++j) {
     const double g = fit.at.g[static_cast<Eigen::Index>(j)];
-    if (states.terms()[j]->test == stiffness_free) constants.stiffness *= std::exp(-2.0 * g);
-    if (states.terms()[j]->test == mass_free) constants.mass *= std::exp(2.0 * g);
+    if (states.terms()[j]->freed == Freed::stiffness) constants.stiffness *= std::exp(-2.0 * g);
+    if (states.terms()[j]->freed == Freed::mass) constants.mass *= std::exp(2.0 * g);
   }
   return constants;
 }
@@ -386,7 +386,7 @@ JointModel amplitude_model_of(const AmplitudeFit& fit, const SteadyStates& state
   // The column of the stiffness is at constant F0 = k x_f.
   for (std::size_t j = 0; j < states.terms().size(); ++j) {
     auto column = model.relaxed.col(static_cast<Eigen::Index>(j));
-    if (states.terms()[j]->test == stiffness_free && !column.isZero(0.0))
+    if (states.terms()[j]->freed == Freed::stiffness && !column.isZero(0.0))
       column += 2.0 * fit.at.friction.x_f * model.base.col(1);
   }
   model.F0_parts = Eigen::VectorXd::Zero(model.relaxed.cols());

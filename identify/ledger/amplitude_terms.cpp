@@ -129,11 +129,12 @@ Complex delayed(const PlainFriction& friction, double x, double r, double g) {
 
 using enum Assumption;
 constexpr std::array<AmplitudeTerm, 13> all_amplitude_terms = {{
-    {constants, mass_free, false, detuned},
-    {constants, stiffness_free, false, detuned},
+    // By the mass or by the stiffness: they differ only in F0 = k x_f.
+    {constants, "natural frequency free, stiffness as stated", false, detuned, 0, Freed::mass},
+    {constants, "natural frequency free, mass as stated", false, detuned, 0, Freed::stiffness},
     {sensors, "lag of the phase free", false, lagging},
     {sensors, "delay of x free", true, delayed},
-    {sensors, "gain of x against y free", true, gained},
+    {sensors, "gain of x against y free", true, gained, 0, Freed::gain},
     {spring, "cubic stiffness", false, with_cubic_spring},
     {one_mode, "residual inertia of a further mode", false, with_force<second_mode>},
     {friction_velocity, "quadratic term over speed", false, with_force<drag>},

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "identify/assumption.hpp"
+#include "identify/ledger/joint_model.hpp"
 #include "identify/record.hpp"
 
 namespace dualdamp::identify {
@@ -57,11 +58,8 @@ struct AmplitudeTerm {
   bool several_frequencies;  ///< needed: at one frequency it equals another term, or has no effect
   std::complex<double> (*drive)(const PlainFriction& friction, double x, double r, double g);
   int sign = 0;  ///< of g in such a departure; 0: either
+  Freed freed = Freed::effect;
 };
-
-/// A natural frequency other than stated, by the mass or by the stiffness. They differ only in F0 = k x_f.
-inline constexpr std::string_view mass_free = "natural frequency free, stiffness as stated";
-inline constexpr std::string_view stiffness_free = "natural frequency free, mass as stated";
 
 /// The terms, by assumption.
 [[nodiscard]] std::span<const AmplitudeTerm> amplitude_terms();

@@ -53,6 +53,7 @@ struct DecayTerm {
   double (*lasting)(double X);
   int sign = 0;          ///< of the coefficient in such a departure; 0: either
   bool is_zero = false;  ///< the zero of x that drifts, which changes no swing
+  Freed freed = Freed::effect;
 };
 
 double no_loss(const Swing& /*swing*/) { return 0.0; }
@@ -72,12 +73,10 @@ double stiffening(double X) { return -0.375 * X * X; }
 double stiff_contact(double X) { return -std::pow(X, -1.5); }
 
 using enum Assumption;
-/// A period other than stated, by the mass or by the stiffness. They differ only in F0 = k x_f.
-constexpr std::string_view mass_free = "period free, stiffness as stated";
-constexpr std::string_view stiffness_free = "period free, mass as stated";
 constexpr std::array<DecayTerm, 10> all_decay_terms = {{
-    {constants, mass_free, no_loss, always},
-    {constants, stiffness_free, no_loss, always},
+    // By the mass or by the stiffness: they differ only in F0 = k x_f.
+    {constants, "period free, stiffness as stated", no_loss, always, 0, false, Freed::mass},
+    {constants, "period free, mass as stated", no_loss, always, 0, false, Freed::stiffness},
     {spring, "cubic stiffness", stiffer, stiffening},
     {friction_velocity, "quadratic term over speed", square, no_lasting},
     {friction_velocity, "cubic term over speed", cube, no_lasting},
@@ -185,10 +184,10 @@ JointModel linearised(const Setting& setting, const Eigen::VectorXd& measured, c
   model.relaxed.resize(model.residuals.size(), at.g.size());
   for (Eigen::Index j = 0; j < at.g.size(); ++j) {
     const DecayTerm& term = *setting.terms[static_cast<std::size_t>(j)];
-    model.relaxations.push_back({term.assumption, std::string(term.test), term.sign});
+    model.relaxations.push_back({term.assumption, std::string(term.test), term.sign, term.freed});
     model.relaxed.col(j) = slope([&](Decay& decay, double h) { decay.g[j] += h; });
     // The column of the stiffness is at constant F0 = k x_f.
-    if (term.test == stiffness_free) model.relaxed.col(j) += 2.0 * at.x_f * model.base.col(1);
+    if (term.freed == Freed::stiffness) model.relaxed.col(j) += 2.0 * at.x_f * model.base.col(1);
   }
   // A term that takes g X from the swings to one side and gives it to the others is a damping that differs between
   // the directions.
@@ -235,7 +234,7 @@ void move(const Setting& setting, const Eigen::VectorXd& step, const std::vector
   for (std::size_t j = 0; j < taken.size(); ++j) {
     const double g = step[base + static_cast<Eigen::Index>(j)];
     at.g[static_cast<Eigen::Index>(taken[j])] += g;
-    if (setting.terms[taken[j]]->test == stiffness_free) at.x_f += 2.0 * g * at.x_f;
+    if (setting.terms[taken[j]]->freed == Freed::stiffness) at.x_f += 2.0 * g * at.x_f;
   }
 }
 
@@ -259,8 +258,8 @@ JointModel fitted(const Setting& setting, const Eigen::VectorXd& measured, const
   model.constants = setting.constants;
   for (std::size_t j = 0; j < setting.terms.size(); ++j) {
     const double longer = 1.0 + at.g[static_cast<Eigen::Index>(j)];
-    if (setting.terms[j]->test == stiffness_free) model.constants.stiffness /= longer * longer;
-    if (setting.terms[j]->test == mass_free) model.constants.mass *= longer * longer;
+    if (setting.terms[j]->freed == Freed::stiffness) model.constants.stiffness /= longer * longer;
+    if (setting.terms[j]->freed == Freed::mass) model.constants.mass *= longer * longer;
   }
   model.base.col(1) /= model.constants.stiffness * setting.unit;
   model.value = parameters(at.zeta, at.x_f * setting.unit, model.constants);

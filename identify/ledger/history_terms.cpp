@@ -36,7 +36,7 @@ double one_sided_damping(const At& at, const MotionScale& scale) { return at.dir
 
 using enum Assumption;
 constexpr std::array<HistoryTerm, 12> all_history_terms = {{
-    {sensors, "gain of the drive free", drive_gain},
+    {sensors, "gain of the drive free", drive_gain, 0, false, Freed::gain},
     {spring, "cubic stiffness", cubic_spring},
     {spring, "quadratic stiffness", square_spring},
     {stationarity, "friction force that drifts", friction_drift},

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "identify/assumption.hpp"
+#include "identify/ledger/joint_model.hpp"
 #include "identify/models/sampled_oscillator.hpp"
 
 namespace dualdamp::identify {
@@ -22,6 +23,7 @@ struct HistoryTerm {
   double (*force)(const SampledOscillator::Instant& at, const MotionScale& scale);
   int sign = 0;            ///< of the coefficient in such a departure; 0: either
   bool one_sided = false;  ///< damping that is larger in one direction
+  Freed freed = Freed::effect;
 };
 
 /// The terms, by assumption.

@@ -13,7 +13,13 @@ using Kind = Way::Kind;
 using By = SampledOscillator::By;
 
 void add(HistoryWays& list, Assumption assumption, std::string test, const Way& way) {
-  list.relaxations.push_back({assumption, std::move(test), way.term == nullptr ? 0 : way.term->sign});
+  Relaxation relaxation{assumption, std::move(test)};
+  if (way.term != nullptr) {
+    relaxation.sign = way.term->sign;
+    relaxation.freed = way.term->freed;
+  }
+  if (way.kind == Kind::gain) relaxation.freed = Freed::gain;
+  list.relaxations.push_back(std::move(relaxation));
   list.ways.push_back(way);
 }
 

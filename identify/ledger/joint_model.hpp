@@ -18,10 +18,15 @@
 
 namespace dualdamp::identify {
 
+/// What of a rig a relaxation sets free: the mass or the stiffness by the frequency or the period, the gain of a
+/// sensor. All others add an effect.
+enum class Freed { effect, mass, stiffness, gain };
+
 struct Relaxation {
   Assumption assumption = Assumption::constants;
   std::string test;  ///< "natural frequency free", ...: what is set free
   int sign = 0;      ///< of the coefficient in such a departure; 0: either
+  Freed freed = Freed::effect;
 };
 
 /// What was read.

@@ -177,7 +177,7 @@ class Writer {
     if (relaxation.assumption == Assumption::constants)
       return std::abs(std::log(test.constants.mass / known.mass)) < allowed &&
              std::abs(std::log(test.constants.stiffness / known.stiffness)) < allowed;
-    return relaxation.test.starts_with("gain of") && std::abs(test.coefficient) < allowed;
+    return relaxation.freed == Freed::gain && std::abs(test.coefficient) < allowed;
   }
 
   [[nodiscard]] std::string alternatives(const Departure& departure, const RelaxationTest& own) const {

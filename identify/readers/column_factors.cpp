@@ -128,7 +128,8 @@ double ColumnFactors::factor_of(KnownColumn known, const std::string& stated, co
                 "the unit of column " + name +
                     (known.unit == "N" && name == "Y" ? ", the amplitude of the force" : "") + ": " + factor.fault,
                 core::describe_dimension(known.unit, options_.coordinate) + "; in the file as '" + name +
-                    " [unit]', or as --unit " + name + "=UNIT" + other_reading(known, unit, options_.coordinate),
+                    " [unit]', or as --unit " + name + "=UNIT" + other_reading(known, unit, options_.coordinate) +
+                    (options_.coordinate_reason.empty() ? "" : "; " + options_.coordinate_reason),
                 factor.suggestion);
 }
 

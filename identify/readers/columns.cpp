@@ -144,15 +144,9 @@ void split_unit(Heading& heading, const KnownColumn& known) {
   if (last != std::string::npos) heading.name.resize(last + 1);
 }
 
-namespace {
-constexpr std::string_view not_known = "' is not known and is ignored";
-}
-
 std::string ignored(std::string_view what, const std::string& name) {
-  return std::string(what) + " '" + name + std::string(not_known);
+  return std::string(what) + " '" + name + "' is not known and is ignored";
 }
-
-bool is_of_ignored(std::string_view warning) { return warning.ends_with(not_known); }
 
 std::string listed(const std::vector<std::string>& names) {
   std::string text;

@@ -58,7 +58,7 @@ struct Heading {
 /// `Weg_mm`. The name of `Weg_[mm]` becomes `Weg`.
 void split_unit(Heading& heading, const KnownColumn& known);
 
-/// The warning about an unknown column, variable or field. `is_of_ignored` recognises it.
+/// The warning about an unknown column, variable or field.
 [[nodiscard]] std::string ignored(std::string_view what, const std::string& name);
 
 /// "a, b and c"

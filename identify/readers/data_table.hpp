@@ -29,6 +29,7 @@ struct DataTable {
   std::string file;
   std::vector<DataColumn> columns;  ///< of equal length, each name at most once
   ColumnUnits units;
+  std::vector<std::string> ignored = {};   ///< warnings about unknown columns
   std::vector<LabelRun> sweeps;            ///< empty: no labels
   std::vector<std::size_t> restarts = {};  ///< rows that follow a repeated header
   /// Times are rounded to a multiple of `time_quantum` [s] or to `time_digits` digits, whichever is coarser.

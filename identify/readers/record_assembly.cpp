@@ -362,6 +362,7 @@ class Assembly {
     const auto t = cut(*values("t"), rows.first + base.first, rows.first + base.last);
     History result;
     result.sweep = label;
+    if (base.last - base.first < rows.last - rows.first) result.gaps = test + base.warning;
     result.start = t.front();
     result.sample_rate = 1.0 / base.step;
     using Member = std::vector<double> History::*;

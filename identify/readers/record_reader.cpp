@@ -154,6 +154,7 @@ MeasuredRecord assemble(TableFile file, const ReadOptions& options, Problems& pr
   MeasuredRecord result;
   result.warnings = std::move(warnings);
   result.units = file.table.units;
+  result.ignored = file.table.ignored;
   result.record = record_of(std::move(file.table), problems, result.warnings);
   problems.throw_if_any();
   result.sha256 = std::move(file.sha256);

@@ -35,7 +35,8 @@ struct ReadOptions {
   std::map<std::string, std::string> scales = {};
   char decimal = '.';                                            ///< decimal mark of a CSV file: a point or a comma
   core::Coordinate coordinate = core::Coordinate::displacement;  ///< what x is
-  bool force_levels = false;                                     ///< Y is the amplitude of a force [N]
+  std::string coordinate_reason = {};  ///< for messages: why x is one; empty: the caller does not know
+  bool force_levels = false;           ///< Y is the amplitude of a force [N]
   bool no_header = false;  ///< the first row of a CSV file holds numbers; `columns` has the number of each column
   /// Names of the columns to be read, without aliases; others are not read. Empty: all.
   std::vector<std::string> only = {};
@@ -52,6 +53,7 @@ struct ColumnUnits {
 struct MeasuredRecord {
   Record record;
   std::vector<std::string> warnings;  ///< what was left out or assumed
+  std::vector<std::string> ignored;   ///< those about unknown columns, variables or fields
   std::string sha256;                 ///< of the bytes of the file
   ColumnUnits units;
 };
@@ -63,9 +65,6 @@ struct MeasuredRecord {
 
 /// The same with default options. `name`: name of the file in messages.
 [[nodiscard]] MeasuredRecord parse_record(std::string_view text, const std::string& name);
-
-/// Whether a warning is about an unknown column, variable or field.
-[[nodiscard]] bool is_of_ignored(std::string_view warning);
 
 /// One signal over its own times, as in the file: the drive of an oscillator, or a motion to compare with a
 /// simulated one. The times need not be evenly spaced.

@@ -160,10 +160,11 @@ std::optional<SteadyPart> steady_part(const History& history, double omega) {
 
 class PairReader {
  public:
-  PairReader(const History& history, std::size_t index, std::vector<std::string>& warnings)
+  PairReader(const History& history, std::size_t index, DerivedPairs& result)
       : history_(history),
         name_(history.sweep.empty() ? "history " + std::to_string(index + 1) : "history '" + history.sweep + "'"),
-        warnings_(warnings) {}
+        warnings_(result.warnings),
+        lacking_(result.lacking.emplace_back()) {}
 
   std::optional<Pair> read(double frequency) {
     if (history_.x.empty() || history_.y.empty()) return std::nullopt;
@@ -200,7 +201,8 @@ class PairReader {
 
  private:
   std::optional<Pair> nothing(const std::string& reason) {
-    warnings_.push_back(name_ + " gives no x-Y pair: " + reason);
+    lacking_ = name_ + " gives no x-Y pair: " + reason;
+    warnings_.push_back(lacking_);
     return std::nullopt;
   }
 
@@ -272,6 +274,7 @@ class PairReader {
   const History& history_;
   std::string name_;
   std::vector<std::string>& warnings_;
+  std::string& lacking_;
 };
 
 }  // namespace
@@ -279,7 +282,7 @@ class PairReader {
 DerivedPairs pairs_of(const std::vector<History>& histories, double frequency) {
   DerivedPairs result;
   for (std::size_t i = 0; i < histories.size(); ++i) {
-    auto pair = PairReader(histories[i], i, result.warnings).read(frequency);
+    auto pair = PairReader(histories[i], i, result).read(frequency);
     if (!pair) continue;
     pair->number = static_cast<int>(result.record.pairs.size()) + 1;
     result.record.pairs.push_back(std::move(*pair));

@@ -42,7 +42,11 @@ std::vector<std::string> complete(Record& record, double frequency, double stiff
   DerivedPairs driven = pairs_of(record.histories, frequency);
   const bool has_pairs = !driven.record.pairs.empty();
   // Without a stated frequency, a motion that is not steady is as good as one that is.
-  if (has_pairs || !std::isnan(frequency)) std::ranges::move(driven.warnings, std::back_inserter(warnings));
+  if (has_pairs || !std::isnan(frequency)) {
+    std::ranges::move(driven.warnings, std::back_inserter(warnings));
+    for (std::size_t i = 0; i < record.histories.size(); ++i)
+      record.histories[i].no_pair = std::move(driven.lacking[i]);
+  }
   if (has_pairs) {
     record.pairs = std::move(driven.record);
     return warnings;

@@ -23,6 +23,8 @@ namespace dualdamp::identify {
 struct DerivedPairs {
   PairRecord record;  ///< empty if no history is a driven steady state
   std::vector<std::string> warnings;
+  std::vector<std::string> lacking;  ///< why a history gives no pair, one for each history; empty: it gives one,
+                                     ///< or lacks x or y
 };
 
 /// One pair for each history with x and y at a steady state. `frequency`: of the drive [rad/s], replaced by that of

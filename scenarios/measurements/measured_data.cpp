@@ -33,14 +33,6 @@ identify::ReadOptions read_options(const Json& section, core::Coordinate coordin
   return options;
 }
 
-/// The coordinate that the scenario states; it determines which units a column may have.
-core::InputError with_reason(const core::InputError& fault, const CoordinateSource& source) {
-  std::vector<core::Diagnostic> problems = fault.diagnostics();
-  for (core::Diagnostic& problem : problems)
-    if (problem.message.starts_with("the unit of column")) problem.allowed += "; " + source.reason();
-  return core::InputError(std::move(problems));
-}
-
 /// From memory, if the caller has put it there.
 identify::MeasuredRecord read(const DataTexts& texts, const std::string& path,
                               const identify::ReadOptions& options) {
@@ -53,10 +45,11 @@ identify::MeasuredRecord read_by_units(CheckedFile& file, const std::string& pat
                                        const Json& section, bool by_force = false) {
   identify::ReadOptions options = read_options(section, file.coordinate(), name);
   options.force_levels = by_force;
+  if (file.coordinate_source()) options.coordinate_reason = file.coordinate_source()->reason();
   try {
     return read(file.data_place().texts, path, options);
   } catch (const core::InputError& fault) {
-    if (file.coordinate_source()) throw with_reason(fault, *file.coordinate_source());
+    if (file.coordinate_source()) throw;
     options.coordinate = core::Coordinate::angle;
     try {
       identify::MeasuredRecord data = read(file.data_place().texts, path, options);
@@ -259,8 +252,8 @@ void check_frequency(CheckedFile& file, const identify::Record& record) {
   const auto lacks_frequency = [](const identify::Pair& pair) { return std::isnan(pair.omega); };
   if (!is_free || !record.pairs || std::ranges::none_of(record.pairs->pairs, lacks_frequency)) return;
   std::string ignored;
-  for (const std::string& warning : file.data ? file.data->warnings : std::vector<std::string>())
-    if (identify::is_of_ignored(warning)) ignored += "; " + warning;
+  if (file.data)
+    for (const std::string& warning : file.data->ignored) ignored += "; " + warning;
   file.complain("analysis.data", "x-Y pairs need the forcing frequency at which they were measured" + ignored,
                 "excitation: {type: base_harmonic, frequency: ...}; on the command line --frequency, or --column "
                 "omega=NAME");

@@ -1,7 +1,6 @@
 #include "scenarios/measurements/method_choice.hpp"
 
 #include <algorithm>
-#include <iterator>
 
 #include "core/diagnostics.hpp"
 #include "identify/records/derived_records.hpp"
@@ -11,7 +10,7 @@ namespace dualdamp::scenarios {
 namespace {
 
 /// Why the histories hold no free vibration, what would do, and which rows were not searched for one.
-std::string why_no_decay(const CheckedFile& file, const std::vector<identify::Record>& records) {
+std::string why_no_decay(const std::vector<identify::Record>& records) {
   std::string text;
   for (const identify::Record& record : records) {
     if (record.histories.empty()) continue;
@@ -19,19 +18,22 @@ std::string why_no_decay(const CheckedFile& file, const std::vector<identify::Re
     if (!fault.empty()) text += ": " + fault + "; needed are four extremes, so two periods after a release";
     break;
   }
-  if (!file.data) return text;
-  for (const std::string& warning : file.data->warnings)
-    if (warning.starts_with("the times have gaps")) text += "; " + warning;
+  for (const identify::Record& record : records)
+    for (const identify::History& history : record.histories)
+      if (!history.gaps.empty()) text += "; " + history.gaps;
   return text;
 }
 
 /// Why histories give no x-Y pairs.
-std::string why_no_pairs(const CheckedFile& file, const std::vector<identify::Record>& records) {
-  std::vector<std::string> said = file.data ? file.data->warnings : std::vector<std::string>();
+std::string why_no_pairs(const std::vector<identify::Record>& records) {
   for (const identify::Record& record : records)
-    if (!record.pairs) std::ranges::move(identify::pairs_of(record.histories).warnings, std::back_inserter(said));
-  for (const std::string& warning : said)
-    if (warning.find("gives no x-Y pair") != std::string::npos) return ": " + warning;
+    for (const identify::History& history : record.histories)
+      if (!history.no_pair.empty()) return ": " + history.no_pair;
+  for (const identify::Record& record : records) {
+    if (record.pairs) continue;
+    for (const std::string& why : identify::pairs_of(record.histories).lacking)
+      if (!why.empty()) return ": " + why;
+  }
   return {};
 }
 
@@ -68,8 +70,8 @@ void resolve_methods(CheckedFile& file, const std::vector<identify::Record>& rec
       if (lack.empty()) continue;
       const bool of_pairs =
           method.needs == identify::RecordKind::pairs || method.needs == identify::RecordKind::states;
-      if (method.needs == identify::RecordKind::decay) lack += why_no_decay(file, records);
-      if (of_pairs) lack += why_no_pairs(file, records);
+      if (method.needs == identify::RecordKind::decay) lack += why_no_decay(records);
+      if (of_pairs) lack += why_no_pairs(records);
       file.complain("analysis.methods[" + std::to_string(i) + "]", "method '" + name + "' cannot be used: " + lack,
                     core::joined(fitting));
     }

@@ -188,6 +188,22 @@ class DataFiles(unittest.TestCase):
         self.assertIn("; needed are four extremes", said)
         self.assertIn("of 1210 rows only the longest uninterrupted stretch is used, 810 rows from t = 0.88 s", said)
 
+    def test_gaps_of_a_labelled_test_explain_a_missing_free_vibration(self):
+        times = [k / 500 for k in range(1250) if not 400 <= k < 440]
+        moved = [40 * math.cos(39 * t) * max(0, 1 - t / 0.7) + 0.02 * math.sin(7919.3 * t * t) for t in times]
+        rows = "".join(f"{t:.4f},{x:.4f},drop\n" for t, x in zip(times, moved))
+        options = ["--mass", "1 kg", "--stiffness", "1521 N/m", "--method", "free_decay"]
+        said = self.identify(self.write("labelled.csv", "t [s],x [mm],sweep\n" + rows), constants=options).stderr
+        self.assertIn("; needed are four extremes, so two periods after a release; test 'drop': the times have gaps: of 1210 rows", said)
+
+    def test_a_stated_coordinate_explains_only_dimensions(self):
+        constants = ["--mass", "1 kg", "--stiffness", "1 N/m", "--frequency", "1 Hz", "--coordinate", "displacement"]
+        said = self.identify(self.write("banana.csv", "Y [mm],x [banana]\n1,2\n"), constants=constants).stderr
+        self.assertIn("--unit x=UNIT; the coordinate is a displacement", said)
+        said = self.identify(self.write("twice.csv", "Y [mm],x [mm]\num,mm\n1,2\n"), constants=constants).stderr
+        self.assertIn("the unit of column Y is stated twice", said)
+        self.assertNotIn("the coordinate is", said)
+
     def test_gaps_are_told(self):
         times = [t for i, t in enumerate(EVEN) if i not in (10, 11)]
         result = self.identify(self.write("gaps.csv", history(times).replace("t,x", "t,x [mm]")))

@@ -31,7 +31,7 @@ class HeaderReader {
     for (std::size_t i = 0; i < headings_.size() && line_.number > 0; ++i)
       if (fields_[i].known == nullptr) take_by_name(headings_[i], fields_[i]);
     report_missing();
-    return {std::move(fields_), factors_.take_units()};
+    return {std::move(fields_), factors_.take_units(), std::move(ignored_)};
   }
 
  private:
@@ -166,7 +166,8 @@ class HeaderReader {
                                                                 "Note", "Remark",  "comment"};
     if (known == nullptr || is_left_alone) {
       field.may_be_missing = std::ranges::find(remarks, heading.name) != remarks.end();
-      if (!heading.text.empty() && !is_left_alone) warnings_.push_back(ignored("column", excerpt(heading.text)));
+      if (heading.text.empty() || is_left_alone) return;
+      warnings_.push_back(ignored_.emplace_back(ignored("column", excerpt(heading.text))));
     } else if (find_for(options_.columns, *known) != nullptr) {
       warnings_.push_back("column '" + excerpt(heading.text) + "' is ignored: another one is used in its place");
     } else if (!well_formed) {
@@ -247,6 +248,7 @@ class HeaderReader {
   ColumnFactors factors_;
   std::vector<Heading> headings_;
   std::vector<CsvField> fields_;
+  std::vector<std::string> ignored_;
 };
 
 }  // namespace

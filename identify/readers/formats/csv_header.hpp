@@ -22,6 +22,7 @@ struct CsvField {
 struct CsvHeader {
   std::vector<CsvField> fields;
   ColumnUnits units;
+  std::vector<std::string> ignored;  ///< warnings about unknown columns
 };
 
 /// Faults are added to `problems`.

@@ -39,8 +39,9 @@ class Parser {
       warnings_.push_back(std::to_string(layout_.lines_above) + " line" + (layout_.lines_above == 1 ? "" : "s") +
                           " above the header, line " + std::to_string(layout_.header.number) + ", " +
                           (layout_.lines_above == 1 ? "is" : "are") + " not read");
-    const auto [fields, units] = read_csv_header(layout_, options_, problems_, warnings_);
-    table_.units = units;
+    auto [fields, units, ignored] = read_csv_header(layout_, options_, problems_, warnings_);
+    table_.units = std::move(units);
+    table_.ignored = std::move(ignored);
     problems_.throw_if_any();
     table_.columns.reserve(known_columns.size());  // targets point into it
     for (const CsvField& field : fields) {

@@ -120,6 +120,7 @@ MatContent content(Receiver& from) {
   if (content.tests.empty()) throw Nonsense{};
   if (from.number() != 0) content.row_labels = row_labels(from, content.tests);
   content.warnings = from.items([&from] { return from.text(); });
+  content.ignored = from.items([&from] { return from.text(); });
   content.units.assumed = from.items([&from] { return from.text(); });
   for (std::uint64_t count = from.number(); count > 0; --count) {
     std::string column = from.text();
@@ -161,7 +162,7 @@ void send(const MatContent& content, const ByteSink& sink) {
       to.put(run.label);
       to.put(std::uint64_t{run.first_row});
     });
-  for (const auto* texts : {&content.warnings, &content.units.assumed})
+  for (const auto* texts : {&content.warnings, &content.ignored, &content.units.assumed})
     to.put(*texts, [&to](const std::string& text) { to.put(text); });
   to.put(std::uint64_t{content.units.stated.size()});
   for (const auto& [column, unit] : content.units.stated) {

@@ -20,6 +20,7 @@ struct MatContent {
   std::vector<TestColumns> tests;
   std::optional<std::vector<LabelRun>> row_labels;  ///< replace the labels of the tests
   std::vector<std::string> warnings;
+  std::vector<std::string> ignored = {};  ///< those about unknown variables and fields
   ColumnUnits units;
 };
 

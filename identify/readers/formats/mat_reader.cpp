@@ -70,10 +70,15 @@ class Reader {
     content.units = factors_.take_units();
     content.row_labels = std::move(row_labels_);
     content.warnings = std::move(warnings_);
+    content.ignored = std::move(ignored_);
     return content;
   }
 
  private:
+  void ignore(std::string_view what, const std::string& name) {
+    warnings_.push_back(ignored_.emplace_back(ignored(what, name)));
+  }
+
   void complain(std::string message, std::string allowed = {}, std::string found = {}) {
     problems_.add({{file_, 0, 0, {}}, std::move(message), std::move(allowed), std::move(found), {}});
   }
@@ -89,7 +94,7 @@ class Reader {
       const std::string name = to_utf8(variable->name == nullptr ? "" : variable->name);
       listing_.push_back(name + " (" + describe(*variable) + ")");
       if (variable->class_type != MAT_C_STRUCT && !is_wanted(name) && !(is_matrix(*variable) && wants_numbered())) {
-        if (options_.only.empty()) warnings_.push_back(ignored("variable", name));
+        if (options_.only.empty()) ignore("variable", name);
         continue;
       }
       if (is_73 && variable->class_type == MAT_C_EMPTY && lacks_class(path_, variable->name)) {
@@ -246,7 +251,7 @@ class Reader {
       if (is_sampling(entry.name)) {
         take_step(entry, step);
       } else if (known == nullptr) {
-        if (options_.only.empty()) warnings_.push_back(ignored("field", to_utf8(entry.name)));
+        if (options_.only.empty()) ignore("field", to_utf8(entry.name));
       } else if (known->unit.empty()) {
         take_label(entry, result);
       } else {
@@ -388,6 +393,7 @@ class Reader {
   const ReadOptions& options_;
   Problems problems_;
   std::vector<std::string> warnings_;
+  std::vector<std::string> ignored_;
   ColumnFactors factors_;
   std::vector<std::string> listing_;  ///< all variables with their sizes
   std::vector<Variable> variables_;
@@ -442,6 +448,7 @@ DataTable read_mat(const std::string& path, const ReadOptions& options, Problems
   if (!content) refuse_unread(options.name, result.end);
   DataTable table = join(options.name, content->tests);
   table.units = std::move(content->units);
+  table.ignored = std::move(content->ignored);
   if (content->row_labels) table.sweeps = std::move(*content->row_labels);
   std::ranges::move(content->warnings, std::back_inserter(warnings));
   return table;

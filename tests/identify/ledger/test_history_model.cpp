@@ -181,3 +181,16 @@ TEST_CASE("The zero of v moves no estimate of the joint model") {
     CHECK(least_p(off) == Approx(least_p(right)).margin(0.05));
   }
 }
+
+TEST_CASE("The relaxations of histories that free a gain are marked, whatever they are called") {
+  const Measured m = measured(Kind::decay, first_seed, nullptr, {.v_noise = 0.02});
+  const auto model = history_model(m.record, m.constants);
+  REQUIRE(std::holds_alternative<JointModel>(model));
+  int gains = 0;
+  for (const Relaxation& relaxation : std::get<JointModel>(model).relaxations) {
+    CAPTURE(relaxation.test);
+    CHECK((relaxation.freed == Freed::gain) == (relaxation.test.find("gain") != std::string::npos));
+    gains += relaxation.freed == Freed::gain ? 1 : 0;
+  }
+  CHECK(gains == 3);  // of x, of v and of the drive
+}

@@ -132,6 +132,7 @@ MatContent two_tests() {
     content.tests.push_back({label, {{known_column("t"), values}, {known_column("x"), values}}});
   content.row_labels = {{"one", 0}, {"two", 4}};
   content.warnings = {"a warning"};
+  content.ignored = {"one about a field"};
   return content;
 }
 
@@ -154,6 +155,7 @@ TEST_CASE("Content that went over a pipe is what was sent") {
   CHECK(back->row_labels.value().at(1).label == "two");
   CHECK(back->row_labels.value().at(1).first_row == 4);
   CHECK(back->warnings == std::vector<std::string>{"a warning"});
+  CHECK(back->ignored == std::vector<std::string>{"one about a field"});
 
   dualdamp::core::Diagnostic problem;
   problem.message = "bad";
