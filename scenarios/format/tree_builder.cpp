@@ -21,27 +21,37 @@ namespace {
 
 constexpr std::size_t max_problems = 50;
 
-/// yaml-cpp's messages in terms that a user of scenario files knows.
-std::string in_plain_words(const std::string& message, std::string_view text, std::size_t at) {
+/// A fault of the YAML in terms that a user of scenario files knows.
+struct YamlFault {
+  std::string message;
+  bool is_unclosed = false;  ///< a bracket or a quote that is open above is what is wrong
+};
+
+YamlFault in_plain_words(const std::string& message, std::string_view text, std::size_t at) {
   if (message == "end of map flow not found" && at > 0 && at < text.size() && text[at] == '[' &&
       text[at - 1] != ' ')
-    return "between { and } a text with brackets, such as points[0].x, needs quotes";
-  static constexpr std::array<std::array<std::string_view, 2>, 8> translations = {{
+    return {"between { and } a text with brackets, such as points[0].x, needs quotes"};
+  struct Translation {
+    std::string_view theirs;
+    std::string_view ours;
+    bool is_unclosed = false;
+  };
+  static constexpr std::array<Translation, 9> translations = {{
       {"end of map not found",
        "this does not fit what stands above: check the indentation and a missing ':' or quote"},
       {"end of sequence not found", "this does not fit the list above: check the indentation and the '-'"},
       {"illegal map value",
        "a ':' is out of place here: one key a line, and quotes around text that contains ': '"},
-      {"end of map flow not found", "this '{' is not closed by '}'"},
-      {"end of sequence flow not found", "this '[' is not closed by ']'"},
-      {"illegal EOF in scalar", "the text ends inside quotes that are not closed"},
+      {"end of map flow not found", "this '{' is not closed by '}'", true},
+      {"end of sequence flow not found", "this '[' is not closed by ']'", true},
+      {"illegal EOF in scalar", "the text ends inside quotes that are not closed", true},
       {"illegal flow end", "this bracket closes nothing"},
       {"unknown token", "a value cannot begin with this character: put the text in quotes"},
+      {"the referenced anchor is not defined", "anchors (&) and aliases (*) are not allowed"},
   }};
-  for (const auto& [theirs, ours] : translations)
-    if (message == theirs) return std::string(ours);
-  if (message == "the referenced anchor is not defined") return "anchors (&) and aliases (*) are not allowed";
-  return "this is not YAML: " + message;
+  for (const Translation& each : translations)
+    if (message == each.theirs) return {std::string(each.ours), each.is_unclosed};
+  return {"this is not YAML: " + message};
 }
 
 constexpr std::string_view decimal_comma =
@@ -82,12 +92,11 @@ class TreeBuilder final : public YAML::EventHandler {
 
   /// Reports in plain words what yaml-cpp could not read, and throws.
   [[noreturn]] void fail(const YAML::Exception& error) {
-    const std::string message = in_plain_words(error.msg, text_, offset(error.mark));
-    const bool unclosed = message.find("not closed") != std::string::npos;
+    const YamlFault fault = in_plain_words(error.msg, text_, offset(error.mark));
     const auto opener = std::find_if(stack_.rbegin(), stack_.rend(), [&](const Frame& frame) {
       return at(frame.offset) == '{' || at(frame.offset) == '[';
     });
-    complain(unclosed && opener != stack_.rend() ? opener->offset : offset(error.mark), message);
+    complain(fault.is_unclosed && opener != stack_.rend() ? opener->offset : offset(error.mark), fault.message);
     throw InputError(problems_);
   }
 
