@@ -24,6 +24,7 @@
 #include "cli/lists.hpp"
 #include "cli/manual.hpp"
 #include "cli/new_scenario.hpp"
+#include "cli/option_text.hpp"
 #include "cli/print.hpp"
 #include "cli/report/report.hpp"
 #include "cli/report/result_directory.hpp"
@@ -141,8 +142,8 @@ scenarios::FoundCases found_cases(const RunCommand& command) {
 /// The scenario; or a report in place of a run: a refusal, or the text of a dry run.
 Report load(const RunCommand& command, const std::string& file, std::optional<Scenario>& scenario) {
   return guarded([&]() -> Report {
-    LoadOptions options{.analyses = bench::analyses()};
-    for (const std::string& assignment : command.set) options.set.push_back({assignment});
+    LoadOptions options{.words = key_or_option_of_setting, .analyses = bench::analyses()};
+    for (const std::string& assignment : command.set) options.set.push_back({assignment, "--set"});
     if (command.verify) options.set.push_back({"numerics.verify=true", "--verify"});
     Scenario loaded = scenarios::load_scenario(file, options);
     show_in(command.shown_units, loaded);
@@ -251,7 +252,9 @@ int execute(const CheckCommand& command) {
   InOrder reports(command.files.size(), {});
   for (std::size_t i = 0; i < command.files.size(); ++i)
     reports.put(i, guarded([&] {
-                  return checked(scenarios::load_scenario(command.files[i], {.analyses = bench::analyses()}), {});
+                  return checked(scenarios::load_scenario(command.files[i], {.words = key_or_option_of_setting,
+                                                                             .analyses = bench::analyses()}),
+                                 {});
                 }));
   return finish(reports.worst());
 }

@@ -24,7 +24,8 @@ double positive(const std::string& option, const std::string& text, const std::s
 
 sim::LawCase case_of(const LawsCommand& command) {
   try {
-    sim::LawCase result = sim::law_case(command.name, scenarios::law_parameters(command.name, command.set));
+    sim::LawCase result =
+        sim::law_case(command.name, scenarios::law_parameters(command.name, command.set, "--set"));
     result.stroke = positive("--stroke", command.stroke, "m");
     result.stroke_time = positive("--stroke-time", command.stroke_time, "s");
     return result;

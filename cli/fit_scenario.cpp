@@ -67,7 +67,7 @@ void add_drive(const RecordCommand& command, bool replaces, scenarios::LoadOptio
     }
     if (!command.amplitude.empty()) say(".amplitude=" + command.amplitude, "--amplitude");
   }
-  for (const std::string& assignment : command.set) options.set.push_back({assignment});
+  for (const std::string& assignment : command.set) options.set.push_back({assignment, "--set"});
 }
 
 [[noreturn]] void refuse_result(const std::string& file, std::string message) {
@@ -126,6 +126,7 @@ std::string prediction_of(const Json& result, const PredictCommand& command) {
 scenarios::Scenario scenario_of(const FitCommand& command) {
   scenarios::LoadOptions options;
   options.data_anywhere = true;
+  options.words = option_of_setting;
   options.set = {{"analysis.data=" + data_of(command.data, command), "DATA"}};
   if (command.law.find(',') == std::string::npos)
     options.set.push_back({"system.friction.law=" + command.law, "LAW"});
@@ -154,6 +155,7 @@ scenarios::Scenario prediction_by(const Json& document, const PredictCommand& co
   const Json& result = document.at("result");
   scenarios::LoadOptions options;
   options.data_anywhere = true;
+  options.words = option_of_setting;
   options.set = {{"analysis=" + prediction_of(result, command), "DATA"}};
   const auto rig = result.at("rig").get<std::string>();
   add_drive(command, rig.find("\n  type: base_harmonic") == std::string::npos, options);

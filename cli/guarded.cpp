@@ -36,6 +36,10 @@ Report guarded(const std::function<Report()>& work) {
     return work();
   } catch (const core::InputError& error) {
     return refused(ExitStatus::invalid_input, error.diagnostics());
+  } catch (const scenarios::EarlierFiles& error) {
+    return refused(ExitStatus::usage,
+                   error.what() + std::string(error.may_resume() ? ": --resume goes on with them, " : ": ") +
+                       "--overwrite begins anew, --out DIR keeps them apart");
   } catch (const scenarios::OutputError& error) {
     return refused(ExitStatus::usage, error.what());
   } catch (const std::bad_alloc&) {

@@ -41,6 +41,7 @@ bool is_scenario(const std::string& file) { return file.ends_with(".yaml") || fi
 scenarios::Scenario scenario_of(const IdentifyCommand& command) {
   scenarios::LoadOptions options;
   options.data_anywhere = true;
+  options.words = option_of_setting;
   options.set = {{"analysis.data=" + in_quotes(command.data), "DATA"}};
   if (!command.frequency.empty()) options.set.push_back({"excitation.type=base_harmonic", "--frequency"});
   for (const auto& [path, value, option] :
@@ -70,6 +71,7 @@ scenarios::Scenario scenario_of(const NextCommand& command) {
   scenarios::LoadOptions options;
   const bool from_scenario = is_scenario(command.data);
   options.data_anywhere = !from_scenario;
+  options.words = from_scenario ? key_or_option_of_setting : option_of_setting;
   if (from_scenario) options.instead = "design";
   if (!from_scenario) options.set.push_back({"analysis.data=" + in_quotes(command.data), "DATA"});
   if (!from_scenario && !command.frequency.empty())

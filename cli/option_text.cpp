@@ -11,6 +11,41 @@ std::string in_quotes(const std::string& text) {
   return result + "'";
 }
 
+std::string option_of_setting(core::Setting setting, std::string_view name, std::string_view value) {
+  const std::string key(name);
+  const std::string text(value);
+  const bool needs_quotes = text.find_first_of(" {}[]()$*") != std::string::npos && !text.starts_with('\'');
+  const std::string pair = key + "=" + (needs_quotes ? "'" + text + "'" : text);
+  switch (setting) {
+    case core::Setting::unit:
+      return "--unit " + pair;
+    case core::Setting::column:
+      return "--column " + pair;
+    case core::Setting::scale:
+      return "--scale " + pair;
+    case core::Setting::decimal:
+      return "--decimal " + text;
+    case core::Setting::no_header:
+      return "--no-header";
+    case core::Setting::drive:
+      return "--drive " + key;
+    case core::Setting::loop:
+      return "--loop";
+    case core::Setting::frequency:
+      return "--frequency";
+    case core::Setting::value:
+      return "--set " + pair;
+    case core::Setting::plugin:
+      return "with --plugin LIB";
+  }
+  return {};
+}
+
+std::string key_or_option_of_setting(core::Setting setting, std::string_view name, std::string_view value) {
+  return setting == core::Setting::plugin ? option_of_setting(setting, name, value)
+                                          : core::key_of_setting(setting, name, value);
+}
+
 std::pair<std::string, std::string> split_at_equals(const std::string& text) {
   const std::size_t sign = std::min(text.find('='), text.size());
   return {text.substr(0, sign), sign < text.size() ? text.substr(sign + 1) : std::string()};

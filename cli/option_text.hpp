@@ -2,12 +2,22 @@
 /// Texts of options: NAME=VALUE, and texts that become values of a scenario.
 
 #include <string>
+#include <string_view>
 #include <utility>
+
+#include "core/setting.hpp"
 
 namespace dualdamp::cli {
 
 /// The text as a quoted YAML string. A file name may hold any character.
 [[nodiscard]] std::string in_quotes(const std::string& text);
+
+/// `--unit x=mm`: the words of commands that take data files.
+[[nodiscard]] std::string option_of_setting(core::Setting setting, std::string_view name, std::string_view value);
+
+/// The words of commands that take scenarios: the keys of their files, and what only an option states.
+[[nodiscard]] std::string key_or_option_of_setting(core::Setting setting, std::string_view name,
+                                                   std::string_view value);
 
 /// Name and value of NAME=VALUE; the value is empty where there is no sign.
 [[nodiscard]] std::pair<std::string, std::string> split_at_equals(const std::string& text);

@@ -12,8 +12,8 @@ namespace dualdamp::cli {
 namespace {
 
 bench::ContestLoader loader(const std::string& file, const std::vector<std::string>& set) {
-  scenarios::LoadOptions options{.analyses = bench::analyses()};
-  for (const std::string& assignment : set) options.set.push_back({assignment});
+  scenarios::LoadOptions options{.words = key_or_option_of_setting, .analyses = bench::analyses()};
+  for (const std::string& assignment : set) options.set.push_back({assignment, "--set"});
   return [file, options](const std::vector<scenarios::Override>& values) {
     scenarios::LoadOptions with_values = options;
     with_values.set.insert(with_values.set.end(), values.begin(), values.end());

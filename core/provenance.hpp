@@ -56,7 +56,7 @@ struct Provenance {
   std::string scenario;                  ///< the resolved scenario as JSON on one line
   std::string scenario_sha256;           ///< of `scenario`
   std::vector<std::string> data_sha256;  ///< of the files with measured data
-  std::vector<std::string> overrides;    ///< `--set` texts in order
+  std::vector<std::string> overrides;    ///< PATH=VALUE texts in order
   std::vector<Plugin> plugins;           ///< loaded, whether or not their laws are used
   double tolerance = 0.0;
   std::string started;    ///< UTC

@@ -254,17 +254,17 @@ Scenario scenario_of(const Document& document, Reading reading, const std::strin
     if (field.unit == "m or N") field.unit = amplitude_unit(scenario.model.excitation);
     field.unit = core::unit_for(scenario.model.oscillator.coordinate, field.unit);
   }
-  scenario.question =
-      checked.analysis->ask({section, values.value("system", Json()), values.value("excitation", Json()),
-                             scenario.model, std::move(checked.data), std::move(checked.files),
-                             values.contains("initial"), std::move(checked.compared), checked.drive_start});
+  scenario.question = checked.analysis->ask(
+      {section, values.value("system", Json()), values.value("excitation", Json()), scenario.model,
+       std::move(checked.data), std::move(checked.files), values.contains("initial"), std::move(checked.compared),
+       checked.drive_start, document.words()});
   scenario.expect = expectations(values, document, reading);
   scenario.written_units = std::move(reading.written_units);
   return scenario;
 }
 
 Scenario parse_scenario(const std::string& text, const std::string& name, const LoadOptions& options) {
-  Document document(name, text);
+  Document document(name, text, options.words);
   const std::string left_out = ask_instead(document, options);
   for (const Override& item : options.set) document.set(item.assignment, item.origin);
   refuse_other_schema(document);
@@ -283,14 +283,15 @@ Scenario load_scenario(const std::string& path, const LoadOptions& options) {
   return parse_scenario(read_file(path, max_bytes), path, options);
 }
 
-friction::ParameterValues law_parameters(const std::string& law, const std::vector<std::string>& set) {
+friction::ParameterValues law_parameters(const std::string& law, const std::vector<std::string>& set,
+                                         const std::string& origin) {
   LoadOptions options;
-  for (const std::string& assignment : set) options.set.push_back({"system.friction." + assignment});
+  for (const std::string& assignment : set) options.set.push_back({"system.friction." + assignment, origin});
   const Scenario around =
       parse_scenario("schema: dualdamp/1\nsystem: {mass: 1, stiffness: 1, damping: 0, friction: {law: " + law +
                          "}}\nexcitation: {type: force_harmonic, amplitude: 1, frequency: 1 rad/s}\n"
                          "analysis: {type: simulate, duration: 1}\n",
-                     "command line", options);
+                     origin, options);
   return law_values(friction::find_law(law)->parameters, Json::parse(around.resolved).at("system").at("friction"));
 }
 

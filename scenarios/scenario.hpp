@@ -49,13 +49,13 @@ struct Scenario {
   std::string resolved;     ///< the scenario as JSON on one line: SI, defaults filled in; itself a valid scenario
   std::string file_sha256;  ///< of the bytes of the file
   std::vector<std::string> data_sha256;  ///< of the bytes of its data files
-  std::vector<std::string> overrides;    ///< `--set` texts
+  std::vector<std::string> overrides;    ///< PATH=VALUE texts
 };
 
 /// One `PATH=VALUE`, and the name of its file in messages.
 struct Override {
   std::string assignment;
-  std::string origin = "--set";
+  std::string origin = "set";
 };
 
 struct LoadOptions {
@@ -64,6 +64,7 @@ struct LoadOptions {
   /// from a file.
   bool data_anywhere = false;
   DataTexts data_texts = {};
+  core::SettingWords words = {};                  ///< how messages name what a user may state
   AnalysisList analyses = scenarios::analyses();  ///< what the file may ask for
   /// Runs this analysis on the record of the file's own analysis (`design` on that of `identify`). Keys that only
   /// the other analysis has, and `expect`, are left out with a warning. Empty: the analysis of the file.
@@ -78,7 +79,8 @@ struct LoadOptions {
                                       const LoadOptions& options = {});
 
 /// The parameters of one law, `set` as the user writes them (`kinetic=2 N`), checked as in a file, defaults filled
-/// in. Errors: `core::InputError`, also when there is no such law.
-[[nodiscard]] friction::ParameterValues law_parameters(const std::string& law, const std::vector<std::string>& set);
+/// in. `origin`: as of an Override. Errors: `core::InputError`, also when there is no such law.
+[[nodiscard]] friction::ParameterValues law_parameters(const std::string& law, const std::vector<std::string>& set,
+                                                       const std::string& origin);
 
 }  // namespace dualdamp::scenarios

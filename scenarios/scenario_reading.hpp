@@ -21,7 +21,7 @@ namespace dualdamp::scenarios {
 [[nodiscard]] std::vector<Expectation> expectations(const Json& values, const Document& document,
                                                     const Reading& reading);
 
-/// Throws all problems in the order of the file; those from elsewhere (--set, data) follow.
+/// Throws all problems in the order of the file; those from elsewhere (overrides, data) follow.
 [[noreturn]] void throw_sorted(std::vector<core::Diagnostic> problems, const std::string& file);
 
 }  // namespace dualdamp::scenarios

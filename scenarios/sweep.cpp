@@ -123,7 +123,8 @@ class SweepQuestion final : public Question, public Campaign {
       return answer_of_sweep(lines, columns_, fields_, main_);
     } catch (const Json::exception&) {
       // Lines of an earlier run, which may have been changed.
-      core::Diagnostic problem{.message = "a line does not hold a point of this sweep", .allowed = "--overwrite"};
+      core::Diagnostic problem{.message = "a line does not hold a point of this sweep",
+                               .allowed = "the lines that this sweep wrote; or overwrite them"};
       problem.place.file = options.directory + "/points.jsonl";
       throw core::InputError(std::move(problem));
     }

@@ -148,8 +148,7 @@ void clear(const std::string& directory, scenarios::FoundCases found) {
     if (is_record(entry.path().filename().string())) old.push_back(entry.path());
   if (old.empty()) return;
   if (found != scenarios::FoundCases::overwrite)
-    throw scenarios::OutputError(directory +
-                                 " holds an earlier export: --overwrite removes it, --out DIR keeps them apart");
+    throw scenarios::EarlierFiles(directory + " holds an earlier export", false);
   for (const fs::path& path : old)
     if (!fs::remove(path, error) && error)
       throw scenarios::OutputError("cannot remove " + path.string() + ": " + error.message());

@@ -42,7 +42,7 @@ std::string what_would_help(Assumption assumption, const Recorded& recorded) {
   using enum Assumption;
   switch (assumption) {
     case constants:
-      return "leave out --stiffness or --mass where the record can tell it, or measure them anew";
+      return "leave out the stated stiffness or mass where the record can tell it, or measure them anew";
     case sensors:
       return of_sensors(recorded);
     case stationarity:

@@ -110,8 +110,8 @@ double ColumnFactors::factor_of(KnownColumn known, const std::string& stated, co
   if (unit.empty() && is_angular(known, options_.coordinate) && known.unit != "rad/s") {
     const std::string degrees = "deg" + si_unit.substr(std::string_view("rad").size());
     return refuse(where, "column " + name + ": an angle needs its unit, because degrees and radians differ",
-                  "'" + name + " [" + degrees + "]' or '" + name + " [" + si_unit + "]' in the file, or --unit " +
-                      name + "=" + degrees);
+                  "'" + name + " [" + degrees + "]' or '" + name + " [" + si_unit + "]' in the file, or " +
+                      options_.words(core::Setting::unit, name, degrees));
   }
   if (unit.empty() && !is_angular(known, options_.coordinate)) {
     assume(name, si_unit);
@@ -128,7 +128,8 @@ double ColumnFactors::factor_of(KnownColumn known, const std::string& stated, co
                 "the unit of column " + name +
                     (known.unit == "N" && name == "Y" ? ", the amplitude of the force" : "") + ": " + factor.fault,
                 core::describe_dimension(known.unit, options_.coordinate) + "; in the file as '" + name +
-                    " [unit]', or as --unit " + name + "=UNIT" + other_reading(known, unit, options_.coordinate) +
+                    " [unit]', or as " + options_.words(core::Setting::unit, name, "UNIT") +
+                    other_reading(known, unit, options_.coordinate) +
                     (options_.coordinate_reason.empty() ? "" : "; " + options_.coordinate_reason),
                 factor.suggestion);
 }
@@ -201,7 +202,7 @@ ColumnUnits ColumnFactors::take_units() {
     units.push_back(assumption.name + " in " + assumption.unit);
   }
   warnings_.push_back("no unit is stated for " + listed(names) + ": read " + listed(units) +
-                      "; state another one as --unit " + names.back() + "=UNIT");
+                      "; state another one as " + options_.words(core::Setting::unit, names.back(), "UNIT"));
   return {std::move(names), std::move(stated_)};
 }
 

@@ -19,6 +19,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/setting.hpp"
 #include "identify/record.hpp"
 
 namespace dualdamp::identify {
@@ -42,6 +43,7 @@ struct ReadOptions {
   std::vector<std::string> only = {};
   /// Name of the file in messages; empty: its path.
   std::string name = {};
+  core::SettingWords words = {};  ///< how messages name these options
 };
 
 /// Units of the columns that were read.

@@ -35,18 +35,26 @@ std::vector<Pair> altered(std::vector<Pair> pairs, double factor, double turn = 
   return pairs;
 }
 
-std::vector<Cause> wrong_units(const std::vector<Pair>& pairs) {
-  return {{"the phases may be degrees", "their unit: --unit phase=deg", altered(pairs, degree)},
-          {"the phases may be radians", "their unit: --unit phase=rad", altered(pairs, 1.0 / degree)}};
+std::string their_unit(const core::SettingWords& words, std::string_view unit) {
+  return "their unit: " + words(core::Setting::unit, "phase", unit);
+}
+
+std::vector<Cause> wrong_units(const std::vector<Pair>& pairs, const core::SettingWords& words) {
+  return {{"the phases may be degrees", their_unit(words, "deg"), altered(pairs, degree)},
+          {"the phases may be radians", their_unit(words, "rad"), altered(pairs, 1.0 / degree)}};
 }
 
 /// A phase that was computed from histories is not a column, so its sign is not among the causes.
-std::vector<Cause> wrong_signs(const std::vector<Pair>& pairs, bool from_histories) {
+std::vector<Cause> wrong_signs(const std::vector<Pair>& pairs, bool from_histories,
+                               const core::SettingWords& words) {
+  using enum core::Setting;
   std::vector<Cause> list;
-  if (!from_histories) list.push_back({"the phase has the wrong sign", "--scale phase=-1", altered(pairs, -1.0)});
-  list.push_back({"x or Y (x or y) has the wrong sign", "--scale x=-1", altered(pairs, 1.0, std::numbers::pi)});
+  if (!from_histories)
+    list.push_back({"the phase has the wrong sign", words(scale, "phase", "-1"), altered(pairs, -1.0)});
   list.push_back(
-      {"x and Y (x and y) are swapped", "--column x=..., --column Y=...", altered(pairs, -1.0, 0.0, true)});
+      {"x or Y (x or y) has the wrong sign", words(scale, "x", "-1"), altered(pairs, 1.0, std::numbers::pi)});
+  list.push_back({"x and Y (x and y) are swapped", words(column, "x", "...") + ", " + words(column, "Y", "..."),
+                  altered(pairs, -1.0, 0.0, true)});
   return list;
 }
 
@@ -83,14 +91,16 @@ struct Causes {
 };
 
 /// The base would take energy out: with the causes that fit; without one, with all.
-PhaseFault work_fault(const Balance& balance, const Causes& causes) {
+PhaseFault work_fault(const Balance& balance, const Causes& causes, const core::SettingWords& words) {
   const bool none = causes.texts.empty();
   return {"by the phases, x leads the base in " + std::to_string(balance.negative_work) + " of " +
               std::to_string(balance.phases) + " pairs, so the base would take energy out of the motion: " +
               (none ? "x and Y (x and y) are swapped, or one of them has the wrong sign"
                     : core::joined(causes.texts, ", or ")),
           "phase is the lag of x behind y, from 0 to 180 deg; " +
-              (none ? "a sign is turned by --scale x=-1, or phase=-1" : core::joined(causes.remedies, ", or "))};
+              (none ? "a sign is turned by " + words(core::Setting::scale, "x", "-1") + ", or " +
+                          words(core::Setting::scale, "phase", "-1")
+                    : core::joined(causes.remedies, ", or "))};
 }
 
 }  // namespace
@@ -115,7 +125,7 @@ Balance balance_of(const std::vector<Pair>& pairs, const KnownConstants& constan
 }
 
 std::optional<PhaseFault> phase_fault(const std::vector<Pair>& pairs, const KnownConstants& constants,
-                                      bool from_histories) {
+                                      bool from_histories, const core::SettingWords& words) {
   const Balance balance = balance_of(pairs, constants);
   if (balance.phases == 0) return std::nullopt;
   double largest = 0.0;
@@ -124,15 +134,14 @@ std::optional<PhaseFault> phase_fault(const std::vector<Pair>& pairs, const Know
   const std::string range = "the phases, up to " + brief(largest) + " rad";
   constexpr double most = 4.0 * std::numbers::pi;
   if (largest > most && !from_histories)
-    return PhaseFault{range + ", are no lags in radians; the phases may be degrees",
-                      "their unit: --unit phase=deg"};
+    return PhaseFault{range + ", are no lags in radians; the phases may be degrees", their_unit(words, "deg")};
   constexpr double bad = 0.4;
   if (!balance.takes_work() && !(upper_median(balance.cosines) > bad)) return std::nullopt;
   Causes causes;
-  if (!from_histories) causes.add_fitting(wrong_units(pairs), constants);
+  if (!from_histories) causes.add_fitting(wrong_units(pairs, words), constants);
   if (balance.takes_work()) {
-    causes.add_fitting(wrong_signs(pairs, from_histories), constants);
-    return work_fault(balance, causes);
+    causes.add_fitting(wrong_signs(pairs, from_histories, words), constants);
+    return work_fault(balance, causes, words);
   }
   if (causes.texts.empty()) return std::nullopt;
   if (fits_with_other_mass(pairs, constants))

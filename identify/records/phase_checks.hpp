@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "core/setting.hpp"
 #include "identify/record.hpp"
 
 namespace dualdamp::identify {
@@ -38,6 +39,6 @@ struct PhaseFault {
 /// What is wrong with the phases; nothing where they fit, or where only another mass or stiffness would make them
 /// fit: the ledger tests for it. `from_histories`: they were computed, in radians.
 [[nodiscard]] std::optional<PhaseFault> phase_fault(const std::vector<Pair>& pairs, const KnownConstants& constants,
-                                                    bool from_histories);
+                                                    bool from_histories, const core::SettingWords& words);
 
 }  // namespace dualdamp::identify

@@ -83,8 +83,8 @@ bool is_odd(double zeta) {
 class Check {
  public:
   Check(const Record& record, const KnownConstants& constants, const std::vector<std::string>& assumed,
-        const std::string& file)
-      : record_(record), constants_(constants), assumed_(assumed), file_(file) {}
+        const std::string& file, const core::SettingWords& words)
+      : record_(record), constants_(constants), assumed_(assumed), file_(file), words_(words) {}
 
   std::vector<core::Diagnostic> run() {
     for (const History& history : record_.histories) {
@@ -99,6 +99,17 @@ class Check {
  private:
   void refuse(std::string message, std::string allowed) {
     faults_.push_back({{file_, 0, 0, {}}, std::move(message), std::move(allowed), {}, {}});
+  }
+
+  [[nodiscard]] std::string in_unit(std::string_view column, std::string_view unit) const {
+    return words_(core::Setting::unit, column, unit);
+  }
+  [[nodiscard]] std::string in_units(std::string_view column, std::string_view other) const {
+    return in_unit(column, "UNIT") + ", " + in_unit(other, "UNIT");
+  }
+  [[nodiscard]] std::string in_millimetres() const { return in_unit("x", "mm") + ", " + in_unit("Y", "mm"); }
+  [[nodiscard]] std::string turned(std::string_view column) const {
+    return words_(core::Setting::scale, column, "-1");
   }
 
   [[nodiscard]] bool is_assumed(const char* name) const {
@@ -126,10 +137,10 @@ class Check {
     refuse(
         "by its times the motion repeats at " + in_hertz(measured) + ", and " + what + " is " + in_hertz(expected),
         unit == units.end()
-            ? "times in seconds, not numbers of samples (--scale t=0.002 converts these to times); mass and stiffness "
-              "in their units"
-            : std::string("times in seconds, or their unit; these may be in ") + unit->second +
-                  ": --unit t=" + unit->second);
+            ? "times in seconds, not numbers of samples (" + words_(core::Setting::scale, "t", "0.002") +
+                  " converts these to times); mass and stiffness in their units"
+            : std::string("times in seconds, or their unit; these may be in ") + unit->second + ": " +
+                  in_unit("t", unit->second));
     return true;
   }
 
@@ -171,7 +182,7 @@ class Check {
                " it would reach " + shown(amplitude) + " " + unit + " at " +
                shown(omega / (2.0 * std::numbers::pi)) + " Hz, " + shown(speed) + " " + unit + "/s and " +
                shown(omega * speed) + " " + unit + "/s^2",
-           "the unit in the file, '" + std::string(name) + " [" + usual + "]', or --unit " + name + "=" + usual);
+           "the unit in the file, '" + std::string(name) + " [" + usual + "]', or " + in_unit(name, usual));
   }
 
   /// The amplitude of a signal at one frequency.
@@ -199,8 +210,7 @@ class Check {
         if (!is_gross(ratio)) continue;
         refuse(std::string("at ") + shown(omega / (2.0 * std::numbers::pi)) + " Hz column " + motions[k].first +
                    " is " + times_off(ratio) + " for column " + motions[i].first,
-               std::string("both in their units: --unit ") + motions[k].first + "=UNIT, --unit " +
-                   motions[i].first + "=UNIT");
+               "both in their units: " + in_units(motions[k].first, motions[i].first));
         return;
       }
     check_force(amplitude(history.force, history, omega), x, omega);
@@ -227,13 +237,11 @@ class Check {
       const std::string columns = std::string("column ") + of_derivative + " is ";
       if (is_gross(found.ratio))
         return refuse(columns + times_off(found.ratio) + " for the changes of column " + name,
-                      std::string("both in their units, and the times too: --unit ") + of_derivative +
-                          "=UNIT, --unit " + name + "=UNIT");
+                      "both in their units, and the times too: " + in_units(of_derivative, name));
       if (found.correlation < 0.0)
         return refuse(columns + "the " + (order == 1 ? "first" : "second") + " derivative of column " + name +
                           " with the wrong sign",
-                      std::string("x, v and a positive in one direction: --scale ") + of_derivative + "=-1, or " +
-                          name + "=-1");
+                      "x, v and a positive in one direction: " + turned(of_derivative) + ", or " + turned(name));
     }
   }
 
@@ -256,7 +264,7 @@ class Check {
     if (!(work + 2.0 * energy < -clearly * moved)) return;
     refuse("the force takes " + shown(-work) + unit("J") +
                " out of the motion x, more than the motion has: one of them has the wrong sign",
-           "force and x positive in one direction: --scale force=-1");
+           "force and x positive in one direction: " + turned("force"));
   }
 
   [[nodiscard]] std::string unit(const char* name) const { return " " + constants_.unit(name); }
@@ -269,7 +277,8 @@ class Check {
     if (needed > unit_error * force && force > 0.0)
       refuse("column force, " + shown(force) + unit("N") + ", is " + times_off(force / needed) +
                  " for the motion x, which needs " + shown(needed) + unit("N"),
-             "both in their units, and the mass and the stiffness stated: --unit force=kN, --unit x=mm");
+             "both in their units, and the mass and the stiffness stated: " + in_unit("force", "kN") + ", " +
+                 in_unit("x", "mm"));
   }
 
   /// Reports that the motion needs more force than the drive gives. Near resonance, a mass needs little force, so a
@@ -294,15 +303,16 @@ class Check {
              swapped + "; mass, stiffness, frequency and times in their units");
     else
       refuse("column x is " + times_off(upper_median(balance.excess)) + " for Y" + where,
-             "both in their units, and mass, stiffness and frequency too: --unit x=mm, --unit Y=mm");
+             "both in their units, and mass, stiffness and frequency too: " + in_millimetres());
   }
 
   void check_pairs(const std::vector<Pair>& pairs) {
     check_readings(pairs);
     if (!faults_.empty()) return;
     const Balance balance = balance_of(pairs, constants_);
-    const std::string swapped =
-        "x is the amplitude of the mass, Y that of the base; --column x=..., --column Y=...";
+    const std::string swapped = "x is the amplitude of the mass, Y that of the base; " +
+                                words_(core::Setting::column, "x", "...") + ", " +
+                                words_(core::Setting::column, "Y", "...");
     if (2 * balance.too_much > balance.pairs && balance.pairs > 0) return refuse_balance(pairs, balance, swapped);
     check_phases(pairs);
     if (faults_.empty()) check_line(pairs, swapped);
@@ -331,11 +341,11 @@ class Check {
     for (const auto& [name, ratios] : {std::pair{"fundamental", &fundamentals}, {"mean_square_speed", &speeds}})
       if (!ratios->empty() && is_gross(upper_median(*ratios)))
         refuse("column " + std::string(name) + " is " + times_off(upper_median(*ratios)) + " for column x",
-               std::string("both in their units: --unit x=UNIT, --unit ") + name + "=UNIT");
+               "both in their units: " + in_units("x", name));
   }
 
   void check_phases(const std::vector<Pair>& pairs) {
-    if (const auto fault = phase_fault(pairs, constants_, !record_.histories.empty()))
+    if (const auto fault = phase_fault(pairs, constants_, !record_.histories.empty(), words_))
       refuse(fault->message, fault->allowed);
   }
 
@@ -352,21 +362,23 @@ class Check {
     if (faults_.empty() && who != nullptr && is_odd(zeta))
       refuse("no unit is stated for " + std::string(who) + ", and in SI x and Y give a damping ratio of " +
                  shown(zeta) + ": one of them is wrong by a factor of about 1000",
-             std::string("the units of both: --unit x=mm, --unit Y=mm"));
+             "the units of both: " + in_millimetres());
   }
 
   const Record& record_;
   const KnownConstants& constants_;
   const std::vector<std::string>& assumed_;
   const std::string& file_;
+  const core::SettingWords& words_;
   std::vector<core::Diagnostic> faults_;
 };
 
 }  // namespace
 
 std::vector<core::Diagnostic> gross_faults(const Record& record, const KnownConstants& constants,
-                                           const std::vector<std::string>& assumed, const std::string& file) {
-  return Check(record, constants, assumed, file).run();
+                                           const std::vector<std::string>& assumed, const std::string& file,
+                                           const core::SettingWords& words) {
+  return Check(record, constants, assumed, file, words).run();
 }
 
 std::vector<std::string> odd_readings(const Record& record, const KnownConstants& constants) {

@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "core/diagnostics.hpp"
+#include "core/setting.hpp"
 #include "identify/record.hpp"
 
 namespace dualdamp::identify {
@@ -26,7 +27,8 @@ namespace dualdamp::identify {
 /// `record`: after `complete` (identify/records/derived_records.hpp). `assumed`: columns without a stated unit.
 [[nodiscard]] std::vector<core::Diagnostic> gross_faults(const Record& record, const KnownConstants& constants,
                                                          const std::vector<std::string>& assumed,
-                                                         const std::string& file);
+                                                         const std::string& file,
+                                                         const core::SettingWords& words = {});
 
 /// Warnings about unusual, but possible readings: pairs at resonance with a damping ratio below 2e-4 or above 20,
 /// angles beyond two turns.

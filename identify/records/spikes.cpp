@@ -87,12 +87,11 @@ std::vector<std::string> treat_spikes(std::vector<History>& histories, bool repl
         for (const Spike& spike : spikes) signal[spike.sample] = spike.smooth;
       constexpr int digits = 4;
       const double first = history.start + static_cast<double>(spikes.front().sample) / history.sample_rate;
-      sentences.push_back(
-          std::string(name) + (history.sweep.empty() ? "" : " of " + history.sweep) + " holds " +
-          std::to_string(spikes.size()) + (spikes.size() == 1 ? " spike" : " spikes") +
-          ", the first at t = " + core::format_number(first, digits) + " s, " +
-          core::format_number(spikes.front().deviations, 2) + " standard deviations off: " +
-          (replace ? "replaced by values from the neighbours" : "'robust' (--robust) replaces them"));
+      sentences.push_back(std::string(name) + (history.sweep.empty() ? "" : " of " + history.sweep) + " holds " +
+                          std::to_string(spikes.size()) + (spikes.size() == 1 ? " spike" : " spikes") +
+                          ", the first at t = " + core::format_number(first, digits) + " s, " +
+                          core::format_number(spikes.front().deviations, 2) + " standard deviations off: " +
+                          (replace ? "replaced by values from the neighbours" : "'robust' replaces them"));
     }
   }
   return sentences;

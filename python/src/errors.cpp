@@ -54,6 +54,10 @@ void add_errors(py::module_& /*module*/) {
       std::rethrow_exception(std::move(error));
     } catch (const core::InputError& fault) {
       set_input_error(fault);
+    } catch (const scenarios::EarlierFiles& fault) {
+      const std::string more = fault.may_resume() ? ": resume=True goes on with them, " : ": ";
+      set_error("OutputError",
+                text(fault.what() + more + "overwrite=True begins anew, another out keeps them apart"));
     } catch (const scenarios::OutputError& fault) {
       set_error("OutputError", text(fault.what()));
     } catch (const friction::LawFault& fault) {

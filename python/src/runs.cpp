@@ -45,8 +45,14 @@ struct Settings {
   std::vector<std::pair<std::string, std::string>> answers = {};  ///< name and file
 };
 
+/// The keys of a scenario, and the function that loads a plugin.
+std::string words_of_python(core::Setting setting, std::string_view name, std::string_view value) {
+  return setting == core::Setting::plugin ? "with load_plugin(LIB)" : core::key_of_setting(setting, name, value);
+}
+
 scenarios::Scenario load(const Source& source, const std::vector<scenarios::Override>& values = {}) {
-  scenarios::LoadOptions options{.data_anywhere = source.data_anywhere, .analyses = bench::analyses()};
+  scenarios::LoadOptions options{
+      .data_anywhere = source.data_anywhere, .words = words_of_python, .analyses = bench::analyses()};
   for (const auto& [name, text] : source.data) options.data_texts.emplace(name, text);
   for (const std::string& assignment : source.set) options.set.push_back({assignment, "set"});
   options.set.insert(options.set.end(), values.begin(), values.end());

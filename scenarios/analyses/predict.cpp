@@ -110,7 +110,7 @@ void check_predict(CheckedFile& file) {
     if (!file.has("system", key)) lacking += (lacking.empty() ? "" : ", ") + std::string(key);
   if (!lacking.empty())
     file.complain("system", "the prediction of a motion needs the whole rig, and 'system' lacks " + lacking,
-                  "mass, stiffness, damping, on the command line --set system.mass='2 kg'");
+                  "mass, stiffness, damping, such as " + file.words()(core::Setting::value, "system.mass", "2 kg"));
 }
 
 /// "base_harmonic, 0.004 m, 3.7 Hz"
@@ -157,7 +157,8 @@ std::vector<double> errors_of(const identify::Fit& fit, std::size_t experiments)
 
 /// A record that the rig explains without the drive that was assumed.
 std::string undriven_record(const identify::Rig& rig, const identify::Prediction& prediction,
-                            const identify::Experiments& data, const std::string& drive) {
+                            const identify::Experiments& data, const std::string& drive,
+                            const core::SettingWords& words) {
   constexpr double part = 0.5;   // of the error under the drive
   constexpr double good = 0.25;  // of the motion: a rig at rest misses by all of it
   identify::Rig undriven = rig;
@@ -175,12 +176,14 @@ std::string undriven_record(const identify::Rig& rig, const identify::Prediction
       return data[e]->label + ": nothing states the drive of this record. Under the drive of the fit (" + drive +
              ") the prediction misses by " + core::format_number(100.0 * with[e], 3) +
              " %, and without a drive by " + core::format_number(100.0 * without[e], 3) +
-             " %: excitation: {type: none}, on the command line --set excitation='{type: none}', or state its drive (beside other records 'drive: none')";
+             " %: " + words(core::Setting::value, "excitation", "{type: none}") +
+             ", or state its drive (beside other records 'drive: none')";
   return {};
 }
 
 /// A record that goes on where the rig without a drive comes to rest.
-std::string driven_record(const identify::Prediction& prediction, const identify::Experiments& data) {
+std::string driven_record(const identify::Prediction& prediction, const identify::Experiments& data,
+                          const core::SettingWords& words) {
   constexpr double part = 0.5;
   const auto size_of = [](const Eigen::VectorXd& values) {
     return (values.array() - values.mean()).matrix().norm();
@@ -196,8 +199,9 @@ std::string driven_record(const identify::Prediction& prediction, const identify
     if (last > part * size_of(measured.head(quarter)) && predicted < part * last)
       return experiment.label +
              ": nothing states the drive of this record, nor did the fit for such a record; the record goes on where the rig "
-             "without a drive comes to rest: a drive seems to be missing. State it by --frequency and --amplitude or "
-             "--set excitation='{...}', or '{type: none}' if there was none";
+             "without a drive comes to rest: a drive seems to be missing. State it by " +
+             words(core::Setting::frequency) + " or " + words(core::Setting::value, "excitation", "{...}") +
+             ", or '{type: none}' if there was none";
   }
   return {};
 }
@@ -223,7 +227,8 @@ std::unique_ptr<const Question> ask_predict(CheckedValues&& values) {
       rows_of(values.analysis, "covariance", parameters.size()),
       rows_of(values.analysis, "undetermined", parameters.size()).transpose()};
   return std::make_unique<PredictQuestion>(std::move(rig), std::move(parameters), std::move(uncertainty),
-                                           std::move(data), std::move(warnings), assumed_drive(values, items));
+                                           std::move(data), std::move(warnings), assumed_drive(values, items),
+                                           values.words);
 }
 
 }  // namespace
@@ -233,8 +238,8 @@ Answer PredictQuestion::run(const RunContext& /*context*/) const {
   if (!prediction.outcome.ok()) return failed(prediction.outcome.reason);
   if (!assumed_drive_.empty() && !std::isnan(prediction.error)) {
     const bool is_driven = rig_.known.excitation.type != sim::ExcitationType::none;
-    const std::string fault =
-        is_driven ? undriven_record(rig_, prediction, data_, assumed_drive_) : driven_record(prediction, data_);
+    const std::string fault = is_driven ? undriven_record(rig_, prediction, data_, assumed_drive_, words_)
+                                        : driven_record(prediction, data_, words_);
     if (!fault.empty()) return failed(fault);
     if (is_driven || prediction.is_wrong)
       prediction.text +=

@@ -14,13 +14,14 @@ class PredictQuestion final : public Question {
  public:
   PredictQuestion(identify::Rig rig, std::vector<identify::FitParameter> parameters,
                   identify::SharedUncertainty uncertainty, identify::Experiments data,
-                  std::vector<std::string> warnings, std::string assumed_drive)
+                  std::vector<std::string> warnings, std::string assumed_drive, core::SettingWords words)
       : rig_(std::move(rig)),
         parameters_(std::move(parameters)),
         uncertainty_(std::move(uncertainty)),
         data_(std::move(data)),
         warnings_(std::move(warnings)),
-        assumed_drive_(std::move(assumed_drive)) {}
+        assumed_drive_(std::move(assumed_drive)),
+        words_(words) {}
 
   [[nodiscard]] Answer run(const RunContext& context) const override;
 
@@ -31,6 +32,7 @@ class PredictQuestion final : public Question {
   identify::Experiments data_;
   std::vector<std::string> warnings_;
   std::string assumed_drive_;  ///< that of the fit, if nothing states the drive of the records; else empty
+  core::SettingWords words_;   ///< how messages name what a user may state
 };
 
 [[nodiscard]] const Analysis& predict_analysis();

@@ -42,6 +42,7 @@ struct DataFile {
   std::size_t item = 0;  ///< of the list there
   identify::MeasuredRecord data;
   std::vector<std::optional<RecordDrive>> drives = {};  ///< of each history; empty: none has its own
+  core::SettingWords words = {};                        ///< how messages name what may be stated beside it
 };
 
 class CheckedFile {
@@ -67,6 +68,9 @@ class CheckedFile {
   std::vector<std::string> warnings;
 
   [[nodiscard]] const DataPlace& data_place() const { return data_place_; }
+
+  /// How messages name what a user may state.
+  [[nodiscard]] const core::SettingWords& words() const { return document_.words(); }
 
   /// Values read so far; checks complete them.
   [[nodiscard]] Json& values() { return reading_.values; }

@@ -376,7 +376,8 @@ class Reader {
           entry->value.place,
           "'" + path + "." + choice.key + "' cannot be " +
               (entry->value.kind == Node::Kind::scalar ? "'" + shown(entry->value) + "'" : shown(entry->value)),
-          core::joined(choice.names()) + (choice.key == "law" ? "; or the law of a plugin, with --plugin LIB" : ""),
+          core::joined(choice.names()) +
+              (choice.key == "law" ? "; or the law of a plugin, " + document_.words()(core::Setting::plugin) : ""),
           shown(entry->value), nearest(entry->value.text, choice.names()));
       return nullptr;
     }

@@ -4,7 +4,7 @@
 ///     sweep: {system.friction.kinetic: {from: 1 N, to: 5 N, count: 9}, excitation.frequency: [5 Hz, 6 Hz]}
 ///
 /// Values stay text, as the user wrote them; between the ends of a range they are written in the unit of the ends.
-/// So the strict reader treats each value like that of `--set PATH=VALUE`, with its place in the file.
+/// So the strict reader treats each value like that of an override PATH=VALUE, with its place in the file.
 
 #include <optional>
 #include <string>
@@ -16,7 +16,7 @@
 namespace dualdamp::scenarios {
 
 struct SweptKey {
-  std::string path;          ///< as of `--set`
+  std::string path;          ///< as of an override
   Place place;               ///< of the path
   std::string unit;          ///< of all its values; empty: bare numbers
   std::vector<Node> values;  ///< scalars

@@ -36,7 +36,7 @@ std::vector<std::size_t> starts_of_lines(std::string_view text) {
   return starts;
 }
 
-/// One step of a `--set` path: a key or a list index.
+/// One step of the path of an override: a key or a list index.
 struct Step {
   std::string key;
   std::optional<std::size_t> index;
@@ -102,7 +102,7 @@ int last_source(const Node& node) {
 
 }  // namespace
 
-Document::Document(std::string name, const std::string& text) {
+Document::Document(std::string name, const std::string& text, core::SettingWords words) : words_(words) {
   sources_.push_back({std::move(name), normalised(text), {}});
   sources_.front().line_starts = starts_of_lines(sources_.front().text);
   const std::string& content = sources_.front().text;

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "core/diagnostics.hpp"
+#include "core/setting.hpp"
 
 namespace dualdamp::scenarios {
 
@@ -60,11 +61,11 @@ struct Entry {
 /// The map {key: value}, at the place of the value.
 [[nodiscard]] Node map_of(const std::string& key, const Node& value);
 
-/// The file and the `--set` texts applied to it.
+/// The file and the overrides applied to it.
 class Document {
  public:
-  /// `name` is the name of the file in messages.
-  Document(std::string name, const std::string& text);
+  /// `name` is the name of the file in messages, `words` those for what a user may state.
+  Document(std::string name, const std::string& text, core::SettingWords words = {});
 
   /// Applies `PATH=VALUE`, PATH like `system.friction[0].kinetic`, VALUE in YAML. Keys on the way that do not exist
   /// are created; list items must exist. `origin` is the name of the file in messages. A value that an
@@ -84,6 +85,7 @@ class Document {
   [[nodiscard]] Document part(Node root) const;
 
   [[nodiscard]] const Node& root() const { return root_; }
+  [[nodiscard]] const core::SettingWords& words() const { return words_; }
   [[nodiscard]] const std::vector<core::Diagnostic>& problems() const { return problems_; }
   [[nodiscard]] core::SourcePlace locate(Place place) const;
   /// The text of the file, line ends normalised.
@@ -108,6 +110,7 @@ class Document {
   Node root_;
   std::vector<core::Diagnostic> problems_;
   std::vector<std::string> chosen_;  ///< paths that options and sweeps name
+  core::SettingWords words_;
 };
 
 }  // namespace dualdamp::scenarios

@@ -1,7 +1,7 @@
 #include "scenarios/measurements/drives.hpp"
 
 #include <algorithm>
-#include <array>
+#include <iterator>
 #include <numbers>
 #include <numeric>
 #include <string>
@@ -32,16 +32,13 @@ sim::Interpolation interpolation_of(const Json& section) {
   return word == "cubic" ? sim::Interpolation::cubic : sim::Interpolation::linear;
 }
 
-/// Without the advice of the readers of data files, which is for the command line.
-std::string in_words_of_scenario(std::string text, std::string_view column) {
-  const std::array<std::pair<std::string, std::string_view>, 4> words = {
-      {{"as --unit " + std::string(column) + "=UNIT", "as 'unit' beside 'column'"},
-       {"as --unit t=UNIT", "as 'time_unit'"},
-       {"--decimal ,", "decimal: ','"},
-       {"--no-header", "no_header: true"}}};
-  for (const auto& [option, key] : words)
-    if (const std::size_t at = text.find(option); at != std::string::npos) text.replace(at, option.size(), key);
-  return text;
+/// The keys beside 'file' of a signal, which has one column and its times.
+std::string key_of_signal(core::Setting setting, std::string_view name, std::string_view value) {
+  const bool is_time = name == "t";
+  if (setting == core::Setting::unit) return is_time ? "'time_unit'" : "'unit' beside 'column'";
+  if (setting == core::Setting::column) return is_time ? "'time_column'" : "'column'";
+  if (setting == core::Setting::scale && !is_time) return "'scale'";
+  return core::key_of_setting(setting, name, value);
 }
 
 /// An unknown unit is reported at its place.
@@ -158,6 +155,7 @@ std::optional<identify::MeasuredSignal> read_signal(CheckedFile& file, const std
   identify::ReadOptions options;
   options.name = section.at("file").get<std::string>();
   options.coordinate = file.coordinate();
+  options.words = key_of_signal;
   const auto take = [&](const char* key, std::map<std::string, std::string>& map, const std::string& of) {
     if (section.contains(key)) map.emplace(of, section.at(key).get<std::string>());
   };
@@ -175,17 +173,11 @@ std::optional<identify::MeasuredSignal> read_signal(CheckedFile& file, const std
     identify::MeasuredSignal signal = text == file.data_place().texts.end()
                                           ? identify::read_signal(*target, column, options)
                                           : identify::parse_signal(text->second, column, options);
-    for (const std::string& warning : signal.warnings)
-      file.warnings.push_back(in_words_of_scenario(warning, column));
+    std::ranges::copy(signal.warnings, std::back_inserter(file.warnings));
     if (std::ranges::find(file.sha256, signal.sha256) == file.sha256.end()) file.sha256.push_back(signal.sha256);
     return signal;
   } catch (const core::InputError& error) {
-    std::vector<core::Diagnostic> problems;
-    for (core::Diagnostic problem : error.diagnostics()) {
-      problem.allowed = in_words_of_scenario(std::move(problem.allowed), column);
-      problems.push_back(std::move(problem));
-    }
-    file.take_over(problems);
+    file.take_over(error.diagnostics());
     return std::nullopt;
   }
 }

@@ -20,9 +20,11 @@ namespace dualdamp::scenarios {
 namespace {
 
 /// What the scenario states about columns, for a file that does not state it.
-identify::ReadOptions read_options(const Json& section, core::Coordinate coordinate, const std::string& name) {
+identify::ReadOptions read_options(const Json& section, core::Coordinate coordinate, const std::string& name,
+                                   const core::SettingWords& words) {
   identify::ReadOptions options;
   options.name = name;
+  options.words = words;
   options.coordinate = coordinate;
   for (const auto& [key, map] :
        {std::pair{"units", &options.units}, {"columns", &options.columns}, {"scale", &options.scales}})
@@ -43,7 +45,7 @@ identify::MeasuredRecord read(const DataTexts& texts, const std::string& path,
 /// If the scenario does not determine the coordinate, the units of the columns do.
 identify::MeasuredRecord read_by_units(CheckedFile& file, const std::string& path, const std::string& name,
                                        const Json& section, bool by_force = false) {
-  identify::ReadOptions options = read_options(section, file.coordinate(), name);
+  identify::ReadOptions options = read_options(section, file.coordinate(), name, file.words());
   options.force_levels = by_force;
   if (file.coordinate_source()) options.coordinate_reason = file.coordinate_source()->reason();
   try {
@@ -76,7 +78,7 @@ void refuse_gross_faults(CheckedFile& file, identify::MeasuredRecord& data, doub
   const identify::KnownConstants constants{file.number_at("system", "mass").value_or(identify::unknown),
                                            file.number_at("system", "stiffness").value_or(identify::unknown),
                                            frequency, file.coordinate()};
-  file.take_over(identify::gross_faults(data.record, constants, data.units.assumed, name));
+  file.take_over(identify::gross_faults(data.record, constants, data.units.assumed, name, file.words()));
   for (std::string& warning : identify::odd_readings(data.record, constants))
     data.warnings.push_back(std::move(warning));
 }
@@ -240,7 +242,7 @@ void read_data_list(CheckedFile& file, const std::string& name) {
       // The checks of pairs compare x with the motion of the base.
       const bool is_checked = !list[i].value("loop", false) && !(by_force && data.record.pairs);
       if (is_checked) refuse_gross_faults(file, data, stated_frequency(file), data_name);
-      file.files.push_back({data_name, name, i, std::move(data)});
+      file.files.push_back({data_name, name, i, std::move(data), {}, file.words()});
     } catch (const core::InputError& error) {
       file.take_over(error.diagnostics());
     }
@@ -254,9 +256,9 @@ void check_frequency(CheckedFile& file, const identify::Record& record) {
   std::string ignored;
   if (file.data)
     for (const std::string& warning : file.data->ignored) ignored += "; " + warning;
-  file.complain("analysis.data", "x-Y pairs need the forcing frequency at which they were measured" + ignored,
-                "excitation: {type: base_harmonic, frequency: ...}; on the command line --frequency, or --column "
-                "omega=NAME");
+  file.complain(
+      "analysis.data", "x-Y pairs need the forcing frequency at which they were measured" + ignored,
+      file.words()(core::Setting::frequency) + ", or " + file.words()(core::Setting::column, "omega", "NAME"));
 }
 
 void read_data(CheckedFile& file) {

@@ -25,7 +25,6 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::string_view number_key = "{\"case\":";
-constexpr const char* way_out = "--overwrite begins anew, --out DIR keeps them apart";
 
 /// The number of the case in a line; nothing for a line without a case.
 std::optional<std::size_t> number_of(std::string_view line) {
@@ -135,7 +134,7 @@ std::uintmax_t CaseFile::scan(int part, Lengths& lengths, Origin origin) const {
   if (!lines.next(line)) return 0;
   if (line != head_)
     refuse(path, "the cases are those of another campaign, or of another version of the program",
-           "the same scenario, options and program; or another --out", core::shortened(line, 100));
+           "the same scenario, options and program; or another directory", core::shortened(line, 100));
   std::uintmax_t end = lines.end();
   while (lines.next(line)) {
     const std::optional<std::size_t> number = number_of(line);
@@ -167,8 +166,9 @@ void CaseFile::prepare(FoundCases found) {
   }
   if (found == FoundCases::refuse && cases > 0) {
     if (is_this && cases >= finished_.size()) return;
-    throw OutputError(directory_ + " holds " + std::to_string(cases) + " finished cases of " +
-                      (is_this ? "this campaign: --resume goes on with them, " : "another campaign: ") + way_out);
+    throw EarlierFiles(directory_ + " holds " + std::to_string(cases) + " finished cases of " +
+                           (is_this ? "this campaign" : "another campaign"),
+                       is_this);
   }
   for (const int part : parts())
     if (part != 0) fs::remove(part_path(part));

@@ -39,4 +39,16 @@ class OutputError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// A directory holds files of an earlier run, which this one would replace. Whoever asked for the run says how to
+/// go on: with these files if `may_resume`, anew, or in another directory.
+class EarlierFiles : public OutputError {
+ public:
+  EarlierFiles(const std::string& message, bool may_resume) : OutputError(message), may_resume_(may_resume) {}
+
+  [[nodiscard]] bool may_resume() const { return may_resume_; }
+
+ private:
+  bool may_resume_;
+};
+
 }  // namespace dualdamp::scenarios

@@ -30,11 +30,10 @@ void add_outliers(const std::vector<identify::Outlier>& outliers, bool bounded, 
   for (const identify::Outlier& outlier : outliers) {
     answer.result["outliers"].push_back(
         {{"reading", outlier.reading}, {"deviations", outlier.deviations}, {"weight", outlier.weight}});
-    answer.warnings.push_back(outlier.reading + " lies " + rounded(std::abs(outlier.deviations)) +
-                              " standard deviations " + (outlier.deviations > 0.0 ? "above" : "below") +
-                              " what the others say" +
-                              (bounded ? "; it counts " + rounded(outlier.weight) + " of a reading"
-                                       : "; 'robust' (--robust) bounds its influence"));
+    answer.warnings.push_back(
+        outlier.reading + " lies " + rounded(std::abs(outlier.deviations)) + " standard deviations " +
+        (outlier.deviations > 0.0 ? "above" : "below") + " what the others say" +
+        (bounded ? "; it counts " + rounded(outlier.weight) + " of a reading" : "; 'robust' bounds its influence"));
   }
 }
 

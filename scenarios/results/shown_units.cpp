@@ -11,7 +11,7 @@ namespace dualdamp::scenarios {
 namespace {
 
 /// Prefix of the number of a requested unit; no path of a scenario begins with it.
-constexpr std::string_view asked = "--units[";
+constexpr std::string_view asked = "(asked)[";
 
 void add(const std::string& unit, std::span<const char* const> kinds, bool is_asked, ShownUnits& units) {
   // Torque and work have one dimension.

@@ -6,7 +6,9 @@ usage: layering.py ROOT
 FOLDERS says which folders may include which, ROOMS the same of the rooms inside a folder; LIBRARIES says where each
 foreign library may appear. A header is public when a CMakeLists.txt names it under HEADERS (they are installed),
 private otherwise. Two types of one name in one namespace break the rule of one definition: the linker takes one of
-them for both, without a word. A name under PAIRS stands for a public header, NAME.hpp, and a source.
+them for both, without a word. Messages of the folders below bench/ name no option of a command line: the Python
+package and other programs show them too (core/setting.hpp). A name under PAIRS stands for a public header, NAME.hpp,
+and a source.
 """
 
 import re
@@ -108,6 +110,9 @@ HEADER_LIST = re.compile(r"\bHEADERS\b(.*?)(?:\bSOURCES\b|\))", re.DOTALL)
 PAIR_LIST = re.compile(r"\bPAIRS\b(.*?)(?:\b(?:HEADERS|SOURCES|PUBLIC|PRIVATE)\b|\))", re.DOTALL)
 LINKED = re.compile(r"\b(?:dualdamp_|dualdamp::)(%s)\b" % "|".join(FOLDERS))
 TYPE = re.compile(r"(?:struct|class|enum class|union) (?:\[\[\w+\]\] )?(\w+)(?: final)?\s*(?::[^:;]|\{|$)")
+# Folders whose messages name no option, and what an option looks like; in a text, "dualdamp COMMAND" may have some.
+WITHOUT_OPTIONS = ["core", "friction_models", "sim", "identify", "scenarios"]
+OPTION = re.compile(r"(?<![\w-])--[a-z][a-z-]+")
 # Folders that keep a library in a single file.
 ONE_FILE = {"Boost.Odeint": "sim", "the operating system": "identify"}
 
@@ -227,6 +232,16 @@ def one_file_faults(root):
             yield f"{folder}/: {library} belongs in one .cpp, it is in {names}"
 
 
+def option_faults(root):
+    """Options of a command line in the messages of folders that do not know how they are called."""
+    for folder in WITHOUT_OPTIONS:
+        for path in source_files(root, folder):
+            for number, line in enumerate(path.read_text().splitlines(), 1):
+                for text in re.findall(r'"((?:[^"\\]|\\.)*)"', line):
+                    if (match := OPTION.search(text)) and "dualdamp " not in text:
+                        yield f"{path.relative_to(root)}:{number}: {match[0]} is an option of a command line"
+
+
 def types_of(path):
     """Types that a file defines in a named namespace, with their lines."""
     namespaces = []
@@ -258,6 +273,7 @@ def faults(root):
         if folder in FOLDERS:
             yield from link_faults(root, folder)
     yield from one_file_faults(root)
+    yield from option_faults(root)
     yield from type_faults(root)
 
 

@@ -234,7 +234,7 @@ REFUSED = [
     ("unit_in_the_heading_and_another_below.csv", table("Y [mm],x [mm]\num,mm", MM), [], "the unit of column Y is stated twice"),
     ("decimal_comma.csv", table("Y [mm];x [mm]", MM, ";", comma=True), [], "for decimal commas --decimal ,"),
     ("decimal_comma_with_commas.csv", table("Y [mm],x [mm]", MM, comma=True), [], "the row does not have as many fields as the header"),
-    ("decimal_point_told_comma.csv", PLAIN.replace(",", ";"), ["--decimal", ","], "as --decimal , says"),
+    ("decimal_point_told_comma.csv", PLAIN.replace(",", ";"), ["--decimal", ","], "with a comma, the decimal mark that is stated"),
     ("thousands.csv", table("Y [um];x [um]", [(f"{1e3 * y:,.1f}", f"{1e3 * x:,.1f}") for y, x in MM], ";"), [], "without thousands separators"),
     ("nan.csv", PLAIN.replace(PLAIN.split("\n")[3].split(",")[1], "NaN"), [], "is not a finite number"),
     ("spreadsheet_error.csv", PLAIN.replace(PLAIN.split("\n")[3].split(",")[1], "#DIV/0!"), [], "is not a number"),

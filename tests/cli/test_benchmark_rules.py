@@ -147,7 +147,7 @@ class Rules(unittest.TestCase):
         (self.folder / "export/cases/mine.txt").write_text("a file of the user")
         again = ["stress", "export", self.scenario, *setting(seeds=1), "--out", self.folder / "export", "--seed", 7]
         told = self.call(*again, status=2).stderr
-        self.assertIn("holds an earlier export: --overwrite removes it, --out DIR keeps them apart", told)
+        self.assertIn("holds an earlier export: --overwrite begins anew, --out DIR keeps them apart", told)
         self.assertEqual((self.folder / "export/key.json").read_bytes(), key)
         self.call(*again, "--overwrite")
         files = sorted(path.name for path in (self.folder / "export/cases").iterdir())

@@ -153,7 +153,7 @@ def test_cases_of_an_earlier_run(tmp_path):
     first = dd.run("scenarios/stress/small.yaml", out=tmp_path)
     assert dd.run("scenarios/stress/small.yaml", out=tmp_path, resume=True).result.cases == first.result.cases
     another = ("scenarios/stress/small.yaml", {"analysis.seeds": 3, "expect": [{"value": "cases.all", "equals": 30}]})
-    with pytest.raises(dd.DualdampError, match="--overwrite begins anew"):
+    with pytest.raises(dd.DualdampError, match="of another campaign: overwrite=True begins anew, another out keeps them apart"):
         dd.run(*another, out=tmp_path)
     assert dd.run(*another, out=tmp_path, overwrite=True).result.cases.failed == 0
 

@@ -81,7 +81,8 @@ class HeaderReader {
     if (!options_.columns.empty()) return true;
     problems_.add({{options_.name, 0, 0, {}},
                    "without a header the columns have no names",
-                   "the numbers of the columns, such as --column t=1 --column x=2",
+                   "the numbers of the columns, such as " + options_.words(core::Setting::column, "t", "1") + ", " +
+                       options_.words(core::Setting::column, "x", "2"),
                    std::to_string(count) + " columns",
                    {}});
     return false;
@@ -176,8 +177,8 @@ class HeaderReader {
       field.known = known;
     } else if (is_taken(*known)) {
       complain(heading.column, "column " + std::string(known->name) + " appears twice",
-               "one column " + std::string(known->name) + "; --column " + std::string(known->name) +
-                   "=NUMBER chooses one",
+               "one column " + std::string(known->name) + "; " +
+                   options_.words(core::Setting::column, known->name, "NUMBER") + " chooses one",
                excerpt(heading.text));
     } else {
       take(heading, *known, field);
@@ -214,13 +215,15 @@ class HeaderReader {
     const bool pairs_without_x = is_taken(*known_column("Y")) && !is_taken(*known_column("x"));
     if (!options_.only.empty()) return;                           // the caller reports missing columns
     if ((any && !pairs_without_x) || !problems_.empty()) return;  // the missing column may have a faulty heading
-    const std::string other = ". Columns of other names: --column x=NAME";
+    const std::string other = ". Columns of other names: " + options_.words(core::Setting::column, "x", "NAME");
     if (is_transposed())
       complain(1, "rows and columns are exchanged: the names are in the first field of each row",
                "the names of the columns in one row and a row for each sample", excerpt(line_.text));
     else if (layout_.is_headless && line_.number > 0)
       complain(1, "there is no column x: the first row holds numbers instead of the names of the columns",
-               std::string(allowed_columns) + "; or --no-header with --column x=2", excerpt(line_.text));
+               std::string(allowed_columns) + "; or " + options_.words(core::Setting::no_header) + " with " +
+                   options_.words(core::Setting::column, "x", "2"),
+               excerpt(line_.text));
     else
       complain(1, "there is no column x; there are the columns " + names(), std::string(allowed_columns) + other,
                excerpt(line_.text), suggestion());
@@ -236,7 +239,7 @@ class HeaderReader {
   /// A column with the other case of its one letter.
   [[nodiscard]] std::string suggestion() const {
     for (const Heading& heading : headings_)
-      if (heading.name == "X") return "--column x=" + heading.text;
+      if (heading.name == "X") return options_.words(core::Setting::column, "x", heading.text);
     return {};
   }
 

@@ -50,10 +50,11 @@ FieldNumber no_number(std::string_view text, char decimal) {
   FieldNumber result;
   result.fault = "is not a number";
   result.allowed = "a decimal number";
-  if (digits && has_other && !has_both && decimal == '.')
-    result.allowed = "a decimal number with a point, not with a comma; for decimal commas --decimal ,";
+  result.has_comma = digits && has_other && !has_both && decimal == '.';
+  if (result.has_comma)
+    result.allowed = "a decimal number with a point, not with a comma";
   else if (digits && has_other && !has_both)
-    result.allowed = "a decimal number with a comma, as --decimal , says, not with a point";
+    result.allowed = "a decimal number with a comma, the decimal mark that is stated, not with a point";
   else if (digits && std::isalpha(static_cast<unsigned char>(text.back())) != 0)
     result.allowed = "a decimal number; its unit belongs into the heading";
   else if (digits && grouped)

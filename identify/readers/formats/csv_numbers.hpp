@@ -10,6 +10,7 @@ struct FieldNumber {
   std::optional<double> value;
   std::string_view fault;    ///< why there is no value; continues "the field of column x"
   std::string_view allowed;  ///< how a number is written
+  bool has_comma = false;    ///< it would be a number if the decimal mark were a comma
 };
 
 /// A decimal number with the decimal mark `decimal`, a point or a comma: `12.5`, `+.5`, `1e-3`, `1.0D-03` of

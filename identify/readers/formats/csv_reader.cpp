@@ -63,6 +63,8 @@ class Parser {
   }
 
  private:
+  [[nodiscard]] std::string decimal_comma() const { return options_.words(core::Setting::decimal, {}, ","); }
+
   [[nodiscard]] core::SourcePlace at(const SourceLine& line, int column) const {
     return {options_.name, line.number, column, excerpt(line.text)};
   }
@@ -145,8 +147,9 @@ class Parser {
                             ? ", separated as those of the header"
                             : "") +
                        (split_numbers ? ", numbers with a decimal point, not with a comma; for decimal commas "
-                                        "quotes around the numbers, or semicolons between them, and --decimal ,"
-                                      : ""),
+                                        "quotes around the numbers, or semicolons between them, and " +
+                                            decimal_comma()
+                                      : std::string()),
                    std::to_string(count) + " fields",
                    {}});
     return false;
@@ -189,7 +192,8 @@ class Parser {
       if (!problems.repeats(kind, line.number))
         problems.add({at(line, field.column),
                       "the field of column " + std::string(target.known->name) + " " + std::string(number.fault),
-                      std::string(number.allowed),
+                      std::string(number.allowed) +
+                          (number.has_comma ? "; for decimal commas " + decimal_comma() : std::string()),
                       field.text.empty() ? "an empty field" : quoted(field.text),
                       {}},
                      kind);

@@ -75,6 +75,10 @@ class Reader {
   }
 
  private:
+  [[nodiscard]] std::string column_words(std::string_view name) const {
+    return options_.words(core::Setting::column, "x", name);
+  }
+
   void ignore(std::string_view what, const std::string& name) {
     warnings_.push_back(ignored_.emplace_back(ignored(what, name)));
   }
@@ -223,7 +227,8 @@ class Reader {
                 structs.empty() ? "the MATLAB file holds no vector x and nothing else that could be used"
                                 : "several structs of the MATLAB file hold signals",
                 "vectors named like the columns, or one struct that holds them: " + std::string(allowed_columns) +
-                    "; others by --column x=NAME, --column x='data(:,2)', --column x=run.x",
+                    "; others by " + column_words("NAME") + ", " + column_words("'data(:,2)'") + ", " +
+                    column_words("run.x"),
                 listing_.empty() ? "no variables" : excerpt(listed(listing_)));
   }
 
@@ -285,10 +290,10 @@ class Reader {
     else if (entry.slice && entry.slice->index >= variable.dims[entry.slice->is_row ? 0 : 1])
       fault = " is beyond the last " + std::string(entry.slice->is_row ? "row" : "column");
     if (!fault.empty()) {
-      complain(
-          subject + fault,
-          long_sides > 1 ? "a vector of real numbers, such as --column x='data(:,2)'" : "a vector of real numbers",
-          variable.rank > 0 ? describe(variable) : std::string());
+      complain(subject + fault,
+               "a vector of real numbers" +
+                   (long_sides > 1 ? ", such as " + column_words("'data(:,2)'") : std::string()),
+               variable.rank > 0 ? describe(variable) : std::string());
       return std::nullopt;
     }
     auto values = numbers(variable);
@@ -414,22 +419,6 @@ IsolationLimits limits_of(const std::string& path) {
   return {time, load * time, memory};
 }
 
-[[noreturn]] void refuse_unread(const std::string& file, IsolatedEnd end) {
-  switch (end) {
-    case IsolatedEnd::out_of_time:
-      refuse_file(file, "the MATLAB file is damaged: reading it does not end", "the whole file");
-    case IsolatedEnd::out_of_memory:
-      refuse_file(file, "reading the MATLAB file takes more than 4 GiB of memory: it is damaged or too large",
-                  "the whole file, or a part of the record");
-    case IsolatedEnd::not_started:
-      refuse_file(file, "the MATLAB file cannot be read: the system could not start a process for it");
-    case IsolatedEnd::crashed:
-    case IsolatedEnd::done:
-      break;
-  }
-  refuse_damaged_mat(file);
-}
-
 }  // namespace
 
 DataTable read_mat(const std::string& path, const ReadOptions& options, Problems& problems,
@@ -445,7 +434,7 @@ DataTable read_mat(const std::string& path, const ReadOptions& options, Problems
     }
   });
   std::optional<MatContent> content = result.end == IsolatedEnd::done ? receive(result.bytes) : std::nullopt;
-  if (!content) refuse_unread(options.name, result.end);
+  if (!content) refuse_unread_mat(options.name, result.end);
   DataTable table = join(options.name, content->tests);
   table.units = std::move(content->units);
   table.ignored = std::move(content->ignored);

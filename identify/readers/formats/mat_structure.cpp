@@ -184,4 +184,20 @@ bool lacks_class(const std::string& path, const std::string& variable) {
   return has == 0;
 }
 
+void refuse_unread_mat(const std::string& file, IsolatedEnd end) {
+  switch (end) {
+    case IsolatedEnd::out_of_time:
+      refuse_file(file, "the MATLAB file is damaged: reading it does not end", "the whole file");
+    case IsolatedEnd::out_of_memory:
+      refuse_file(file, "reading the MATLAB file takes more than 4 GiB of memory: it is damaged or too large",
+                  "the whole file, or a part of the record");
+    case IsolatedEnd::not_started:
+      refuse_file(file, "the MATLAB file cannot be read: the system could not start a process for it");
+    case IsolatedEnd::crashed:
+    case IsolatedEnd::done:
+      break;
+  }
+  refuse_damaged_mat(file);
+}
+
 }  // namespace dualdamp::identify

@@ -8,6 +8,8 @@
 #include <string>
 #include <string_view>
 
+#include "identify/readers/isolated.hpp"
+
 namespace dualdamp::identify {
 
 /// Whether the first bytes are those of a MATLAB file.
@@ -25,5 +27,8 @@ void check_mat(std::string_view bytes, const std::string& file);
 
 /// Throws `core::InputError`: the file is damaged or cut off.
 [[noreturn]] void refuse_damaged_mat(const std::string& file);
+
+/// Throws `core::InputError`: why the process that reads the file gave no content.
+[[noreturn]] void refuse_unread_mat(const std::string& file, IsolatedEnd end);
 
 }  // namespace dualdamp::identify

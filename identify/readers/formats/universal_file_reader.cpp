@@ -51,8 +51,9 @@ class Mapping {
   }
 
  private:
-  static std::string allowed() {
-    return "a response name, axis label or ID line x, y, v, a or force; or --column x=NAME";
+  [[nodiscard]] std::string allowed() const {
+    return "a response name, axis label or ID line x, y, v, a or force; or " +
+           options_.words(core::Setting::column, "x", "NAME");
   }
 
   void refuse_set(const Function& f, std::string message, std::string wanted) {

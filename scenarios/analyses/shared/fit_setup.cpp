@@ -137,7 +137,7 @@ std::vector<DataItem> items_of(const Json& analysis, const std::vector<DataFile>
   for (const DataFile& file : files) {
     if (file.key != key) continue;
     const Json& list = analysis.at(key);
-    items.push_back({file.name, list.is_array() ? list.at(file.item) : list, file.data, file.drives});
+    items.push_back({file.name, list.is_array() ? list.at(file.item) : list, file.data, file.drives, file.words});
   }
   return items;
 }

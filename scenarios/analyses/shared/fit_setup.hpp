@@ -17,6 +17,7 @@ struct DataItem {
   Json keys;  ///< of its item
   identify::MeasuredRecord data;
   std::vector<std::optional<RecordDrive>> drives{};  ///< own drives of the histories; empty: none
+  core::SettingWords words{};                        ///< how messages name what may be stated beside the file
   std::vector<std::size_t> zeroed{};  ///< histories whose zero was subtracted: the remaining zero is fitted
 
   [[nodiscard]] bool is_loop() const { return keys.is_object() && keys.value("loop", false); }

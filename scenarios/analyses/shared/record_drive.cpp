@@ -76,7 +76,8 @@ double difference(const sim::Model& model, const History& history, const std::ve
   return std::sqrt(std::max(0.0, square - noise * noise) / (here.squaredNorm() / static_cast<double>(here.size())));
 }
 
-std::string other_drive(const History& history, const sim::Model& model, bool phase_is_sought) {
+std::string other_drive(const History& history, const sim::Model& model, bool phase_is_sought,
+                        const core::SettingWords& words) {
   const bool base = model.excitation.moves_base();
   const std::vector<double>& measured = base ? history.y : history.force;
   constexpr std::size_t least = 8;
@@ -87,8 +88,8 @@ std::string other_drive(const History& history, const sim::Model& model, bool ph
   if (miss <= far) return {};
   const std::string column = base ? "y" : "force";
   return "the record holds " + column + ", and it differs from the drive by " +
-         core::format_number(100.0 * miss, 2) + " % of " + column + ": if it drove the mass, 'drive: " + column +
-         "' beside 'file', on the command line --drive " + column + "; or leave out the column";
+         core::format_number(100.0 * miss, 2) + " % of " + column + ": if it drove the mass, " +
+         words(core::Setting::drive, column) + "; or leave out the column";
 }
 
 }  // namespace
@@ -109,7 +110,7 @@ void refuse_other_drives(const std::vector<DataItem>& items, const std::string& 
       const History& history = item.data.record.histories[h];
       const std::string name = item.file + (history.sweep.empty() ? "" : ", test '" + history.sweep + "'");
       std::string fault = other_clock(history, drive, drive_start);
-      if (fault.empty()) fault = other_drive(history, model, phase_is_sought);
+      if (fault.empty()) fault = other_drive(history, model, phase_is_sought, item.words);
       if (!fault.empty()) faults.push_back({place, name + ": " + fault});
     }
   }
@@ -119,16 +120,18 @@ std::string idle_drive(const DataItem& item, const sim::Model& model) {
   if (!item.takes_drive_of_model() || model.excitation.type != sim::ExcitationType::none) return {};
   const std::vector<History>& histories = item.data.record.histories;
   const auto drive = [&](const std::string& column, const std::string& what) {
-    return item.file + ": the file holds " + what + ", and nothing drives the model: 'drive: " + column +
-           "' beside 'file', on the command line --drive " + column;
+    return item.file + ": the file holds " + what +
+           ", and nothing drives the model: " + item.words(core::Setting::drive, column);
   };
   const bool has_y = std::ranges::any_of(histories, [](const History& h) { return moves(h.y); });
   const bool has_force = std::ranges::any_of(histories, [](const History& h) { return moves(h.force); });
   if (has_y)
     return drive("y", "y, the motion of the base") +
-           (has_force ? ", or 'drive: force', if only one of the two drove the mass; or leave out y"
+           (has_force ? ", or " + item.words(core::Setting::drive, "force") +
+                            ", if only one of the two drove the mass; or leave out y"
                       : "; 'drive: none' if y is to be ignored");
-  if (has_force) return drive("force", "force") + "; or --loop for a friction loop";
+  if (has_force)
+    return drive("force", "force") + "; or " + item.words(core::Setting::loop) + " for a friction loop";
   return {};
 }
 

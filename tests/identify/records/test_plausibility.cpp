@@ -185,7 +185,7 @@ TEST_CASE("An angle without unit is refused in the words of angles") {
   for (const core::Diagnostic& fault : gross_faults(record, rig.constants, {"x"}, "data.csv"))
     text += core::format(fault);
   CHECK(mentions(text, "in radians it would reach"));
-  CHECK(mentions(text, "--unit x=deg"));
+  CHECK(mentions(text, "units: {x: deg}"));
   CHECK_FALSE(text.find("metres") != std::string::npos);
 }
 
@@ -209,7 +209,7 @@ TEST_CASE("Numbers of samples for times, hertz for rad/s, and damping that hardl
   CHECK(faults_at(1.0).empty());
   CHECK(faults_at(2.0).empty());  // damping may do that
   CHECK(mentions(faults_at(500.0), "not numbers of samples"));
-  CHECK(mentions(faults_at(1.0 / 86400.0), "--unit t=day"));
+  CHECK(mentions(faults_at(1.0 / 86400.0), "units: {t: day}"));
 
   Rig turned = rig;
   turned.constants.frequency *= 2.0 * pi;

@@ -105,7 +105,7 @@ TEST_CASE("Columns that are not known or not used are ignored with a warning") {
   CHECK(csv.warnings[0] == "column 'temperature [K]' is not known and is ignored");
   CHECK(csv.warnings[1] == "column 'a \"b\", c' is not known and is ignored");
   CHECK(csv.warnings[2] ==
-        "no unit is stated for Y, x and t: read Y in m, x in m and t in s; state another one as --unit t=UNIT");
+        "no unit is stated for Y, x and t: read Y in m, x in m and t in s; state another one as units: {t: UNIT}");
   CHECK(csv.warnings[3] == "column t is not used");
   CHECK(csv.record.pairs->pairs[1].x == 5.0);
 }

@@ -238,9 +238,8 @@ TEST_CASE("fit: what a file is said to be driven by must be there", "[scenarios]
   CHECK_THAT(fault_of(fit_of("data: [own_y.csv, {file: own_free.csv, drive: force}]")),
              Contains("own_free.csv: 'drive: force', and no history of the file has a column force that changes"));
   CHECK_THAT(fault_of(fit_of("data: {file: own_y.csv, loop: true, drive: y}")), Contains("one of drive and loop"));
-  CHECK_THAT(
-      fault_of(fit_of("data: own_y.csv", "excitation: {type: none}\n")),
-      Contains("'drive: y' beside 'file', on the command line --drive y; 'drive: none' if y is to be ignored"));
+  CHECK_THAT(fault_of(fit_of("data: own_y.csv", "excitation: {type: none}\n")),
+             Contains("'drive: y' beside 'file'; 'drive: none' if y is to be ignored"));
   // A drive or a frequency that no record needs would be ignored.
   CHECK_THAT(fault_of(fit_of("data: {file: own_y.csv, drive: y}",
                              "excitation: {type: base_harmonic, frequency: 4 Hz, amplitude: 5 mm}\n")),
