@@ -37,6 +37,8 @@ std::vector<std::string> plugins_of_environment() {
   return files;
 }
 
+constexpr int max_jobs = 1024;
+
 class Parser {
  public:
   Parser() {
@@ -77,6 +79,12 @@ class Parser {
   }
 
  private:
+  static auto quantities_of(CLI::App& command) {
+    return [&command](const char* name, std::string& value, const char* text) {
+      command.add_option(name, value, text)->type_name("QUANTITY");
+    };
+  }
+
   void add_plugins(CLI::App& command) {
     const auto append = [this](const std::vector<std::string>& files) {
       plugins_.insert(plugins_.end(), files.begin(), files.end());
@@ -98,11 +106,10 @@ class Parser {
   void add_run() {
     run_command_ = app_.add_subcommand("run", "Run scenario files");
     run_command_->add_option("SCENARIO", run_.files, "Scenario files")->required()->type_name("");
-    add_output_options(*run_command_, run_.out, run_.json, run_.quiet);
+    add_output_options(*run_command_, run_);
     run_command_->add_option("--set", run_.set, "Set a value before the file is checked: --set system.mass='2 kg'")
         ->allow_extra_args(false)
         ->type_name("PATH=VALUE");
-    constexpr int max_jobs = 1024;
     run_command_
         ->add_option("--jobs", run_.jobs,
                      "Number of threads (default: all cores); with several files, how many run at the same time "
@@ -119,28 +126,30 @@ class Parser {
     run_command_->add_flag("--verify", run_.verify,
                            "Compute each result again in another way and compare; the same as numerics.verify");
     add_plot(*run_command_, run_.plot);
-    add_units(*run_command_, run_.shown_units);
+    add_units(*run_command_, run_);
     add_plugins(*run_command_);
   }
 
   void add_stress() {
-    constexpr int max_jobs = 1024;
     stress_command_ =
         app_.add_subcommand("stress", "Export a stress test for other programs, and score their answers");
     stress_command_->require_subcommand(1);
-    const auto add_common = [&](CLI::App& command, std::string& file, std::vector<std::string>& set, int& jobs) {
-      command.add_option("SCENARIO", file, "A scenario with the analysis stress_test")->required()->type_name("");
-      command.add_option("--set", set, "Set a value before the file is checked, the same for export and score")
+    const auto add_common = [&](CLI::App& command, StressOptions& options) {
+      command.add_option("SCENARIO", options.file, "A scenario with the analysis stress_test")
+          ->required()
+          ->type_name("");
+      command
+          .add_option("--set", options.set, "Set a value before the file is checked, the same for export and score")
           ->allow_extra_args(false)
           ->type_name("PATH=VALUE");
-      command.add_option("--jobs", jobs, "Number of threads (default: all cores)")
+      command.add_option("--jobs", options.jobs, "Number of threads (default: all cores)")
           ->check(CLI::Range(1, max_jobs))
           ->type_name("N");
       add_plugins(command);
     };
     export_command_ =
         stress_command_->add_subcommand("export", "Write the records of all cases, and the key to them");
-    add_common(*export_command_, export_.file, export_.set, export_.jobs);
+    add_common(*export_command_, export_);
     export_command_->add_option("--out", export_.out, "Directory for the files; created if missing")
         ->required()
         ->type_name("DIR");
@@ -151,14 +160,14 @@ class Parser {
     export_command_->add_flag("--overwrite", export_.overwrite, "Remove an earlier export in the directory");
     score_command_ =
         stress_command_->add_subcommand("score", "Score answers to exported records beside the methods");
-    add_common(*score_command_, score_.file, score_.set, score_.jobs);
+    add_common(*score_command_, score_);
     score_command_->add_option("--key", score_.key, "key.json of the export")->required()->type_name("FILE");
     score_command_
         ->add_option("--answers", score_.answers,
                      "Answers of a program, a CSV file (docs/benchmark.md); may be repeated")
         ->allow_extra_args(false)
         ->type_name("NAME=FILE");
-    add_output_options(*score_command_, score_.out, score_.json, score_.quiet);
+    add_output_options(*score_command_, score_);
   }
 
   void add_check() {
@@ -170,48 +179,35 @@ class Parser {
   void add_identify() {
     identify_command_ = app_.add_subcommand("identify", "Identify friction from measured data, without a scenario");
     CLI::App& command = *identify_command_;
+    const auto add = quantities_of(command);
     command
         .add_option("DATA", identify_.data, "Data file: CSV, MATLAB .mat or universal file (docs/data-files.md)")
         ->required()
         ->type_name("");
-    command
-        .add_option(
-            "--mass", identify_.mass,
-            "Mass, such as '1.042 kg' or '1.042 kg +- 5 g'; without it only methods that do not need it are used")
-        ->type_name("QUANTITY");
-    command
-        .add_option("--stiffness", identify_.stiffness,
-                    "Stiffness, such as '1568 N/m'; '0 N/m' for a mass on a rail without spring")
-        ->type_name("QUANTITY");
-    command
-        .add_option(
-            "--gravity-stiffness", identify_.gravity_stiffness,
-            "m g l of a pendulum, such as '2.9 N.m': the part of the stiffness, or the whole of it, whose torque "
-            "is m g l sin(x)")
-        ->type_name("QUANTITY");
+    add("--mass", identify_.mass,
+        "Mass, such as '1.042 kg' or '1.042 kg +- 5 g'; without it only methods that do not need it are used");
+    add("--stiffness", identify_.stiffness,
+        "Stiffness, such as '1568 N/m'; '0 N/m' for a mass on a rail without spring");
+    add("--gravity-stiffness", identify_.gravity_stiffness,
+        "m g l of a pendulum, such as '2.9 N.m': the part of the stiffness, or the whole of it, whose torque "
+        "is m g l sin(x)");
     command.add_option("--coordinate", identify_.coordinate, "Kind of the coordinate x (default: from the units)")
         ->type_name("displacement|angle");
-    command
-        .add_option("--frequency", identify_.frequency,
-                    "Forcing frequency, such as '6.17 Hz'; a free decay has none")
-        ->type_name("QUANTITY");
+    add("--frequency", identify_.frequency, "Forcing frequency, such as '6.17 Hz'; a free decay has none");
     command
         .add_option(
             "--method", identify_.methods,
             "A method to use; the option is repeated for further ones; default: all methods that can read the data")
         ->allow_extra_args(false)
         ->type_name("METHOD");
-    command
-        .add_option("--sigma-x", identify_.sigma_x,
-                    "Known standard deviation of a measured output amplitude or extreme, such as '0.02 mm'")
-        ->type_name("QUANTITY");
-    command.add_option("--sigma-Y", identify_.sigma_Y, "Known standard deviation of a measured input amplitude")
-        ->type_name("QUANTITY");
+    add("--sigma-x", identify_.sigma_x,
+        "Known standard deviation of a measured output amplitude or extreme, such as '0.02 mm'");
+    add("--sigma-Y", identify_.sigma_Y, "Known standard deviation of a measured input amplitude");
     add_gains(command, identify_.gain_uncertainties);
     command.add_flag("--robust", identify_.robust, "Bounds the influence of outliers (Huber), and replaces spikes");
     add_file_options(command, identify_);
-    add_units(command, identify_.shown_units);
-    add_output_options(command, identify_.out, identify_.json, identify_.quiet);
+    add_units(command, identify_);
+    add_output_options(command, identify_);
   }
 
   void add_next() {
@@ -223,9 +219,7 @@ class Parser {
                     "design")
         ->required()
         ->type_name("");
-    const auto add = [&command](const char* name, std::string& value, const char* text) {
-      command.add_option(name, value, text)->type_name("QUANTITY");
-    };
+    const auto add = quantities_of(command);
     add("--mass", next_.mass, "Mass, such as '1.042 kg'");
     add("--stiffness", next_.stiffness, "Stiffness, such as '1568 N/m'");
     add("--frequency", next_.frequency, "Forcing frequency, such as '6.17 Hz', where the data do not state it");
@@ -233,13 +227,12 @@ class Parser {
     add("--sigma-Y", next_.sigma_Y, "Known standard deviation of a measured input amplitude");
     add_gains(command, next_.gain_uncertainties);
     add_file_options(command, next_);
-    add_units(command, next_.shown_units);
-    add_output_options(command, next_.out, next_.json, next_.quiet);
+    add_units(command, next_);
+    add_output_options(command, next_);
   }
 
   /// The options of `fit` and `predict` about their records.
-  template <typename RecordCommand>
-  void add_record_options(CLI::App& command, RecordCommand& options) {
+  void add_record_options(CLI::App& command, RecordOptions& options) {
     command.add_option("--frequency", options.frequency, "Forcing frequency of the base motion, such as '6.17 Hz'")
         ->type_name("QUANTITY");
     command
@@ -255,8 +248,8 @@ class Parser {
         ->allow_extra_args(false)
         ->type_name("PATH=VALUE");
     add_file_options(command, options);
-    add_units(command, options.shown_units);
-    add_output_options(command, options.out, options.json, options.quiet);
+    add_units(command, options);
+    add_output_options(command, options);
     add_plugins(command);
   }
 
@@ -274,12 +267,10 @@ class Parser {
         .add_option("--free", fit_.free,
                     "Parameters to fit although they are stated, separated by commas: --free mass,sigma2")
         ->type_name("NAMES");
-    command.add_option("--mass", fit_.mass, "Mass, such as '1.042 kg'; fitted if it is not stated")
-        ->type_name("QUANTITY");
-    command.add_option("--stiffness", fit_.stiffness, "Stiffness; fitted if it is not stated")
-        ->type_name("QUANTITY");
-    command.add_option("--damping", fit_.damping, "Viscous damping; fitted if it is not stated")
-        ->type_name("QUANTITY");
+    const auto add = quantities_of(command);
+    add("--mass", fit_.mass, "Mass, such as '1.042 kg'; fitted if it is not stated");
+    add("--stiffness", fit_.stiffness, "Stiffness; fitted if it is not stated");
+    add("--damping", fit_.damping, "Viscous damping; fitted if it is not stated");
     command.add_option("--validate", fit_.validate, "A data file to predict with the fitted rig")
         ->allow_extra_args(false)
         ->type_name("DATA");
@@ -309,7 +300,7 @@ class Parser {
         ->required()
         ->type_name("");
     add_plot(*report_command_, report_.plot);
-    add_units(*report_command_, report_.shown_units);
+    add_units(*report_command_, report_);
     new_command_ = app_.add_subcommand("new", "Print a commented scenario as a first file");
     new_command_->add_option("ANALYSIS", new_.analysis, "Its analysis, such as xy_curve; see dualdamp analyses")
         ->required()
@@ -319,7 +310,7 @@ class Parser {
         ->required()
         ->expected(2, most_compared)
         ->type_name("");
-    add_units(*compare_command_, compare_.shown_units);
+    add_units(*compare_command_, compare_);
     compare_command_->add_option("--out", compare_.out, "Directory for compare.html, compare.csv and compare.svg")
         ->type_name("DIR")
         ->capture_default_str()

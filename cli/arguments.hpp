@@ -10,41 +10,46 @@
 
 namespace dualdamp::cli {
 
-struct RunCommand {
-  std::vector<std::string> files;
+/// Where results go, and how they are printed.
+struct OutputOptions {
   std::string out;
-  std::vector<std::string> set;
-  int jobs = 0;  ///< number of threads; with several files, how many run at the same time; 0: one file, all cores
   bool json = false;
   bool quiet = false;
-  bool dry_run = false;
-  bool resume = false;
-  bool overwrite = false;
-  bool verify = false;      ///< compute each result again in another way and compare
-  std::string plot;         ///< SVG file for the main chart; empty: none
+};
+
+struct UnitOptions {
   std::string shown_units;  ///< of charts, pages and printed tables, separated by commas
 };
 
-/// `stress export`: writes records for other programs.
-struct ExportCommand {
+struct RunCommand : OutputOptions, UnitOptions {
+  std::vector<std::string> files;
+  std::vector<std::string> set;
+  int jobs = 0;  ///< number of threads; with several files, how many run at the same time; 0: one file, all cores
+  bool dry_run = false;
+  bool resume = false;
+  bool overwrite = false;
+  bool verify = false;  ///< compute each result again in another way and compare
+  std::string plot;     ///< SVG file for the main chart; empty: none
+};
+
+/// The stress test that `stress export` and `stress score` have in common.
+struct StressOptions {
   std::string file;
-  std::string out;
-  std::string seed;  ///< of all random numbers; empty: a hidden random one
   std::vector<std::string> set;
   int jobs = 0;
+};
+
+/// `stress export`: writes records for other programs.
+struct ExportCommand : StressOptions {
+  std::string out;
+  std::string seed;        ///< of all random numbers; empty: a hidden random one
   bool overwrite = false;  ///< the files of an earlier export
 };
 
 /// `stress score`: scores answers of other programs beside the methods.
-struct ScoreCommand {
-  std::string file;
+struct ScoreCommand : StressOptions, OutputOptions {
   std::string key;
   std::vector<std::string> answers;  ///< NAME=FILE
-  std::string out;
-  std::vector<std::string> set;
-  bool json = false;
-  bool quiet = false;
-  int jobs = 0;
 };
 
 struct CheckCommand {
@@ -86,78 +91,59 @@ struct FileOptions {
   bool no_header = false;
 };
 
-struct IdentifyCommand : FileOptions {
+/// What `identify` and `next` take of a data file and its rig.
+struct MeasuredOptions : FileOptions, OutputOptions, UnitOptions {
   std::string data;
-  std::string mass, stiffness, gravity_stiffness, coordinate, frequency;
-  std::vector<std::string> methods;
-  std::vector<std::string> gain_uncertainties;  ///< x=1 %
-  std::string sigma_x, sigma_Y;
-  bool robust = false;
-  std::string out;
-  bool json = false;
-  bool quiet = false;
-  std::string shown_units;  ///< of charts, pages and printed tables, separated by commas
-};
-
-/// `next`: what to measure next, for a data file or a scenario.
-struct NextCommand : FileOptions {
-  std::string data;  ///< a data file, or a scenario
   std::string mass, stiffness, frequency;
   std::vector<std::string> gain_uncertainties;  ///< x=1 %
   std::string sigma_x, sigma_Y;
-  std::string out;
-  bool json = false;
-  bool quiet = false;
-  std::string shown_units;  ///< of charts, pages and printed tables, separated by commas
 };
 
-struct FitCommand : FileOptions {
-  std::string law;  ///< one law, or several separated by commas
-  std::vector<std::string> data;
-  std::vector<std::string> validate;
-  std::string free;
-  std::string mass, stiffness, damping, frequency, amplitude;
-  std::vector<std::string> sigmas;  ///< x=0.02 mm
-  std::vector<std::string> set;
-  int starts = 0;
-  bool loop = false;
-  std::string drive;  ///< y or force
+struct IdentifyCommand : MeasuredOptions {
+  std::string gravity_stiffness, coordinate;
+  std::vector<std::string> methods;
   bool robust = false;
-  bool no_profile = false;
-  std::string out;
-  bool json = false;
-  bool quiet = false;
-  std::string shown_units;  ///< of charts, pages and printed tables, separated by commas
 };
 
-struct PredictCommand : FileOptions {
-  std::string result;  ///< of a fit: result.json, or its directory
+/// `next`: what to measure next, for a data file or, as `data`, a scenario.
+struct NextCommand : MeasuredOptions {};
+
+/// What `fit` and `predict` take of their records.
+struct RecordOptions : FileOptions, OutputOptions, UnitOptions {
   std::vector<std::string> data;
   std::string frequency, amplitude;
-  std::vector<std::string> sigmas;
+  std::vector<std::string> sigmas;  ///< x=0.02 mm
   std::vector<std::string> set;
   bool loop = false;
   std::string drive;  ///< y or force
-  std::string out;
-  bool json = false;
-  bool quiet = false;
-  std::string shown_units;  ///< of charts, pages and printed tables, separated by commas
 };
 
-struct ReportCommand {
+struct FitCommand : RecordOptions {
+  std::string law;  ///< one law, or several separated by commas
+  std::vector<std::string> validate;
+  std::string free;
+  std::string mass, stiffness, damping;
+  int starts = 0;
+  bool robust = false;
+  bool no_profile = false;
+};
+
+struct PredictCommand : RecordOptions {
+  std::string result;  ///< of a fit: result.json, or its directory
+};
+
+struct ReportCommand : UnitOptions {
   std::vector<std::string> directories;
-  std::string plot;         ///< SVG file for the main chart; empty: none
-  std::string shown_units;  ///< of charts, pages and printed tables, separated by commas
+  std::string plot;  ///< SVG file for the main chart; empty: none
 };
 
 struct NewCommand {
   std::string analysis;
 };
 
-struct CompareCommand {
+struct CompareCommand : UnitOptions {
   std::vector<std::string> directories;  ///< two or more
   std::string out = "compare";
-  std::string shown_units;  ///< of charts, pages and printed tables, separated by commas
 };
 
 /// Print a message and end: help, version, or a wrong command line.

@@ -30,8 +30,7 @@ std::string map_of(const std::vector<std::string>& list) {
 }
 
 /// The data files with the statements of the options about them.
-template <typename RecordCommand>
-std::string data_of(const std::vector<std::string>& files, const RecordCommand& command) {
+std::string data_of(const std::vector<std::string>& files, const RecordOptions& command) {
   std::string list;
   for (const std::string& file : files) {
     std::string item = "file: " + in_quotes(file);
@@ -52,8 +51,7 @@ std::string data_of(const std::vector<std::string>& files, const RecordCommand& 
 }
 
 /// `replaces`: the scenario has a drive of another type, whose keys do not apply.
-template <typename RecordCommand>
-void add_drive(const RecordCommand& command, bool replaces, scenarios::LoadOptions& options) {
+void add_drive(const RecordOptions& command, bool replaces, scenarios::LoadOptions& options) {
   const auto say = [&](const std::string& assignment, const char* option) {
     options.set.push_back({"excitation" + assignment, option});
   };

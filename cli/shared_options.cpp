@@ -8,17 +8,17 @@
 
 namespace dualdamp::cli {
 
-void add_output_options(CLI::App& command, std::string& out, bool& json, bool& quiet) {
-  command.add_option("--out", out, "Directory for the results; created if missing")
+void add_output_options(CLI::App& command, OutputOptions& options) {
+  command.add_option("--out", options.out, "Directory for the results; created if missing")
       ->type_name("DIR")
       ->check([](const std::string& text) { return text.empty() ? "DIR is empty" : std::string(); });
-  command.add_flag("--json", json, "Print one JSON document and nothing else");
-  command.add_flag("--quiet", quiet, "Print only errors on stderr");
+  command.add_flag("--json", options.json, "Print one JSON document and nothing else");
+  command.add_flag("--quiet", options.quiet, "Print only errors on stderr");
 }
 
-void add_units(CLI::App& command, std::string& units) {
+void add_units(CLI::App& command, UnitOptions& options) {
   command
-      .add_option("--units", units,
+      .add_option("--units", options.shown_units,
                   "Units of charts, pages and printed tables, separated by commas: --units mm,Hz; files stay in SI")
       ->type_name("UNITS")
       ->check([](const std::string& text) {

@@ -13,9 +13,9 @@ class App;
 namespace dualdamp::cli {
 
 /// Adds `--out`, `--json` and `--quiet`.
-void add_output_options(CLI::App& command, std::string& out, bool& json, bool& quiet);
+void add_output_options(CLI::App& command, OutputOptions& options);
 /// Adds `--units`: units of charts, pages and printed tables.
-void add_units(CLI::App& command, std::string& units);
+void add_units(CLI::App& command, UnitOptions& options);
 void add_plot(CLI::App& command, std::string& plot);
 /// Adds `--gain-uncertainty`.
 void add_gains(CLI::App& command, std::vector<std::string>& gains);
