@@ -8,10 +8,10 @@
 
 #include "cli/option_text.hpp"
 #include "core/diagnostics.hpp"
-#include "core/numbers.hpp"
-#include "identify/fit/rig.hpp"
 #include "scenarios/format/json_text.hpp"
+#include "scenarios/format/tree.hpp"
 #include "scenarios/results/files.hpp"
+#include "scenarios/results/prediction_keys.hpp"
 
 namespace dualdamp::cli {
 
@@ -87,36 +87,20 @@ Json fitted_document(const std::string& path) {
 
 /// The override "analysis={...}" of a prediction with this fit.
 std::string prediction_of(const Json& result, const PredictCommand& command) {
-  std::string names;
-  std::vector<std::size_t> shared;
-  const Json& parameters = result.at("parameters");
-  for (std::size_t i = 0; i < parameters.size(); ++i) {
-    const auto name = parameters.at(i).at("name").get<std::string>();
-    if (std::ranges::find(identify::own_names, name.substr(0, name.find('['))) != identify::own_names.end())
-      continue;
-    names += (names.empty() ? "" : ", ") + name;
-    shared.push_back(i);
-  }
-  const auto part_of = [&](const Json& row) {
-    std::string numbers;
-    for (const std::size_t j : shared)
-      numbers += (numbers.empty() ? "" : ", ") + core::format_number(row.at(j).get<double>());
-    return numbers;
-  };
-  std::string numbers;
-  for (const std::size_t i : shared)
-    numbers += (numbers.empty() ? "" : ", ") + part_of(result.at("covariance").at(i));
-  std::string undetermined;
-  for (const Json& row : result.value("undetermined", Json::array()))
-    undetermined += (undetermined.empty() ? "" : ", ") + part_of(row);
-  std::string text = "{type: predict, data: " + data_of(command.data, command);
-  if (!shared.empty()) text += ", free: " + in_quotes(names) + ", covariance: [" + numbers + "]";
-  if (!shared.empty() && !undetermined.empty()) text += ", undetermined: [" + undetermined + "]";
+  const std::string keys = scenarios::prediction_keys(result).dump();
   const bool states_drive =
       !command.frequency.empty() || !command.amplitude.empty() ||
       std::ranges::any_of(command.set, [](const std::string& one) { return one.starts_with("excitation"); });
-  if (!states_drive) text += ", drive_of_fit: true";
-  return text + "}";
+  return keys.substr(0, keys.size() - 1) + ", data: " + data_of(command.data, command) +
+         (states_drive ? "}" : ", drive_of_fit: true}");
+}
+
+/// Whether the base of the fitted rig moves harmonically.
+bool has_harmonic_base(const std::string& rig, const std::string& name) {
+  const scenarios::Document document(name, rig);
+  const scenarios::Entry* section = document.root().find("excitation");
+  const scenarios::Entry* type = section == nullptr ? nullptr : section->value.find("type");
+  return type != nullptr && type->value.text == "base_harmonic";
 }
 
 }  // namespace
@@ -156,7 +140,7 @@ scenarios::Scenario prediction_by(const Json& document, const PredictCommand& co
   options.words = option_of_setting;
   options.set = {{"analysis=" + prediction_of(result, command), "DATA"}};
   const auto rig = result.at("rig").get<std::string>();
-  add_drive(command, rig.find("\n  type: base_harmonic") == std::string::npos, options);
+  add_drive(command, !has_harmonic_base(rig, command.result), options);
   scenarios::Scenario prediction = scenarios::parse_scenario(rig, command.result, options);
   prediction.file = command.data.front();
   return prediction;

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 from collections.abc import Mapping
 
@@ -11,9 +12,6 @@ from ._library import core
 from ._run import run_source, source_of
 from ._scenario import flow, plain
 from ._systems import as_mapping
-
-# Parameters of a single record, which a prediction fits anew.
-_OF_RECORDS = ("position", "velocity", "offset", "release", "offset_v", "offset_a")
 
 
 def fit(
@@ -130,19 +128,13 @@ def predict(fitted, data, *, excitation=None, record=None, out=None, threads=0):
     """
     if getattr(fitted, "analysis", None) != "fit":
         raise TypeError(f"predict takes the result of a fit, not of {getattr(fitted, 'analysis', repr(fitted))}")
-    found, texts = fitted.result, {}
-    shared = [i for i, row in enumerate(found.parameters) if row["name"].split("[")[0] not in _OF_RECORDS]
-    analysis = {"type": "predict", "data": _records(_listed(data), record, texts)}
+    texts = {}
+    analysis = {**json.loads(core.prediction_keys(fitted._run)), "data": _records(_listed(data), record, texts)}
     if excitation is None:
         analysis["drive_of_fit"] = True
-    if shared:
-        analysis["free"] = ", ".join(found.parameters[i]["name"] for i in shared)
-        analysis["covariance"] = [found.covariance[i][j] for i in shared for j in shared]
-        if found.undetermined:
-            analysis["undetermined"] = [row[j] for row in found.undetermined for j in shared]
     changes = {"analysis": analysis, **({} if excitation is None else {"excitation": as_mapping(excitation)})}
     set_ = [f"{key}={flow(plain(value))}" for key, value in changes.items()]
-    source = core.Source(found.rig, "fit", data_anywhere=True, data=texts, set=set_)
+    source = core.Source(fitted.result.rig, "fit", data_anywhere=True, data=texts, set=set_)
     return run_source(source, out=out, threads=threads)
 
 

@@ -16,7 +16,9 @@
 #include "core/numbers.hpp"
 #include "python/src/interruptible.hpp"
 #include "python/src/parts.hpp"
+#include "scenarios/format/json_text.hpp"
 #include "scenarios/output.hpp"
+#include "scenarios/results/prediction_keys.hpp"
 #include "scenarios/run.hpp"
 #include "scenarios/scenario.hpp"
 #include "sim/parallel.hpp"
@@ -253,6 +255,12 @@ void add_runs(py::module_& module) {
       py::arg("answers") = std::vector<std::pair<std::string, std::string>>{});
   module.def("export_cases", &export_cases, py::arg("source"), py::arg("directory"), py::arg("seed"),
              py::arg("threads"), py::arg("overwrite"));
+  module.def(
+      "prediction_keys",
+      [](const Run& fit) {
+        return scenarios::prediction_keys(scenarios::parse_json(document(fit)).at("result")).dump();
+      },
+      py::arg("fit"));
   module.def("resolved", [](const Source& source) { return load(source).resolved; }, py::arg("source"));
   module.def("csv_text", &csv_text, py::arg("columns"), py::arg("rows"));
 }

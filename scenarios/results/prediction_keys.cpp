@@ -1,0 +1,45 @@
+#include "scenarios/results/prediction_keys.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "identify/fit/rig.hpp"
+
+namespace dualdamp::scenarios {
+
+namespace {
+
+/// Whether a name, such as `offset[2]`, is that of a parameter of one record.
+bool is_of_one_record(const std::string& name) {
+  return std::ranges::find(identify::own_names, name.substr(0, name.find('['))) != identify::own_names.end();
+}
+
+}  // namespace
+
+Json prediction_keys(const Json& result) {
+  std::string names;
+  std::vector<std::size_t> shared;
+  const Json& parameters = result.at("parameters");
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    const auto name = parameters.at(i).at("name").get<std::string>();
+    if (is_of_one_record(name)) continue;
+    names += (names.empty() ? "" : ", ") + name;
+    shared.push_back(i);
+  }
+  Json keys = {{"type", "predict"}};
+  if (shared.empty()) return keys;
+  const auto add_shared = [&shared](const Json& row, Json& list) {
+    for (const std::size_t j : shared) list.push_back(row.at(j).get<double>());
+  };
+  keys["free"] = std::move(names);
+  keys["covariance"] = Json::array();
+  for (const std::size_t i : shared) add_shared(result.at("covariance").at(i), keys["covariance"]);
+  Json undetermined = Json::array();
+  for (const Json& row : result.value("undetermined", Json::array())) add_shared(row, undetermined);
+  if (!undetermined.empty()) keys["undetermined"] = std::move(undetermined);
+  return keys;
+}
+
+}  // namespace dualdamp::scenarios
