@@ -13,6 +13,7 @@
 #include "core/numbers.hpp"
 #include "identify/statistics/distributions.hpp"
 #include "identify/statistics/median.hpp"
+#include "identify/statistics/statistics.hpp"
 
 namespace dualdamp::identify {
 
@@ -120,17 +121,11 @@ void compare_with_stated(double deviation, double freedom, FittedSignal& signal)
   if (!(signal.noise > 0.0) || !(freedom >= 1.0)) return;
   const double ratio = deviation / signal.noise;
   signal.chi2_per_freedom = ratio * ratio;
-  // F with infinitely many degrees of freedom in the denominator is chi-square.
-  constexpr double known = 1e9;
-  const double above = f_test_p_value(signal.chi2_per_freedom, freedom, known);
-  signal.chi2_p_value = std::min(1.0, 2.0 * std::min(above, 1.0 - above));
+  signal.chi2_p_value = stated_noise_p_value(signal.chi2_per_freedom, freedom);
 }
 
 int contradicts_stated(const FittedSignal& signal) {
-  constexpr double factor = 1.3;
-  if (is_noise(signal.chi2_p_value)) return 0;
-  const double ratio = std::sqrt(signal.chi2_per_freedom);
-  return ratio > factor ? 1 : ratio < 1.0 / factor ? -1 : 0;
+  return contradicts_stated(std::sqrt(signal.chi2_per_freedom), signal.chi2_p_value);
 }
 
 namespace {

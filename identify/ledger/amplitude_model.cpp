@@ -419,7 +419,7 @@ std::variant<JointModel, std::string> amplitude_model(const Record& record, cons
     if (drop_sticking(points, fit.at.friction, said)) continue;
     const double freedom = static_cast<double>(states.amplitudes() - states.smooth_columns());
     if (is_stated(stated)) ratio = fit.scatter;
-    const int contradicts = contradicts_stated(ratio, is_stated(known) ? freedom : 0.0);
+    const int contradicts = contradiction(ratio, is_stated(known) ? freedom : 0.0);
     if (contradicts > 0 && is_stated(stated)) {
       stated = {};
       continue;

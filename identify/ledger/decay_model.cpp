@@ -270,7 +270,7 @@ JointModel fitted(const Setting& setting, const Eigen::VectorXd& measured, const
 void compare_with_stated(Setting& setting, const Eigen::VectorXd& measured, const Decay& start, JointModel& model) {
   JointModel rescaled = model;
   const ChannelScale own = scale_channel(rescaled, 0, setting.count);
-  const int contradicts = contradicts_stated(own.deviation, own.freedom);
+  const int contradicts = contradiction(own.deviation, own.freedom);
   if (contradicts > 0) {
     setting.known = 0.0;
     model = fitted(setting, measured, start, {});

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "core/numbers.hpp"
-#include "identify/statistics/distributions.hpp"
 
 namespace dualdamp::identify {
 
@@ -20,14 +19,8 @@ void set_noise(Eigen::Index amplitudes, Eigen::Index phases, Eigen::Index smooth
 
 bool is_stated(const KnownDeviations& known) { return known.sigma_x > 0.0 || known.sigma_Y > 0.0; }
 
-int contradicts_stated(double ratio, double freedom) {
-  // The level and the factor are those of a fit against a scenario (fit/residual_test.cpp).
-  constexpr double level = 1e-3;
-  constexpr double factor = 1.3;
-  if (!(freedom >= 1.0)) return 0;
-  const double above = f_test_p_value(ratio * ratio, freedom, known_freedom);
-  if (!(2.0 * std::min(above, 1.0 - above) < level)) return 0;
-  return ratio > factor ? 1 : ratio < 1.0 / factor ? -1 : 0;
+int contradiction(double ratio, double freedom) {
+  return freedom >= 1.0 ? contradicts_stated(ratio, stated_noise_p_value(ratio * ratio, freedom)) : 0;
 }
 
 void note_contradiction(int contradicts, double ratio, const std::string& readings, JointModel& model) {

@@ -10,18 +10,15 @@
 
 #include "identify/ledger/joint_model.hpp"
 #include "identify/options.hpp"
+#include "identify/statistics/statistics.hpp"
 
 namespace dualdamp::identify {
-
-/// Degrees of freedom behind a stated deviation: F with so many in the denominator is chi-square.
-inline constexpr double known_freedom = 1e9;
 
 /// If either deviation is positive both are stated, and the other reading is exact.
 [[nodiscard]] bool is_stated(const KnownDeviations& known);
 
-/// 1: the noise is clearly larger than stated, -1: clearly smaller; 0: neither. `ratio`: the deviation of the
-/// readings, with this many degrees of freedom, over the stated one.
-[[nodiscard]] int contradicts_stated(double ratio, double freedom);
+/// `contradicts_stated` for the deviation of readings over the stated one; 0 without a degree of freedom.
+[[nodiscard]] int contradiction(double ratio, double freedom);
 
 /// Notes in the model that its readings (the word for a message) contradict the statement. Nothing at 0.
 void note_contradiction(int contradicts, double ratio, const std::string& readings, JointModel& model);

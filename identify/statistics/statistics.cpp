@@ -151,6 +151,18 @@ void conclude(Estimate& estimate, const std::vector<std::string>& faults, std::s
     for (const std::string& fault : *list) estimate.reason += (estimate.reason.empty() ? "" : "; ") + fault;
 }
 
+double stated_noise_p_value(double ratio, double freedom) {
+  const double above = f_test_p_value(ratio, freedom, known_freedom);
+  return std::min(1.0, 2.0 * std::min(above, 1.0 - above));
+}
+
+int contradicts_stated(double ratio, double p_value) {
+  constexpr double level = 1e-3;
+  constexpr double factor = 1.3;
+  if (!(p_value < level)) return 0;
+  return ratio > factor ? 1 : ratio < 1.0 / factor ? -1 : 0;
+}
+
 void warn_of_scatter(double ratio, double freedom, Estimate& estimate) {
   constexpr double rare = 1e-4;  // of right statements
   if (!(ratio > 1.0) || chi_square_p_value(ratio * freedom, freedom) > rare) return;

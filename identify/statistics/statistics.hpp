@@ -68,6 +68,16 @@ void judge_signs(Estimate& estimate, double least_x_f, std::vector<std::string>&
 /// is then the reason.
 void conclude(Estimate& estimate, const std::vector<std::string>& faults, std::string basis);
 
+/// Degrees of freedom behind a stated deviation: F with so many in the denominator is chi-square.
+inline constexpr double known_freedom = 1e9;
+
+/// Two-sided p-value of a mean square of residuals that is `ratio` times the stated variance.
+[[nodiscard]] double stated_noise_p_value(double ratio, double freedom);
+
+/// Whether readings contradict their stated noise. 1: they scatter clearly more, -1: clearly less; 0: no. `ratio`:
+/// of the deviations; `p_value`: that of its square.
+[[nodiscard]] int contradicts_stated(double ratio, double p_value);
+
 /// Warns of readings that scatter clearly more than their stated deviations say. `ratio`: the mean square of the
 /// residuals over the stated variance; `freedom`: degrees of freedom of the residuals.
 void warn_of_scatter(double ratio, double freedom, Estimate& estimate);

@@ -81,3 +81,11 @@ TEST_CASE("An independent error widens both sides of an interval by the root of 
   CHECK(beyond[0] == Approx(-5.0).epsilon(1e-12));
   CHECK(beyond[1] == Approx(4.0).epsilon(1e-12));
 }
+
+TEST_CASE("Readings contradict their stated noise where neither chance nor rounding of the statement explains it") {
+  CHECK(contradicts_stated(1.5, stated_noise_p_value(1.5 * 1.5, 200.0)) == 1);
+  CHECK(contradicts_stated(0.6, stated_noise_p_value(0.6 * 0.6, 200.0)) == -1);
+  CHECK(contradicts_stated(1.5, stated_noise_p_value(1.5 * 1.5, 5.0)) == 0);      // chance
+  CHECK(contradicts_stated(1.2, stated_noise_p_value(1.2 * 1.2, 10000.0)) == 0);  // near enough
+  CHECK(contradicts_stated(0.8, stated_noise_p_value(0.8 * 0.8, 10000.0)) == 0);
+}
