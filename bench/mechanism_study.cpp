@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <utility>
 #include <vector>
 
 #include "bench/mechanism_answer.hpp"
+#include "core/constants.hpp"
 #include "identify/methods/decays/free_decay.hpp"
 #include "sim/motion/simulate.hpp"
 #include "sim/parallel.hpp"
@@ -86,14 +86,13 @@ double Study::misfit(const std::vector<PartReading>& readings) const {
 
 /// Stretch relative to the nearest plausible values.
 double Study::stretch(const Explanation& explanation) const {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  double least = infinity;
+  double least = core::infinity;
   for (const PlausibleRig& plausible : study_.plausible) {
     if (plausible.mechanism != explanation.mechanism) continue;
     double largest = 1.0;
     for (std::size_t i = 0; i < plausible.values.size(); ++i) {
       const double ratio = explanation.fit.values[i] / plausible.values[i];
-      largest = std::max(largest, ratio > 0.0 ? std::max(ratio, 1.0 / ratio) : infinity);
+      largest = std::max(largest, ratio > 0.0 ? std::max(ratio, 1.0 / ratio) : core::infinity);
     }
     least = std::min(least, largest);
   }

@@ -44,7 +44,8 @@ double prediction_error(const CaseAnswer& answer, const Truth& believed, const U
   constexpr double least_zeta = 1e-6;
   Truth estimate = believed;
   sim::Oscillator& oscillator = estimate.model.oscillator;
-  oscillator.damping = 2.0 * std::sqrt(oscillator.mass * oscillator.stiffness) * std::max(answer.zeta, least_zeta);
+  oscillator.damping =
+      identify::critical_damping(oscillator.mass, oscillator.stiffness) * std::max(answer.zeta, least_zeta);
   estimate.F0 = std::max(answer.F0, 0.0);
   double sum = 0.0;
   for (std::size_t i = 0; i < tests.size(); ++i) {

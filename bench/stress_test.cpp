@@ -345,7 +345,7 @@ std::vector<TrueRig> rigs_of(const CheckedValues& values, double middle) {
     };
     TrueRig rig{truth};
     rig.truth.model.oscillator.damping =
-        2.0 * std::sqrt(own.mass * own.stiffness) * drawn("damping_ratio", 2, sim::damping_ratio(own));
+        identify::critical_damping(own.mass, own.stiffness) * drawn("damping_ratio", 2, sim::damping_ratio(own));
     rig.truth.F0 = own.stiffness * middle * drawn("friction_ratio", 3, truth.F0 / (own.stiffness * middle));
     rig.truth.model.excitation.frequency =
         sim::natural_frequency(own) *

@@ -11,12 +11,18 @@
 #include <string_view>
 #include <vector>
 
+#include "core/constants.hpp"
 #include "core/coordinate.hpp"
 
 namespace dualdamp::identify {
 
 /// Value of a quantity that was not measured or is not known.
 inline constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+/// c at which the motion stops oscillating [N.s/m].
+[[nodiscard]] inline double critical_damping(double mass, double stiffness) {
+  return 2.0 * std::sqrt(mass * stiffness);
+}
 
 /// Constants that a laboratory knows before the test, SI; `unknown` for the others. A method that needs a constant
 /// that is not known gives no estimate, with the reason.
@@ -28,6 +34,7 @@ struct KnownConstants {
   core::Coordinate coordinate = core::Coordinate::displacement;
 
   [[nodiscard]] double natural_frequency() const { return std::sqrt(stiffness / mass); }  ///< rad/s
+  [[nodiscard]] double critical_damping() const { return identify::critical_damping(mass, stiffness); }
 
   /// "N.m" for "N" where x is an angle.
   [[nodiscard]] std::string unit(std::string_view unit) const { return core::unit_for(coordinate, unit); }
@@ -50,6 +57,9 @@ struct Pair {
 [[nodiscard]] inline double frequency_of(const Pair& pair, const KnownConstants& constants) {
   return std::isnan(pair.omega) ? constants.frequency : pair.omega;
 }
+
+/// The angle in [-pi, pi] with the same sine and cosine.
+[[nodiscard]] inline double wrapped(double angle) { return std::remainder(angle, core::two_pi); }
 
 /// Whether two frequencies, or ratios of frequencies, are equal. Generators hold theirs to 1e-6, and a frequency
 /// from a record is not better than 1e-5.

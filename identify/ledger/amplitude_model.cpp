@@ -26,8 +26,6 @@ namespace {
 /// Y and phase of the drive that a motion needs.
 using Asked = Eigen::Vector2d;
 
-double wrapped(double angle) { return std::remainder(angle, 2.0 * std::numbers::pi); }
-
 Asked asked(std::complex<double> drive) { return {std::abs(drive), std::arg(drive)}; }
 
 /// Derivative of the needed drive, by a small step either way.

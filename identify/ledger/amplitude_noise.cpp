@@ -5,8 +5,8 @@
 #include <array>
 #include <cmath>
 #include <complex>
-#include <limits>
 
+#include "core/constants.hpp"
 #include "identify/record.hpp"
 #include "identify/statistics/decompositions.hpp"
 
@@ -39,15 +39,14 @@ Eigen::MatrixXd curves(const std::vector<SteadyPoint>& points) {
 }  // namespace
 
 Deviations largest_deviations(const std::vector<SteadyPoint>& points) {
-  constexpr double infinite = std::numeric_limits<double>::infinity();
   constexpr double margin = 4.0;
   std::vector<SteadyPoint> with_phase;
   std::ranges::copy_if(points, std::back_inserter(with_phase),
                        [](const SteadyPoint& point) { return !std::isnan(point.phase); });
-  if (with_phase.empty()) return {infinite, infinite, infinite};
+  if (with_phase.empty()) return {core::infinity, core::infinity, core::infinity};
   const Eigen::MatrixXd columns = curves(with_phase);
   const Eigen::Index freedom = columns.rows() - columns.cols();
-  if (freedom < 2) return {infinite, infinite, infinite};
+  if (freedom < 2) return {core::infinity, core::infinity, core::infinity};
   Eigen::VectorXcd drive(columns.rows());
   for (Eigen::Index i = 0; i < drive.size(); ++i) {
     const SteadyPoint& point = with_phase[static_cast<std::size_t>(i)];

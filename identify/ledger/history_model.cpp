@@ -124,7 +124,7 @@ class Histories {
     if (model.residuals.size() == 0) return model;
     const std::vector<ForwardLayout::Entry>& shared = fit_.layout().shared();
     // From the scales of the fit to zeta and F0.
-    const Eigen::Vector2d units(2.0 * std::sqrt(force.m * force.k) / shared[0].scale, 1.0 / shared[1].scale);
+    const Eigen::Vector2d units(critical_damping(force.m, force.k) / shared[0].scale, 1.0 / shared[1].scale);
     for (Eigen::Index j = 0; j < units.size(); ++j) {
       model.base.col(j) *= units[j];
       if (model.shaken.size() > 0) model.shaken.col(1 + j) *= units[j];
@@ -137,7 +137,7 @@ class Histories {
       const auto own = static_cast<Eigen::Index>(j);
       if (list_.ways[j].kind == Way::Kind::friction_of_history) model.F0_parts[own] = 1.0;
       if (list_.ways[j].term != nullptr && list_.ways[j].term->one_sided)
-        model.zeta_parts[own] = unit_force_ / scale_.speed / (2.0 * std::sqrt(force.m * force.k));
+        model.zeta_parts[own] = unit_force_ / scale_.speed / critical_damping(force.m, force.k);
     }
     return model;
   }
@@ -198,7 +198,7 @@ class Histories {
   [[nodiscard]] Place stepped(Place at, const Eigen::VectorXd& step, const Numbers& taken) const {
     const double scale = fit_.layout().shared()[0].scale;
     const ForceParameters before = force_at(at);
-    const double zeta = (before.c + step[0] * scale) / (2.0 * std::sqrt(before.m * before.k));
+    const double zeta = (before.c + step[0] * scale) / critical_damping(before.m, before.k);
     const Eigen::Index base = count_of_base();
     at.p += step.head(at.p.size());
     at.zeros += step.segment(at.p.size(), at.zeros.size());

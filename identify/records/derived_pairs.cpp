@@ -192,7 +192,7 @@ class PairReader {
     pair.x = half_peak_to_peak(x);
     pair.omega = drive.omega;
     pair.fundamental = x.harmonics[0].amplitude;
-    pair.phase = std::remainder(y.harmonics[0].phase - x.harmonics[0].phase, two_pi);
+    pair.phase = wrapped(y.harmonics[0].phase - x.harmonics[0].phase);
     pair.mean_square_speed = mean_square_speed(x, cut);
     pair.sweep = sweep_of(history_.sweep);
     diagnose(y, *steady, drive.omega);

@@ -96,10 +96,7 @@ void require_sound(const Sensors& sensors) {
 }
 
 /// The angle in [0, 2 pi).
-double wrapped(double phase) {
-  constexpr double turn = 2.0 * std::numbers::pi;
-  return phase - turn * std::floor(phase / turn);
-}
+double in_one_turn(double phase) { return phase - core::two_pi * std::floor(phase / core::two_pi); }
 
 /// Keeps `unknown` values unknown.
 Pair read_pair(const Pair& exact, Readers& readers, int periods, Reader::Place place) {
@@ -108,7 +105,7 @@ Pair read_pair(const Pair& exact, Readers& readers, int periods, Reader::Place p
   pair.x = readers.x.amplitude(exact.x, periods, place);
   if (!std::isnan(exact.phase)) {
     const double late = readers.x.phase_error(exact.x, exact.omega, periods);
-    pair.phase = wrapped(exact.phase + late - readers.y.phase_error(exact.Y, exact.omega, periods));
+    pair.phase = in_one_turn(exact.phase + late - readers.y.phase_error(exact.Y, exact.omega, periods));
   }
   if (!std::isnan(exact.fundamental)) pair.fundamental = readers.x.amplitude(exact.fundamental, periods, place);
   if (!std::isnan(exact.mean_square_speed)) {

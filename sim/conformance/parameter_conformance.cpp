@@ -8,6 +8,8 @@
 #include <utility>
 #include <variant>
 
+#include "core/constants.hpp"
+
 namespace dualdamp::sim {
 
 namespace {
@@ -70,8 +72,7 @@ class ParameterExaminer {
   }
 
   void examine_number(const friction::Parameter& parameter) {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
-    for (const double value : {std::numeric_limits<double>::quiet_NaN(), infinity, -infinity})
+    for (const double value : {std::numeric_limits<double>::quiet_NaN(), core::infinity, -core::infinity})
       refuse(parameter, value, "a finite number");
     const friction::Range range = parameter.allowed_range();
     const std::string allowed = range.describe(parameter.unit);
@@ -84,7 +85,7 @@ class ParameterExaminer {
     if (is_whole) refuse(parameter, std::max(range.low, 0.0) + 0.5, parameter.describe());
     if (parameter.at_least.empty() || completed_.number(parameter.at_least) <= range.low) return;
     friction::ParameterValues below = completed_;
-    below.set(parameter.name, std::nextafter(completed_.number(parameter.at_least), -infinity));
+    below.set(parameter.name, std::nextafter(completed_.number(parameter.at_least), -core::infinity));
     if (!names(friction::complete(table_, below), parameter.name))
       faults_.add("'" + std::string(parameter.name) + "' below '" + std::string(parameter.at_least) +
                   "' is accepted");

@@ -71,7 +71,7 @@ std::optional<double> den_hartogs(const Model& model, const ForceLimits& limits)
   const bool his =
       has_one_boundary(model, limits) && o.loss_factor == 0.0 && (is_force || o.damper_to == DamperTo::ground);
   if (!his) return std::nullopt;
-  const double zeta = o.damping / (2.0 * std::sqrt(o.mass * o.stiffness));
+  const double zeta = damping_ratio(o);
   const double r = model.excitation.frequency / natural_frequency(o);
   const double force = limits.kinetic / analytic::non_sticking_boundary(analytic::den_hartog(zeta, r));
   return is_force ? force : force / o.stiffness;

@@ -39,12 +39,11 @@ void place(double& value, Interval& into, const Interval& hull, double scale) {
 }
 
 void take(const LawIntervals& laws, const KnownConstants& constants, Estimate& estimate) {
-  const double critical = 2.0 * std::sqrt(constants.mass * constants.stiffness);
   estimate.value = laws.mean;
   estimate.std = laws.std;
   estimate.interval95.emplace();
   place(estimate.value.zeta, estimate.interval95->zeta, laws.zeta_hull, 1.0);
-  place(estimate.value.c, estimate.interval95->c, laws.zeta_hull, critical);
+  place(estimate.value.c, estimate.interval95->c, laws.zeta_hull, constants.critical_damping());
   place(estimate.value.F0, estimate.interval95->F0, laws.F0_hull, 1.0);
   place(estimate.value.x_f, estimate.interval95->x_f, laws.F0_hull, 1.0 / constants.stiffness);
 }

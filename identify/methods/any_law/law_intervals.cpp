@@ -118,9 +118,7 @@ class Summary {
     result.inflation = std::sqrt(scale_);
   }
 
-  [[nodiscard]] double zeta_of(double c) const {
-    return c / (2.0 * std::sqrt(constants_.mass * constants_.stiffness));
-  }
+  [[nodiscard]] double zeta_of(double c) const { return c / constants_.critical_damping(); }
 
   [[nodiscard]] LawAnswer answer_of(const Profile& profile, double reach) const {
     LawAnswer answer;
@@ -166,7 +164,7 @@ class Summary {
       *std = std::sqrt(square);
       *interval = {std::max(quantile(*mixture, 0.025), 0.0), quantile(*mixture, 0.975)};
     }
-    const double critical = 2.0 * std::sqrt(constants_.mass * constants_.stiffness);
+    const double critical = constants_.critical_damping();
     for (ParameterSet* set : {&result.mean, &result.std}) {
       set->c = set->zeta * critical;
       set->x_f = set->F0 / constants_.stiffness;

@@ -56,8 +56,6 @@ double phase_of(const sim::Model& model, const sim::SteadyState& state) {
   return model.excitation.phase - std::arg(sum);
 }
 
-double wrapped(double angle) { return std::remainder(angle, 2.0 * std::numbers::pi); }
-
 class SteadyReadings final : public ReadingModel {
  public:
   SteadyReadings(std::vector<Pair> states, const KnownConstants& constants, const ParameterSet& begin,
@@ -133,7 +131,7 @@ class SteadyReadings final : public ReadingModel {
                                                            const VectorXd& here,
                                                            NearbyOrbits& near) const override {
     Eigen::MatrixXd jacobian(here.size(), unknowns());
-    const double damping = 2.0 * p[1] * c_unit_ / (2.0 * std::sqrt(constants_.mass * constants_.stiffness));
+    const double damping = 2.0 * p[1] * c_unit_ / constants_.critical_damping();
     for (Index j = 0; j < std::min<Index>(unknowns(), stiffness_unknown + 1); ++j) {
       constexpr double least = 0.25;  // of the unknown's unit
       const double h =

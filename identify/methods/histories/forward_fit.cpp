@@ -135,7 +135,7 @@ std::vector<ForceParameters> starts(const Record& record, const std::vector<Forw
     if (const auto start = is_free(*test.history) ? from_extremes(test, force, constants) : std::nullopt)
       list.push_back(*start);
   const double length = ForwardLayout::length(tests);
-  const double critical = 2.0 * std::sqrt(force.m * force.k);
+  const double critical = critical_damping(force.m, force.k);
   for (const double zeta : {0.02, 0.1, 0.25, 0.5, 0.8, 1.2})
     for (const double share : {0.02, 0.1, 0.25})
       list.push_back({force.m, zeta * critical, force.k, share * force.k * length});
@@ -245,7 +245,7 @@ void ForwardFit::search_further(LeastSquaresProblem problem, const std::vector<E
   const ForceParameters force = layout_->force(found_.parameters);
   // A motion of few half swings: the place where it stops tells F0, and each number of half swings has a minimum.
   constexpr double heavy = 0.25;
-  const double zeta = force.c / (2.0 * std::sqrt(force.m * force.k));
+  const double zeta = force.c / critical_damping(force.m, force.k);
   const double share = force.F0 / (force.k * layout_->length());
   const bool all_free = std::ranges::all_of(tests_, [](const ForwardTest& test) { return is_free(*test.history); });
   const bool is_short = zeta > heavy || (all_free && share > 0.5 * heavy);

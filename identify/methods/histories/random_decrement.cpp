@@ -85,8 +85,7 @@ ForceParameters line_through(const EstimateCurve& curve, const KnownConstants& c
     S_uz += du * (zeta[i] - mean_zeta);
   }
   const double slope = S_uz / S_uu;
-  const double critical = 2.0 * std::sqrt(constants.mass * constants.stiffness);
-  return {constants.mass, critical * (mean_zeta - slope * mean_u), constants.stiffness,
+  return {constants.mass, constants.critical_damping() * (mean_zeta - slope * mean_u), constants.stiffness,
           0.5 * std::numbers::pi * constants.stiffness * slope};
 }
 
