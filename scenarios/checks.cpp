@@ -205,8 +205,7 @@ void check_loss_factor(CheckedFile& file, const Analysis& analysis, const Analys
                   "'" + path + "' does not work with a drive of several harmonics: it is that of one frequency",
                   "an excitation without harmonics");
   const bool damped = file.number_at("system", "damping").value_or(0.0) != 0.0;
-  if (damped && file.text_at("excitation", "type").starts_with("base") &&
-      file.text_at("system", "damper_to") == "ground")
+  if (damped && moves_base(file.text_at("excitation", "type")) && file.text_at("system", "damper_to") == "ground")
     file.complain(path,
                   "'" + path +
                       "' acts between mass and base, and 'system.damping' between mass and ground: the "

@@ -251,7 +251,7 @@ Scenario scenario_of(const Document& document, Reading reading, const std::strin
   scenario.result_rows = checked.result_rows;
   scenario.result_fields = result_fields(*checked.analysis, section);
   for (ResultField& field : scenario.result_fields) {
-    if (field.unit == "m or N") field.unit = amplitude_unit(scenario.model.excitation);
+    if (field.unit == unit_of_drive) field.unit = amplitude_unit(scenario.model.excitation);
     field.unit = core::unit_for(scenario.model.oscillator.coordinate, field.unit);
   }
   scenario.question = checked.analysis->ask(

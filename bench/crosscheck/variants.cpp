@@ -11,6 +11,7 @@
 
 #include "core/numbers.hpp"
 #include "friction_models/registry.hpp"
+#include "scenarios/format/excitations.hpp"
 
 namespace dualdamp::crosscheck {
 
@@ -87,7 +88,7 @@ void scale_law(Json& law, const Scales& scales) {
   scale_parameters(law, friction::find_law(law.at("law").get<std::string>())->parameters, scales);
 }
 
-bool is_base(const Json& excitation) { return excitation.at("type").get<std::string>().starts_with("base_"); }
+bool is_base(const Json& excitation) { return scenarios::moves_base(excitation.at("type").get<std::string>()); }
 
 void scale_excitation(Json& excitation, const Scales& scales) {
   const char* unit = is_base(excitation) ? "m" : "N";

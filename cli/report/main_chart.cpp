@@ -12,6 +12,7 @@
 #include "bench/analyses.hpp"
 #include "core/diagnostics.hpp"
 #include "core/numbers.hpp"
+#include "scenarios/format/excitations.hpp"
 #include "scenarios/results/shown_units.hpp"
 
 namespace dualdamp::cli {
@@ -119,9 +120,9 @@ class ChartMaker {
     if (units.contains(path)) return units.at(path).get<std::string>();
     const auto field = std::ranges::find(analysis_->results, path, &scenarios::ResultField::path);
     if (field == analysis_->results.end() || field->unit == "1") return {};
-    if (field->unit != "m or N") return field->unit;
+    if (field->unit != scenarios::unit_of_drive) return field->unit;
     const Json excitation = run_.document().at("scenario").value("excitation", Json::object());
-    return excitation.value("type", "").starts_with("force") ? "N" : "m";
+    return scenarios::moves_base(excitation.value("type", "")) ? "m" : "N";
   }
 
   /// Converts numbers in SI to the unit that is shown.

@@ -92,8 +92,8 @@ sim::Model outlined_model(const CheckedFile& file) {
   if (type == "force_harmonic") model.excitation.type = sim::ExcitationType::force_harmonic;
   const bool other = model.excitation.type == sim::ExcitationType::none && !type.empty() && type != "none";
   if (other)
-    model.excitation.type = type.find("force") != std::string::npos ? sim::ExcitationType::force_samples
-                                                                    : sim::ExcitationType::base_samples;
+    model.excitation.type =
+        moves_base(type) ? sim::ExcitationType::base_samples : sim::ExcitationType::force_samples;
   model.excitation.amplitude = file.number_at("excitation", "amplitude").value_or(0.0);
   if (file.text_at("excitation", "frequency").ends_with("rad/s"))
     model.excitation.frequency = *file.number_at("excitation", "frequency");

@@ -22,7 +22,7 @@ const Analysis& xy_branch_analysis() {
       .summary = "continuation of one orbit in amplitude, past folds and through orbits that do not attract",
       .keys = {{range("amplitudes", {"m", "N"}, "range of the excitation amplitude")}},
       .needs = needs_of_steady_states({"frequency"}),
-      .results = branch_fields({"Y", "m or N", "excitation amplitude"}),
+      .results = branch_fields({"Y", unit_of_drive, "excitation amplitude"}),
       .chart = {.table = "branch",
                 .list = "points",
                 .x = "Y",

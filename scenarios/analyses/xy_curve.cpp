@@ -24,23 +24,24 @@ Answer XyCurveQuestion::run(const RunContext& context) const {
 }
 
 const Analysis& xy_curve_analysis() {
-  static const Analysis analysis = {.name = "xy_curve",
-                                    .summary = "output amplitude over input amplitude",
-                                    .keys = {{amplitudes(), continue_key()}},
-                                    .needs = needs_of_steady_states({"frequency"}),
-                                    .results = curve_fields({{"points[].Y", "m or N", "excitation amplitude"}}),
-                                    .chart = {.table = "curve",
-                                              .list = "points",
-                                              .x = "Y",
-                                              .y = "x",
-                                              .x_label = "input amplitude Y",
-                                              .y_label = "output amplitude x",
-                                              .by = "direction"},
-                                    .steady_vibrations = true,
-                                    .verifiable = true,
-                                    .check = check_stepping,
-                                    .ask = ask_xy_curve,
-                                    .length_of = number_of_points};
+  static const Analysis analysis = {
+      .name = "xy_curve",
+      .summary = "output amplitude over input amplitude",
+      .keys = {{amplitudes(), continue_key()}},
+      .needs = needs_of_steady_states({"frequency"}),
+      .results = curve_fields({{"points[].Y", unit_of_drive, "excitation amplitude"}}),
+      .chart = {.table = "curve",
+                .list = "points",
+                .x = "Y",
+                .y = "x",
+                .x_label = "input amplitude Y",
+                .y_label = "output amplitude x",
+                .by = "direction"},
+      .steady_vibrations = true,
+      .verifiable = true,
+      .check = check_stepping,
+      .ask = ask_xy_curve,
+      .length_of = number_of_points};
   return analysis;
 }
 

@@ -6,9 +6,12 @@
 
 namespace dualdamp::scenarios {
 
+/// In place of the unit of an amplitude of the drive, which the scenario determines.
+inline constexpr const char* unit_of_drive = "m or N";
+
 struct ResultField {
   std::string path;  ///< into the result, with `[]` for any index
-  std::string unit;  ///< SI; "1" for a plain number, empty for what is no number
+  std::string unit;  ///< SI; "1" for a plain number, empty for what is no number; or `unit_of_drive`
   std::string meaning;
 };
 
