@@ -50,7 +50,7 @@ BranchPoint Continuation::describe(const Node& node) const {
   point.state.period = ratio_ * 2.0 * std::numbers::pi / model.excitation.frequency;
   point.state.start = node.period.begin;
   point.state.multipliers = node.period.multipliers();
-  account_for_orbit(model, map, false, point.state);
+  account_for_orbit(model, map, {.full = false}, point.state);
   // The derivative costs more than the motion, and a motion beside the orbit may cost more than the orbit.
   constexpr long times = 40;
   constexpr long least = 50;

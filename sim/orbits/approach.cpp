@@ -219,7 +219,7 @@ bool Approach::is_at_rest(const Orbit& orbit) {
                    .period_ratio = orbit.period_ratio,
                    .start = orbit.period.begin};
   PeriodMap map(model_, orbit.period_ratio);
-  account_for_orbit(model_, map, false, seen);
+  account_for_orbit(model_, map, {.full = false}, seen);
   return seen.peak == seen.trough;
 }
 

@@ -16,12 +16,12 @@ constexpr int samples = 1000;
 
 }  // namespace
 
-OrbitAccount::OrbitAccount(const Model& model, bool full, bool judge_rests)
-    : full_(full),
+OrbitAccount::OrbitAccount(const Model& model, AccountParts parts)
+    : full_(parts.full),
       drive_phase_(model.excitation.phase),
       energy_(model.oscillator),
       fundamental_(model.excitation.frequency),
-      judges_speed_(judge_rests && !model.friction.empty() &&
+      judges_speed_(parts.judge_rests && !model.friction.empty() &&
                     std::ranges::none_of(model.friction, &friction::Law::holds_mass)),
       spacing_(2.0 * std::numbers::pi / model.excitation.frequency / samples) {}
 
@@ -132,8 +132,8 @@ void OrbitAccount::write(SteadyState& result) {
   result.phase = result.amplitude > 0.0 ? lag - turn * std::floor(lag / turn) : 0.0;
 }
 
-void account_for_orbit(const Model& model, PeriodMap& map, bool full, SteadyState& result, bool judge_rests) {
-  OrbitAccount account(model, full, judge_rests);
+void account_for_orbit(const Model& model, PeriodMap& map, AccountParts parts, SteadyState& result) {
+  OrbitAccount account(model, parts);
   (void)map.from(result.start, Monodromy::without, &account);
   account.write(result);
 }

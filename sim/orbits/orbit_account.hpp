@@ -7,11 +7,16 @@
 
 namespace dualdamp::sim {
 
+/// What is collected.
+struct AccountParts {
+  bool full = true;          ///< phase, largest speed and energy too
+  bool judge_rests = false;  ///< rests by speed if no law holds the mass
+};
+
 /// Observes a period of the motion from its start; the period map calls it for every interval.
 class OrbitAccount final : public PeriodObserver {
  public:
-  /// `full`: with phase, largest speed and energy; `judge_rests`: count rests by speed if no law holds the mass.
-  OrbitAccount(const Model& model, bool full, bool judge_rests = false);
+  OrbitAccount(const Model& model, AccountParts parts);
 
   void begin(const State& start) override;
   void observe(const Interval& interval, double x) override;
@@ -45,7 +50,6 @@ class OrbitAccount final : public PeriodObserver {
 
 /// Computes the orbit that starts at `result.start` and fills in the other numbers of `result`. `map`: over
 /// `result.period_ratio` forcing periods.
-void account_for_orbit(const Model& model, PeriodMap& map, bool full, SteadyState& result,
-                       bool judge_rests = false);
+void account_for_orbit(const Model& model, PeriodMap& map, AccountParts parts, SteadyState& result);
 
 }  // namespace dualdamp::sim

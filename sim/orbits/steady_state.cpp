@@ -95,7 +95,7 @@ bool OrbitFinder::begin_on_sliding_orbit(State& begin) {
   if (!start) return false;
   begin = *start;
   // Newton's method will accept this start at once, so its pass along the orbit can collect the account too.
-  account_.emplace(model_, options_.full_account);
+  account_.emplace(model_, AccountParts{.full = options_.full_account});
   searched_ += orbit->certificate;
   return true;
 }
@@ -140,11 +140,12 @@ std::optional<Orbit> OrbitFinder::the_only_orbit(SteadyState& result) {
 void OrbitFinder::describe(SteadyState& result) {
   if (account_) return account_->write(result);
   map_.limit(std::numeric_limits<long>::max());
+  const AccountParts parts{.full = options_.full_account, .judge_rests = options_.judge_rests};
   if (result.period_ratio == 1) {
-    account_for_orbit(model_, map_, options_.full_account, result, options_.judge_rests);
+    account_for_orbit(model_, map_, parts, result);
   } else {
     PeriodMap map(model_, result.period_ratio);
-    account_for_orbit(model_, map, options_.full_account, result, options_.judge_rests);
+    account_for_orbit(model_, map, parts, result);
     searched_ += map.engine().count();
     if (result.period_ratio > 1)
       result.warnings.emplace_back("subharmonic: the motion repeats itself after several forcing periods only");
@@ -164,7 +165,7 @@ SteadyState OrbitFinder::with_extremes(const Orbit& orbit) {
                     .period_ratio = orbit.period_ratio,
                     .start = orbit.period.begin};
   PeriodMap map(model_, orbit.period_ratio);
-  account_for_orbit(model_, map, false, state);
+  account_for_orbit(model_, map, {.full = false}, state);
   searched_ += map.engine().count();
   return state;
 }

@@ -23,7 +23,7 @@ bool correct(PeriodMap& map, const KnownOrbit& near, const Model& model, const S
   State start = near.start;
   bool closes = false;
   for (double before = 1.0 / quick;; ++result.newton_steps) {
-    OrbitAccount account(model, options.full_account);
+    OrbitAccount account(model, {.full = options.full_account});
     ForcingPeriod period = map.from(start, Monodromy::without, &account);
     const double closure = period.closure(model.excitation.frequency);
     if (!map.outcome().ok() || !(closes ? closure <= tolerance : closure < quick * before)) return false;
