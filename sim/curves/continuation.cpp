@@ -42,7 +42,7 @@ bool is_held(const SteadyState& state) { return state.peak == state.trough && !s
 
 }  // namespace
 
-BranchPoint Continuation::describe(const Node& node) const {
+BranchPoint Continuation::describe(const Node& node) {
   BranchPoint point{node.parameter, {}};
   const Model model = at(node.parameter);
   CountedMap map(model, ratio_, effort_);
@@ -85,7 +85,7 @@ bool Continuation::was_passed(const Node& node) const {
 /// The orbit exactly at the end of the range, between the last node inside and the first one outside, which is
 /// `step` further on. Where neighbouring motions part fast, Newton's method needs a good start: the two nodes are
 /// brought nearer to the end, step by step along the branch.
-std::optional<Node> Continuation::at_edge(Node inner, Node outer, double step) const {
+std::optional<Node> Continuation::at_edge(Node inner, Node outer, double step) {
   constexpr int attempts = 30;
   const double edge = std::abs(outer.parameter - from_) < std::abs(outer.parameter - to_) ? from_ : to_;
   for (int i = 0; i < attempts && !is_exhausted(); ++i) {
@@ -248,7 +248,7 @@ std::string Continuation::where_held(double held, double other) {
 
 /// The place just ahead at which the mass ceases to move, if the motion dies there: the branch then ends in a
 /// continuum of rest positions, which no step reaches.
-std::optional<double> Continuation::rest_ahead(const Node& node) const {
+std::optional<double> Continuation::rest_ahead(const Node& node) {
   constexpr double dying = 1e-6;  // of the displacement by the drive
   constexpr double reach = 1e-3;
   constexpr double attracting = 1.0 + 1e-6;
@@ -272,7 +272,7 @@ std::optional<double> Continuation::rest_ahead(const Node& node) const {
 }
 
 /// Whether the motion from `start` comes to rest within a few periods.
-bool Continuation::comes_to_rest(double parameter, const State& start) const {
+bool Continuation::comes_to_rest(double parameter, const State& start) {
   constexpr int most_periods = 20;
   CountedMap map(at(parameter), 1, effort_);
   ForcingPeriod period = map.from(start, Monodromy::without);

@@ -84,7 +84,7 @@ void Continuation::add_change(ChangeKind kind, const BranchPoint& before, const 
 /// Bisects the parameter between `low` and `high` to the place at which `changed` becomes true. False: the branch
 /// does not pass from one to the other along the parameter alone.
 template <class Changed>
-bool Continuation::bisect(BranchPoint& low, BranchPoint& high, const State& guess, const Changed& changed) const {
+bool Continuation::bisect(BranchPoint& low, BranchPoint& high, const State& guess, const Changed& changed) {
   const double scale = std::max(std::abs(from_), std::abs(to_));
   constexpr double farthest = 30.0;  // the branch may make a detour where the sequence changes
   const State begin = low.state.start;
@@ -102,7 +102,7 @@ bool Continuation::bisect(BranchPoint& low, BranchPoint& high, const State& gues
 
 /// The two orbits on either side of the place at which `changed` becomes true, by bisection along the branch.
 template <class Changed>
-std::pair<Node, Node> Continuation::close_in(Node low, Node high, const Changed& changed) const {
+std::pair<Node, Node> Continuation::close_in(Node low, Node high, const Changed& changed) {
   const bool distinct = !same_mode(low.period.begin, high.period.begin) ||
                         coordinates(low.period.begin) != coordinates(high.period.begin);
   double step = distinct ? options_.largest_step : options_.smallest_step;
@@ -123,7 +123,7 @@ std::pair<Node, Node> Continuation::close_in(Node low, Node high, const Changed&
 
 /// Whether two points next to each other lie on different branches: somewhere in the period the motions are far
 /// apart, however close they are at its start. So it is where a release jumps (static friction above kinetic).
-bool Continuation::are_apart(const BranchPoint& a, const BranchPoint& b) const {
+bool Continuation::are_apart(const BranchPoint& a, const BranchPoint& b) {
   constexpr double least = 1e-3;      // of the size of the motion
   constexpr double steepest = 100.0;  // distance within the period over that at its start
   const auto node_of = [&](const BranchPoint& point, Course* course) {

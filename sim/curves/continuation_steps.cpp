@@ -89,7 +89,7 @@ void Continuation::limit_by_accuracy(double accuracy) {
 
 /// Whether the node is an orbit; `before`: the closure before the last correction. Where corrections no longer
 /// help, rounding is enough.
-bool Continuation::closes(const Node& node, double before) const {
+bool Continuation::closes(const Node& node, double before) {
   const Model model = at(node.parameter);
   const double closure = node.period.closure(model.excitation.frequency);
   if (closure <= closure_.tolerance) return true;
@@ -118,7 +118,7 @@ Model Continuation::at(double parameter) const {
 double Continuation::omega(double parameter) const { return at(parameter).excitation.frequency; }
 
 /// None if the motion was not followed over the whole period.
-std::optional<ForcingPeriod> Continuation::period(double parameter, const State& start) const {
+std::optional<ForcingPeriod> Continuation::period(double parameter, const State& start) {
   CountedMap map(at(parameter), ratio_, effort_);
   ForcingPeriod result = map.from(start, Monodromy::with);
   if (!map.outcome().ok()) return std::nullopt;
@@ -145,7 +145,7 @@ VectorXd Continuation::scale(const Node& node) const {
 /// motions part fast, the start moves on along the branch, too: orbits near each other stay near each other, so the
 /// difference has no large terms of second order. The monodromy matrix then takes the motion of the start out
 /// again.
-std::optional<VectorXd> Continuation::by_parameter(const Node& node, const VectorXd& along) const {
+std::optional<VectorXd> Continuation::by_parameter(const Node& node, const VectorXd& along) {
   const Index n = node.period.monodromy.cols();
   VectorXd moved_start = VectorXd::Zero(n);
   double length = nudge_ * node.parameter;
@@ -167,15 +167,14 @@ std::optional<VectorXd> Continuation::by_parameter(const Node& node, const Vecto
 }
 
 /// Unit tangent in scaled coordinates, in the direction of `along`.
-std::optional<VectorXd> Continuation::tangent(const Node& node, const VectorXd& along) const {
+std::optional<VectorXd> Continuation::tangent(const Node& node, const VectorXd& along) {
   std::optional<VectorXd> direction = tangent_near(node, along, along);
   if (direction && amplification(node) > far_apart) direction = tangent_near(node, along, *direction);
   return direction;
 }
 
 /// The same; `guess`: a direction near the tangent.
-std::optional<VectorXd> Continuation::tangent_near(const Node& node, const VectorXd& along,
-                                                   const VectorXd& guess) const {
+std::optional<VectorXd> Continuation::tangent_near(const Node& node, const VectorXd& along, const VectorXd& guess) {
   const std::optional<VectorXd> slope = by_parameter(node, guess);
   const Index n = node.period.monodromy.cols();
   if (!slope || along.size() != n + 1) return std::nullopt;
@@ -190,7 +189,7 @@ std::optional<VectorXd> Continuation::tangent_near(const Node& node, const Vecto
 }
 
 /// The orbit at a fixed parameter nearest to `guess`.
-std::optional<Node> Continuation::orbit(double parameter, const State& guess) const {
+std::optional<Node> Continuation::orbit(double parameter, const State& guess) {
   CountedMap map(at(parameter), ratio_, effort_);
   Node node{parameter, map.from(guess, Monodromy::with), {}, {}};
   double before = std::numeric_limits<double>::infinity();
@@ -213,7 +212,7 @@ VectorXd Continuation::predicted(const Node& from, double step) const {
 }
 
 /// Predictor and corrector: the orbit closes, and the step along the tangent has the length `step`.
-std::optional<Node> Continuation::correct(const Node& from, double step) const {
+std::optional<Node> Continuation::correct(const Node& from, double step) {
   const VectorXd size = scale(from);
   const Index n = size.size() - 1;
   const VectorXd change_there = predicted(from, step);
@@ -254,7 +253,7 @@ std::optional<Node> Continuation::correct(const Node& from, double step) const {
 
 /// The same if the predicted state is in another mode than the orbit: a few periods of the motion find the mode.
 /// They must be few, because the motion leaves an orbit that does not attract.
-std::optional<Node> Continuation::cross_modes(const Node& from, double step) const {
+std::optional<Node> Continuation::cross_modes(const Node& from, double step) {
   const VectorXd change = predicted(from, step);
   const Index n = change.size() - 1;
   const double parameter = from.parameter + change[n];
@@ -326,7 +325,7 @@ bool Continuation::turns_too_far(const Node& from, const Node& node, const Vecto
 
 /// The next point with its tangent; halves `step` as often as needed. None: the branch ends, or no step converged
 /// although `nearest_` is small.
-std::optional<Node> Continuation::advance(const Node& from, double& step) const {
+std::optional<Node> Continuation::advance(const Node& from, double& step) {
   for (; step >= options_.smallest_step && !is_exhausted(); step *= 0.5) {
     nearest_ = std::numeric_limits<double>::infinity();
     std::optional<Node> node = correct(from, step);

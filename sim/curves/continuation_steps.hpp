@@ -78,20 +78,20 @@ class Continuation {
 
  private:
   void limit_by_accuracy(double accuracy);
-  [[nodiscard]] bool closes(const Node& node, double before) const;
+  [[nodiscard]] bool closes(const Node& node, double before);
   [[nodiscard]] Model at(double parameter) const;
-  [[nodiscard]] std::optional<ForcingPeriod> period(double parameter, const State& start) const;
+  [[nodiscard]] std::optional<ForcingPeriod> period(double parameter, const State& start);
   [[nodiscard]] double omega(double parameter) const;
   [[nodiscard]] double parameter_scale(double parameter) const;
   [[nodiscard]] Eigen::VectorXd scale(const Node& node) const;
-  [[nodiscard]] std::optional<Eigen::VectorXd> by_parameter(const Node& node, const Eigen::VectorXd& along) const;
+  [[nodiscard]] std::optional<Eigen::VectorXd> by_parameter(const Node& node, const Eigen::VectorXd& along);
   [[nodiscard]] double amplification(const Node& node) const;
-  [[nodiscard]] std::optional<Eigen::VectorXd> tangent(const Node& node, const Eigen::VectorXd& along) const;
+  [[nodiscard]] std::optional<Eigen::VectorXd> tangent(const Node& node, const Eigen::VectorXd& along);
   [[nodiscard]] std::optional<Eigen::VectorXd> tangent_near(const Node& node, const Eigen::VectorXd& along,
-                                                            const Eigen::VectorXd& guess) const;
-  [[nodiscard]] std::optional<Node> orbit(double parameter, const State& guess) const;
-  [[nodiscard]] std::optional<Node> correct(const Node& from, double step) const;
-  [[nodiscard]] std::optional<Node> cross_modes(const Node& from, double step) const;
+                                                            const Eigen::VectorXd& guess);
+  [[nodiscard]] std::optional<Node> orbit(double parameter, const State& guess);
+  [[nodiscard]] std::optional<Node> correct(const Node& from, double step);
+  [[nodiscard]] std::optional<Node> cross_modes(const Node& from, double step);
   [[nodiscard]] Eigen::VectorXd predicted(const Node& from, double step) const;
   [[nodiscard]] Eigen::VectorXd arc(const Node& from, const Node& node) const;
   [[nodiscard]] bool turns_too_far(const Node& from, const Node& node, const Eigen::VectorXd& tangent) const;
@@ -99,10 +99,10 @@ class Continuation {
   [[nodiscard]] double farthest(double step) const;
   [[nodiscard]] bool is_ahead(const Node& from, const Node& node, double step) const;
   [[nodiscard]] bool lies_between(const State& low, const Node& node, const State& high, double farthest) const;
-  [[nodiscard]] std::optional<Node> at_edge(Node inner, Node outer, double step) const;
+  [[nodiscard]] std::optional<Node> at_edge(Node inner, Node outer, double step);
   [[nodiscard]] bool was_passed(const Node& node) const;
-  [[nodiscard]] std::optional<Node> advance(const Node& from, double& step) const;
-  [[nodiscard]] BranchPoint describe(const Node& node) const;
+  [[nodiscard]] std::optional<Node> advance(const Node& from, double& step);
+  [[nodiscard]] BranchPoint describe(const Node& node);
   [[nodiscard]] bool inside(double parameter) const;
   [[nodiscard]] bool is_exhausted() const { return effort_.work > options_.most_work; }
   [[nodiscard]] std::optional<Branch> ended_ahead(const Node& node);
@@ -110,18 +110,18 @@ class Continuation {
   [[nodiscard]] bool ends_ahead(const Node& node) const;
   [[nodiscard]] std::string parting_at(const Node& node) const;
   [[nodiscard]] std::string where_held(double held, double other);
-  [[nodiscard]] std::optional<double> rest_ahead(const Node& node) const;
-  [[nodiscard]] bool comes_to_rest(double parameter, const State& start) const;
+  [[nodiscard]] std::optional<double> rest_ahead(const Node& node);
+  [[nodiscard]] bool comes_to_rest(double parameter, const State& start);
   [[nodiscard]] std::string with_unit(double parameter, int digits) const;
   [[nodiscard]] Branch at_rest(const Node& node, double place);
   [[nodiscard]] Branch ended(BranchEnd end, const std::string& warning);
   [[nodiscard]] bool record(const Node& before, const Node& after);
   void locate_stability(const Node& before, BranchPoint low, BranchPoint high);
   template <class Changed>
-  [[nodiscard]] bool bisect(BranchPoint& low, BranchPoint& high, const State& guess, const Changed& changed) const;
+  [[nodiscard]] bool bisect(BranchPoint& low, BranchPoint& high, const State& guess, const Changed& changed);
   template <class Changed>
-  [[nodiscard]] std::pair<Node, Node> close_in(Node low, Node high, const Changed& changed) const;
-  [[nodiscard]] bool are_apart(const BranchPoint& a, const BranchPoint& b) const;
+  [[nodiscard]] std::pair<Node, Node> close_in(Node low, Node high, const Changed& changed);
+  [[nodiscard]] bool are_apart(const BranchPoint& a, const BranchPoint& b);
   [[nodiscard]] bool locate_sequences(const Node& before, const Node& after, BranchPoint& low,
                                       const BranchPoint& last);
   [[nodiscard]] bool locate_fold(const Node& before, const Node& after, BranchPoint& low);
@@ -136,9 +136,9 @@ class Continuation {
   int ratio_ = 1;  ///< forcing periods in a period of the motion
   Branch branch_;
   Closure closure_;
-  double nudge_ = 1e-7;           ///< relative change of the parameter for the difference quotient by it
-  mutable double nearest_ = 0.0;  ///< smallest closure of the corrections of the last step over its rounding
-  mutable Effort effort_;
+  double nudge_ = 1e-7;   ///< relative change of the parameter for the difference quotient by it
+  double nearest_ = 0.0;  ///< smallest closure of the corrections of the last step over its rounding
+  Effort effort_;
 };
 
 }  // namespace dualdamp::sim
