@@ -63,6 +63,14 @@ ROOMS = {
         "ledger": [".", "statistics", "records", "models", "uncertainty", "methods"],
         "design": [".", "statistics", "methods"],
     },
+    "bench": {
+        ".": ["score"],  # the campaign scores its cases, and the scores know its grid and predictions
+        "score": ["."],
+        "contest": [".", "score"],
+        "crosscheck": [],
+        "speed": [],
+        "accuracy": [],
+    },
     "scenarios": {
         ".": ["format", "results", "measurements", "analyses"],  # loads and runs; the list of analyses
         "format": [],

@@ -46,6 +46,8 @@ FAULTS = {
     "json below scenarios": ("sim/bad.cpp", "#include <nlohmann/json.hpp>\n", ["nlohmann-json may appear only in"]),
     "a room from below": ("sim/smooth.cpp", '#include "sim/engine/state.hpp"\n', ["sim/ may include of sim/ only itself"]),
     "a room that is not listed": ("sim/attic/x.cpp", '#include "sim/smooth.hpp"\n', ["sim/attic/ is no room listed"]),
+    "a sibling room of bench": ("bench/crosscheck/x.cpp", '#include "bench/speed/main.cpp"\n',
+                                ["bench/crosscheck/ may include of bench/ only itself"]),
     "an option in a message": ("scenarios/bad.cpp", 'const char* remedy = "leave out --mass";\n',
                                ["scenarios/bad.cpp:1", "--mass is an option of a command line"]),
     "a private header of another folder": ("cli/bad.cpp", '#include "scenarios/json.hpp"\n', ["private to scenarios/"]),
