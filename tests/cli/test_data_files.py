@@ -204,6 +204,18 @@ class DataFiles(unittest.TestCase):
         self.assertIn("the unit of column Y is stated twice", said)
         self.assertNotIn("the coordinate is", said)
 
+    def test_a_scenario_is_advised_its_keys_and_the_command_line_its_options(self):
+        self.write("units.csv", "Y [mm],x [banana]\n1,2\n")
+        path = self.write(
+            "identify.yaml",
+            "schema: dualdamp/1\nsystem: {mass: 1 kg, stiffness: 100 N/m}\n"
+            "excitation: {type: base_harmonic, frequency: 1 Hz}\nanalysis: {type: identify, data: units.csv}\n",
+        )
+        said = subprocess.run([PROGRAM, "run", path], cwd=self.folder, capture_output=True, text=True).stderr
+        self.assertIn("in the file as 'x [unit]', or as units: {x: UNIT}", said)
+        self.assertNotIn("--unit", said)
+        self.assertIn("in the file as 'x [unit]', or as --unit x=UNIT", self.identify("units.csv").stderr)
+
     def test_gaps_are_told(self):
         times = [t for i, t in enumerate(EVEN) if i not in (10, 11)]
         result = self.identify(self.write("gaps.csv", history(times).replace("t,x", "t,x [mm]")))
