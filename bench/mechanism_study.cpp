@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 #include <vector>
 
@@ -53,7 +52,7 @@ Apparatus Study::apparatus_of(const sim::Model& model, const Levels& levels) {
   const double frequency = model.excitation.frequency;
   return {.oscillator = model.oscillator,
           .reference = {.amplitude = levels.x[middle], .frequency = frequency, .Y = levels.Y[middle]},
-          .warming_time = warming_periods * 2.0 * std::numbers::pi / frequency};
+          .warming_time = warming_periods * core::two_pi / frequency};
 }
 
 /// The best of all starts of each mechanism.

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "bench/campaign.hpp"
 #include "bench/random_response.hpp"
@@ -10,6 +9,7 @@
 #include "bench/score/program_answer.hpp"
 #include "bench/score/score_tables.hpp"
 #include "bench/truth.hpp"
+#include "core/constants.hpp"
 #include "core/numbers.hpp"
 #include "identify/statistics/median.hpp"
 #include "scenarios/format/common_keys.hpp"
@@ -278,7 +278,7 @@ void check_samples(CheckedFile& file, const Json& analysis) {
   double most = 0.0;
   for (const Json& range : analysis.at("ranges"))
     if (range.contains("amplitudes")) most = std::max(most, static_cast<double>(states_of(range)));
-  const double period = 2.0 * std::numbers::pi / file.number_at("excitation", "frequency").value_or(1.0);
+  const double period = core::two_pi / file.number_at("excitation", "frequency").value_or(1.0);
   for (const Json& set : analysis.at("sensors"))
     if (set.contains("sample_rate"))
       check_rows(file, "analysis.sample_rate",

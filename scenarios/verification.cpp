@@ -5,9 +5,9 @@
 #include <complex>
 #include <limits>
 #include <map>
-#include <numbers>
 #include <optional>
 
+#include "core/constants.hpp"
 #include "core/numbers.hpp"
 #include "friction_models/law_fault.hpp"
 #include "scenarios/aligned_answer.hpp"
@@ -164,7 +164,7 @@ class Comparison {
     if (std::isnan(mine) && std::isnan(theirs)) return;
     double gap = std::abs(mine - theirs);
     if (unit == "rad") {
-      gap = std::abs(std::remainder(mine - theirs, 2.0 * std::numbers::pi));
+      gap = std::abs(std::remainder(mine - theirs, core::two_pi));
       size = 1.0;
     }
     add(quantity, gap == 0.0 ? 0.0 : gap / size, verification_tolerance(unit), mine, theirs);

@@ -4,9 +4,9 @@
 
 #include <cmath>
 #include <cstdint>
-#include <numbers>
 #include <string_view>
 
+#include "core/constants.hpp"
 #include "core/random.hpp"
 
 namespace dualdamp::crosscheck {
@@ -25,7 +25,7 @@ class Draws {
   int pick(int count) { return static_cast<int>(uniform(0.0, count)); }
   bool chance(double probability) { return uniform(0.0, 1.0) < probability; }
   double sign() { return chance(0.5) ? 1.0 : -1.0; }
-  double angle() { return uniform(0.0, 2.0 * std::numbers::pi); }
+  double angle() { return uniform(0.0, core::two_pi); }
 
  private:
   /// In [0, 1).

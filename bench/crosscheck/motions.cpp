@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "bench/crosscheck/differences.hpp"
 #include "bench/crosscheck/variants.hpp"
+#include "core/constants.hpp"
 #include "friction_models/registry.hpp"
 #include "scenarios/scenario.hpp"
 #include "sim/engine/engine.hpp"
@@ -243,8 +243,8 @@ class Motions {
 double duration_of(const Json& scenario, const sim::Model& model) {
   const Json& analysis = scenario.at("analysis");
   if (analysis.contains("duration")) return analysis.at("duration").get<double>();
-  const double natural = 2.0 * std::numbers::pi / sim::natural_frequency(model.oscillator);
-  const double forcing = 2.0 * std::numbers::pi / model.excitation.frequency;
+  const double natural = core::two_pi / sim::natural_frequency(model.oscillator);
+  const double forcing = core::two_pi / model.excitation.frequency;
   return std::min(3.0 * forcing + 10.0 * natural, 60.0 * std::min(natural, forcing));
 }
 

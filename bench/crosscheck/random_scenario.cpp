@@ -1,8 +1,8 @@
 #include "bench/crosscheck/random_scenario.hpp"
 
 #include <algorithm>
-#include <numbers>
 
+#include "core/constants.hpp"
 #include "core/numbers.hpp"
 
 namespace dualdamp::crosscheck {
@@ -48,7 +48,7 @@ Json harmonic(Draws& draws, const Sizes& sizes, const char* type) {
 
 /// A ramp that reaches the force of the drive within 0.1 to 100 natural periods, so that the friction gives way.
 Json ramp(Draws& draws, const Sizes& sizes, const char* type) {
-  const double time = draws.logarithmic(0.1, 100.0) * 2.0 * std::numbers::pi / sizes.natural;
+  const double time = draws.logarithmic(0.1, 100.0) * core::two_pi / sizes.natural;
   const double sign = draws.sign();
   if (std::string_view(type) == "base_ramp") return {{"type", type}, {"velocity", sign * sizes.length() / time}};
   return {{"type", type}, {"rate", sign * sizes.force / time}};
@@ -66,7 +66,7 @@ Json noise(Draws& draws, const Sizes& sizes) {
 /// Samples at nodes; a base with a damper to it may not jump.
 Json table(Draws& draws, const Sizes& sizes, bool may_jump) {
   const bool moves_base = draws.chance(0.5);
-  const double natural_period = 2.0 * std::numbers::pi / sizes.natural;
+  const double natural_period = core::two_pi / sizes.natural;
   const double spacing = natural_period * draws.logarithmic(0.01, 1.0);
   const double size = moves_base ? sizes.length() : sizes.force;
   Json times = {0.0};
@@ -95,7 +95,7 @@ Json chirp(Draws& draws, const Sizes& sizes) {
           {"amplitude", moves_base ? sizes.length() : sizes.force},
           {"from", frequency(from)},
           {"to", frequency(from * draws.logarithmic(0.1, 10.0))},
-          {"duration", 2.0 * std::numbers::pi / sizes.natural * draws.logarithmic(0.5, 20.0)},
+          {"duration", core::two_pi / sizes.natural * draws.logarithmic(0.5, 20.0)},
           {"spacing", draws.chance(0.5) ? "linear" : "log"},
           {"phase", draws.angle()}};
 }
@@ -113,7 +113,7 @@ Json excitation(Draws& draws, const Sizes& sizes, bool may_jump) {
 
 /// Duration of a motion without a period [s].
 double duration(const Json& excitation, const Sizes& sizes) {
-  const double natural_period = 2.0 * std::numbers::pi / sizes.natural;
+  const double natural_period = core::two_pi / sizes.natural;
   double time = 10.0 * natural_period;
   if (excitation.contains("velocity"))
     time += 3.0 * sizes.length() / std::abs(excitation.at("velocity").get<double>());

@@ -13,13 +13,13 @@
 #include <array>
 #include <cmath>
 #include <memory>
-#include <numbers>
 #include <span>
 #include <stdexcept>
 #include <string>
 
 #include "bench/speed/contender.hpp"
 #include "bench/speed/smooth_contender.hpp"
+#include "core/constants.hpp"
 
 namespace dualdamp::bench::speed {
 namespace {
@@ -153,7 +153,7 @@ struct RigidSolver {
 };
 
 IntegratedMotion integrate(const StandardCase& work, RigidSolver& solver, int periods) {
-  const double end = periods * 2.0 * std::numbers::pi / work.frequency;
+  const double end = periods * core::two_pi / work.frequency;
   IntervalField& field = solver.field;
   field.direction = std::copysign(1.0, work.start_velocity);
   solver.begin(0.0, work.start_position, work.start_velocity);
@@ -242,7 +242,7 @@ void SmoothSolver::integrate(const sim::State& start, int periods, std::vector<d
   if (field.has_state) X[2] = start.memories.front().state.front();
   field.direction = std::copysign(1.0, start.v);
   cvode.restart(0.0);
-  const double end = periods * 2.0 * std::numbers::pi / field.standard.frequency;
+  const double end = periods * core::two_pi / field.standard.frequency;
   double time = 0.0;
   while (cvode.advance(end, time)) {
     turning_points.push_back(X[0]);

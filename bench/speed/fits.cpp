@@ -4,10 +4,10 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
-#include <numbers>
 #include <stdexcept>
 #include <string>
 
+#include "core/constants.hpp"
 #include "core/random.hpp"
 #include "friction_models/registry.hpp"
 #include "identify/fit/prediction.hpp"
@@ -23,7 +23,7 @@ identify::Rig rig_with(const char* law, friction::ParameterValues values) {
   identify::Rig rig;
   rig.known.oscillator = {.mass = 1.0, .stiffness = 1000.0, .damping = 1.0};
   rig.known.excitation = {
-      .type = sim::ExcitationType::base_harmonic, .amplitude = 5e-3, .frequency = 2.0 * std::numbers::pi * 4.0};
+      .type = sim::ExcitationType::base_harmonic, .amplitude = 5e-3, .frequency = core::two_pi * 4.0};
   rig.known.solver.tolerance = 1e-9;
   rig.laws.push_back({friction::find_law(law), std::move(values)});
   return rig;

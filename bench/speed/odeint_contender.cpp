@@ -5,9 +5,9 @@
 #include <boost/numeric/odeint/stepper/runge_kutta_dopri5.hpp>
 #include <cmath>
 #include <cstdint>
-#include <numbers>
 
 #include "bench/speed/contender.hpp"
+#include "core/constants.hpp"
 
 namespace dualdamp::bench::speed {
 namespace {
@@ -40,7 +40,7 @@ double locate(Locator locator, const Velocity& velocity, double low, double high
 }
 
 IntegratedMotion integrate(const StandardCase& work, double tolerance, Locator locator, int periods) {
-  const double end = periods * 2.0 * std::numbers::pi / work.frequency;
+  const double end = periods * core::two_pi / work.frequency;
   auto stepper = odeint::make_dense_output(tolerance, tolerance, odeint::runge_kutta_dopri5<State>());
   IntervalField field(work);
   const auto system = [&field](const State& state, State& rate, double t) {

@@ -3,18 +3,18 @@
 #include <cmath>
 #include <ctime>
 #include <memory>
-#include <numbers>
 #include <stdexcept>
 #include <utility>
 #include <vector>
 
+#include "core/constants.hpp"
 #include "friction_models/laws/coulomb.hpp"
 #include "sim/motion/simulate.hpp"
 
 namespace dualdamp::bench::speed {
 
 double seconds_for_sampled_drive(const StandardCase& work, int count, sim::Interpolation interpolation) {
-  const double step = 2.0 * std::numbers::pi / (628.0 * work.frequency);
+  const double step = core::two_pi / (628.0 * work.frequency);
   std::vector<double> times;
   std::vector<double> values;
   for (int i = 0; i < count; ++i) {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <numeric>
 #include <ranges>
@@ -14,6 +13,7 @@
 #include "core/numbers.hpp"
 #include "scenarios/format/excitations.hpp"
 #include "scenarios/results/shown_units.hpp"
+#include "scenarios/results/table.hpp"
 
 namespace dualdamp::cli {
 
@@ -22,8 +22,6 @@ namespace {
 using Json = StoredRun::Json;
 using scenarios::MainChart;
 using scenarios::ShownUnit;
-
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 /// The units in which a run's numbers are shown.
 scenarios::ShownUnits shown_units_of(const StoredRun& run) { return scenarios::shown_units(written_units(run)); }
@@ -144,8 +142,8 @@ class ChartMaker {
     ChartSeries series{.label = std::move(label), .kind = kind, .colour = static_cast<int>(chart_.series.size())};
     for (std::size_t i = 0; i < rows.size(); ++i) {
       if (breaks && i > 0 && rows[i] != rows[i - 1] + 1) {
-        series.x.push_back(none);
-        series.y.push_back(none);
+        series.x.push_back(scenarios::none);
+        series.y.push_back(scenarios::none);
       }
       series.x.push_back(x.numbers[rows[i]]);
       series.y.push_back(y.numbers[rows[i]]);

@@ -10,6 +10,7 @@
 #include "core/provenance.hpp"
 #include "scenarios/results/files.hpp"
 #include "scenarios/results/shown_units.hpp"
+#include "scenarios/results/table.hpp"
 
 namespace dualdamp::cli {
 
@@ -19,7 +20,6 @@ namespace fs = std::filesystem;
 using Json = StoredRun::Json;
 
 constexpr const char* as_no_run_writes = "the file is not as a run wrote it: run the scenario again";
-constexpr double missing = std::numeric_limits<double>::quiet_NaN();
 
 [[noreturn]] void refuse(const fs::path& file, std::string message) {
   core::Diagnostic problem;
@@ -127,7 +127,7 @@ void finish(StoredColumn& column) {
   for (const std::string& text : column.texts) {
     const auto number = core::parse_number(text).value;
     column.is_text = column.is_text || (!number && !text.empty());
-    column.numbers.push_back(number.value_or(missing));
+    column.numbers.push_back(number.value_or(scenarios::none));
   }
 }
 
@@ -230,7 +230,7 @@ StoredTable StoredRun::list(std::string_view path) const {
   for (StoredColumn& column : table.columns)
     for (const Json& row : rows) {
       const Json value = row.value(column.name, Json());
-      column.numbers.push_back(value.is_number() ? value.get<double>() : missing);
+      column.numbers.push_back(value.is_number() ? value.get<double>() : scenarios::none);
       column.texts.push_back(value.is_string() ? value.get<std::string>() : "");
       column.is_text = column.is_text || value.is_string();
     }

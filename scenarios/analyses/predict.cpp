@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <numbers>
 #include <utility>
 
+#include "core/constants.hpp"
 #include "core/numbers.hpp"
 #include "friction_models/registry.hpp"
 #include "identify/fit/prediction.hpp"
@@ -120,8 +120,7 @@ std::string drive_text(const Json& section, const sim::Excitation& drive) {
   if (section.contains("file")) return text + ", file " + section.at("file").get<std::string>();
   if (drive.is_harmonic() || drive.is_chirp())
     text += ", " + core::format_number(drive.amplitude, 6) + (drive.moves_base() ? " m" : " N");
-  if (drive.is_harmonic())
-    text += ", " + core::format_number(drive.frequency / (2.0 * std::numbers::pi), 6) + " Hz";
+  if (drive.is_harmonic()) text += ", " + core::format_number(drive.frequency / core::two_pi, 6) + " Hz";
   return text;
 }
 

@@ -1,8 +1,8 @@
 #include "scenarios/format/values.hpp"
 
 #include <cmath>
-#include <numbers>
 
+#include "core/constants.hpp"
 #include "core/numbers.hpp"
 #include "core/units.hpp"
 
@@ -64,7 +64,7 @@ std::size_t grid_size(const Json& grid) {
 }
 
 double duration_of(const Json& section, double frequency) {
-  const double period = 2.0 * std::numbers::pi / frequency;
+  const double period = core::two_pi / frequency;
   return section.contains("cycles") ? number(section.at("cycles")) * period : number(section.at("duration"));
 }
 

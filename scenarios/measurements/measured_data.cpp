@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <numbers>
 #include <utility>
 
+#include "core/constants.hpp"
 #include "core/numbers.hpp"
 #include "core/uncertain_quantity.hpp"
 #include "identify/records/derived_records.hpp"
@@ -85,7 +85,7 @@ void refuse_gross_faults(CheckedFile& file, identify::MeasuredRecord& data, doub
 
 std::string hertz(double omega) {
   constexpr int digits = 4;
-  return core::format_number(omega / (2.0 * std::numbers::pi), digits) + " Hz";
+  return core::format_number(omega / core::two_pi, digits) + " Hz";
 }
 
 /// A stated frequency that is not the drive's would be ignored: histories and pairs have their own.
