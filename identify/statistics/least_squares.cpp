@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/cancellation.hpp"
+#include "core/constants.hpp"
 #include "identify/statistics/decompositions.hpp"
 
 namespace dualdamp::identify {
@@ -118,9 +119,16 @@ bool are_held(const LeastSquaresProblem& problem, const Eigen::VectorXd& paramet
          });
 }
 
+double squares(const LeastSquaresProblem& problem, const Eigen::VectorXd& parameters) {
+  Eigen::VectorXd residuals(problem.residuals);
+  if (!problem.evaluate(parameters, residuals, nullptr)) return core::infinity;
+  return residuals.squaredNorm();
+}
+
 /// A run within bounds. The solver makes its steps for the whole space and cuts them off at a bound: along a bound
 /// it needs a hundred steps instead of ten. Parameters that end at a bound are therefore held there, and released
-/// if the sum of squares does not decrease beyond the bound.
+/// if the sum of squares does not decrease beyond the bound. The linearised problem may lead to the wrong bound,
+/// far from the minimum: what ends there must not be worse than the place from which it was taken.
 ceres::Solver::Summary solve(const LeastSquaresProblem& problem, Eigen::VectorXd& parameters) {
   const int most_iterations = problem.most_iterations;
   constexpr int first_iterations = 4;
@@ -131,7 +139,8 @@ ceres::Solver::Summary solve(const LeastSquaresProblem& problem, Eigen::VectorXd
   const std::vector<int> held = take_to_bounds(problem, on_bounds);
   if (!held.empty() && held.size() < static_cast<std::size_t>(parameters.size())) {
     summary = solve(problem, held, most_iterations, on_bounds);
-    if (summary.termination_type == ceres::CONVERGENCE && are_held(problem, on_bounds, held)) {
+    if (summary.termination_type == ceres::CONVERGENCE && are_held(problem, on_bounds, held) &&
+        squares(problem, on_bounds) <= squares(problem, parameters)) {
       parameters = on_bounds;
       return summary;
     }

@@ -90,6 +90,31 @@ TEST_CASE("A bound that is met holds its parameter, and costs no more steps than
   CHECK(fit(inside).parameters[1] == Approx(0.7).epsilon(1e-9));
 }
 
+TEST_CASE("A bound to which the linearised problem leads is left if the sum of squares is larger there") {
+  // r1 is least at 0, highest at 1 and -1, and falls again towards the bounds. Near its minimum, which is not zero,
+  // the linearised r1 has its zero far beyond a bound.
+  LeastSquaresProblem problem;
+  problem.residuals = 2;
+  problem.start = Eigen::Vector2d(3.0, 0.5);
+  problem.low = Eigen::Vector2d(-10.0, -3.0);
+  problem.high = Eigen::Vector2d(10.0, 3.0);
+  problem.tolerance = 1e-8;
+  problem.evaluate = [](const Eigen::VectorXd& p, Eigen::VectorXd& r, Eigen::MatrixXd* J) {
+    const double square = p[1] * p[1];
+    const double whole = 1.0 + square;
+    r.resize(2);
+    r << p[0] - 1.0, 1.0 + 9.0 * square / (whole * whole);
+    if (J != nullptr) {
+      J->resize(2, 2);
+      *J << 1.0, 0.0, 0.0, 18.0 * p[1] * (1.0 - square) / (whole * whole * whole);
+    }
+    return true;
+  };
+  const LeastSquaresFit found = fit(problem);
+  CHECK(found.sum_of_squares < 1.01);
+  CHECK(std::abs(found.parameters[1]) < 0.1);
+}
+
 TEST_CASE("A direction that the data leave open has no covariance") {
   Eigen::MatrixXd jacobian(3, 2);
   jacobian << 1.0, 2.0, 2.0, 4.0, 3.0, 6.0;
