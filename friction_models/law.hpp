@@ -60,6 +60,8 @@ class Law {
     return model_->force(memory, now, direction);
   }
 
+  /// The memory holds the way of the mass: a slow motion loads it, as it does a contact spring.
+  [[nodiscard]] bool remembers_way() const { return abilities_.remembers_way; }
   /// False: the law remembers nothing; start, guards, jump and advance do nothing and need not be called.
   [[nodiscard]] bool is_modal() const { return abilities_.modal != nullptr; }
   [[nodiscard]] Memory start(const Instant& now) const {

@@ -171,7 +171,8 @@ class LawAdapter final : public LawModel,
             .dissipation = as<DissipationAbility>(),
             .delay = as<DelayAbility>(),
             .schedule = as<ScheduleAbility>(),
-            .aperiodic = as<AperiodicAbility>()};
+            .aperiodic = as<AperiodicAbility>(),
+            .remembers_way = WayMemory<L>};
   }
 
  private:

@@ -101,6 +101,11 @@ concept ScaledLaw = requires(const L& law, const Memory& memory, std::span<doubl
   { law.scales(memory, scales) } -> std::same_as<void>;
 };
 
+/// Has a memory that a slow motion loads: of the way the mass has moved, as a contact spring has, not of times or
+/// speeds.
+template <class L>
+concept WayMemory = ModalLaw<L> && requires { requires L::remembers_way; };
+
 /// Depends on the velocity a fixed time ago. Returns this time [s], > 0.
 template <class L>
 concept DelayedLaw = requires(const L& law) {

@@ -18,6 +18,7 @@
 #include "scenarios/scenario_format.hpp"
 #include "scenarios/scenario_reading.hpp"
 #include "scenarios/sweep.hpp"
+#include "sim/conformance/loaded_contacts.hpp"
 #include "sim/engine/engine.hpp"
 #include "sim/orbits/steady_state.hpp"
 #include "sim/validate.hpp"
@@ -182,8 +183,12 @@ sim::Model model(const Json& values, bool with_laws) {
   result.oscillator = oscillator(system);
   if (values.contains("excitation")) result.excitation = excitation(values.at("excitation"));
   if (with_laws && system.contains("friction")) result.friction = friction_of(system.at("friction"));
-  if (values.contains("initial"))
-    result.initial = {number(values.at("initial").at("position")), number(values.at("initial").at("velocity"))};
+  if (values.contains("initial")) {
+    const Json& initial = values.at("initial");
+    result.initial = {number(initial.at("position")), number(initial.at("velocity"))};
+    if (!sim::load_contacts(result, number(initial.at("travel"))))
+      throw core::InputError({.message = "a law of 'system.friction' cannot be moved by 'initial.travel'"});
+  }
   if (values.contains("numerics")) result.solver = solver(values.at("numerics"));
   return result;
 }

@@ -72,10 +72,15 @@ Section scenario_format(const AnalysisList& analyses) {
       {words("schema", {std::string(schema_name)}, "version of this format").required(),
        text("title", "title in one line"), section("system", system_section(), "the oscillator"),
        choice("excitation", excitations(), "what drives the oscillator; default: nothing"),
-       section("initial",
-               {{quantity("position", {"m"}, "x at t = 0").with_fallback(0.0),
-                 quantity("velocity", {"m/s"}, "v at t = 0").with_fallback(0.0)}},
-               "the state at t = 0"),
+       section(
+           "initial",
+           {{quantity("position", {"m"}, "x at t = 0").with_fallback(0.0),
+             quantity("velocity", {"m/s"}, "v at t = 0").with_fallback(0.0),
+             quantity("travel", {"m"},
+                      "way that the mass has moved before t = 0, from a place where the contacts were unloaded: "
+                      "it loads the laws that remember their way, such as contact_compliance or dahl")
+                 .with_fallback(0.0)}},
+           "the state at t = 0"),
        choice("analysis", choice_of(analyses), "the question: what is computed").required(), std::move(sweep),
        section_list("expect", expect_section(), "checks of the result; if a value differs, the exit status is 1")
            .items(1, 10'000),

@@ -10,9 +10,14 @@
 
 namespace dualdamp::sim {
 
+/// The state at t = 0. The laws start unloaded, unless their memories are stated: one for each law, as left by a
+/// motion that was in this direction (`conformance/loaded_contacts.hpp`).
 struct InitialState {
   double position = 0.0;  ///< m
   double velocity = 0.0;  ///< m/s
+  double travel = 0.0;    ///< way that has loaded the memories [m]
+  std::vector<friction::Memory> memories{};
+  friction::Direction direction = friction::Direction::none;
 };
 
 /// How the equation of motion is integrated.

@@ -148,6 +148,7 @@ Json scaled(const Json& scenario, const Scales& scales) {
   if (result.contains("initial")) {
     scale(result["initial"], "position", "m", scales);
     scale(result["initial"], "velocity", "m/s", scales);
+    scale(result["initial"], "travel", "m", scales);
   }
   scale(result["analysis"], "duration", "s", scales);
   return result;
@@ -166,7 +167,7 @@ Json mirrored(const Json& scenario) {
   if (excitation.contains("values"))
     for (Json& value : excitation["values"]) value = -value.get<double>();
   if (result.contains("initial"))
-    for (const char* key : {"position", "velocity"}) negate(result["initial"], key);
+    for (const char* key : {"position", "velocity", "travel"}) negate(result["initial"], key);
   if (result.at("system").contains("friction"))
     for (Json& law : result["system"]["friction"]) {
       negate(law, "load_gradient");

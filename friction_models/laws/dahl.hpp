@@ -24,6 +24,7 @@ namespace dualdamp::friction {
 
 class Dahl {
  public:
+  static constexpr bool remembers_way = true;
   static const std::vector<Parameter>& parameters();
 
   /// N > 0, N/m > 0, >= 1.

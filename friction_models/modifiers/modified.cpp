@@ -162,7 +162,8 @@ Abilities ModifiedLaw::abilities() const {
           .dissipation = this,
           .delay = law_.abilities().delay,
           .schedule = this,
-          .aperiodic = this};
+          .aperiodic = this,
+          .remembers_way = law_.remembers_way()};
 }
 
 Memory ModifiedLaw::start(const Instant& now) const {

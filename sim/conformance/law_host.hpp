@@ -46,6 +46,8 @@ class LawHost {
   void change_direction(friction::Direction direction);
   /// Moves the mass to time `end`, through the events of the law. The path must keep the present direction.
   void move_along(double end, const Path& way);
+  /// The speed of the mass changes at once, as by a blow.
+  void set_speed(double v) { now_.v = v; }
   /// Moves the mass to x at constant speed, in unit time.
   void move_to(double x);
   /// Advances the states from now to `end`; there must be no event between.

@@ -76,9 +76,14 @@ void Engine::start(double x, double v) {
   periods_passed_ = 0;
   x_ = x;
   v_ = v;
+  const InitialState& initial = model_.initial;
+  if (!initial.memories.empty() && x == initial.position && v == initial.velocity) {
+    memories_ = initial.memories;
+    return place(initial.direction);
+  }
   memories_.clear();
   for (const friction::Law& law : model_.friction) memories_.push_back(law.start(now()));
-  place();
+  place(Direction::none);
 }
 
 void Engine::restart(const State& state) {
@@ -94,15 +99,17 @@ void Engine::restart(const State& state) {
   restore_past(state);
 }
 
-void Engine::place() {
+/// `before`: the direction in which the laws have been moved. A law that slips goes on slipping in it.
+void Engine::place(Direction before) {
   repeats_ = 0;
   outcome_ = {};
+  direction_ = before;
   begin_motion();
-  if (v_ != 0.0) {
-    change_direction(v_ > 0.0 ? Direction::forward : Direction::backward);
-  } else {
-    settle();
-  }
+  const Direction direction = v_ > 0.0 ? Direction::forward : v_ < 0.0 ? Direction::backward : Direction::none;
+  if (direction == Direction::none) return settle();
+  if (direction == before) return;
+  if (before != Direction::none) change_direction(Direction::none);
+  change_direction(direction);
 }
 
 const Interval* Engine::next(double horizon) {

@@ -36,7 +36,8 @@ class Engine {
   Engine& operator=(const Engine&) = delete;
   virtual ~Engine();
 
-  /// Places the mass at t = 0 with all laws at their start.
+  /// Places the mass at t = 0 with all laws at their start; in the initial state of the model, with the memories
+  /// stated there.
   void start(double x, double v);
   /// Places the mass in a state that the motion had before, at t = 0.
   void restart(const State& state);
@@ -152,7 +153,7 @@ class Engine {
   core::Outcome outcome_;
 
  private:
-  void place();
+  void place(friction::Direction before);
   [[nodiscard]] bool turns_freely() const;
 
   int repeats_ = 0;
