@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "identify/fit/experiments.hpp"
-
 namespace dualdamp::identify {
 
 namespace {
@@ -39,7 +37,7 @@ std::unique_ptr<Neighbours> Experiment::neighbours(const sim::Model& /*model*/) 
 }
 
 FitParameter own_parameter(const Experiment& experiment, std::size_t index, Own own, bool is_alone) {
-  static constexpr std::array<const char*, own_count> units = {"m", "m/s", "m", "s", "m/s", "m/s^2"};
+  static constexpr std::array<const char*, own_count> units = {"m", "m/s", "m", "s", "m/s", "m/s^2", "m"};
   const auto at = static_cast<std::size_t>(own);
   return {.name = std::string(own_names[at]) + (is_alone ? std::string() : "[" + std::to_string(index) + "]"),
           .unit = units[at],

@@ -81,6 +81,7 @@ class Experiment {
   std::vector<Own> own_free;         ///< parameters that are sought unless they are known
   std::vector<Own> own_of_place;     ///< also sought unless they are known, if a force depends on the position
   std::vector<Own> own_others;       ///< parameters that may be sought as well
+  bool knows_load = false;           ///< `travel` is known: the caller stated the first state
   std::vector<std::pair<Own, std::string>> remarks;  ///< why parameters of `own_of_place` are sought
   /// Work of all predictions so far, those of parts of the record included: in units of `sim::Engine::work`, of
   /// steady states without the answers of smooth laws; of a loop, in steps of its law.
@@ -131,5 +132,15 @@ struct ExperimentOptions {
 [[nodiscard]] std::vector<std::unique_ptr<Experiment>> experiments_of(const Record& record,
                                                                       const ExperimentOptions& options,
                                                                       std::string& fault);
+
+/// One experiment from a part of a record. Null, with a fault, if the part cannot be used.
+[[nodiscard]] std::unique_ptr<Experiment> steady_states(const PairRecord& record, const ExperimentOptions& options,
+                                                        std::string& fault);
+[[nodiscard]] std::unique_ptr<Experiment> free_vibration(const DecayRecord& record,
+                                                         const ExperimentOptions& options, std::string& fault);
+[[nodiscard]] std::unique_ptr<Experiment> motion(const History& history, const ExperimentOptions& options,
+                                                 std::string& fault);
+[[nodiscard]] std::unique_ptr<Experiment> friction_loop(const History& history, const ExperimentOptions& options,
+                                                        std::string& fault);
 
 }  // namespace dualdamp::identify

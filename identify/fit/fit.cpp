@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <utility>
 
 #include "core/constants.hpp"
 #include "core/diagnostics.hpp"
 #include "friction_models/law_fault.hpp"
+#include "identify/fit/first_load.hpp"
 #include "identify/fit/freedom.hpp"
 #include "identify/fit/residual_test.hpp"
 #include "identify/fit/search.hpp"
@@ -151,6 +153,18 @@ std::optional<Eigen::VectorXd> describe(const FitProblem& problem, const Request
       {problem, found.weights, q, misses, jacobian, request.options.profile, request.options.robust}, result);
 }
 
+/// Seeks the loads of contacts at the first samples, record after record.
+void seek_loads(std::unique_ptr<FitTask>& task, SearchResult& found, double length, const SearchOptions& options,
+                long most_work, std::vector<std::string>& remarks) {
+  for (std::size_t e = 0; e < task->experiments.size(); ++e) {
+    std::optional<LoadedFit> loaded = with_first_load(*task, found, e, length, options, most_work);
+    if (!loaded) continue;
+    task = std::move(loaded->task);
+    found = std::move(loaded->found);
+    remarks.push_back(std::move(loaded->text));
+  }
+}
+
 }  // namespace
 
 Fit fit_rig(const Rig& rig, std::vector<FitParameter> parameters, const Experiments& experiments,
@@ -160,7 +174,11 @@ Fit fit_rig(const Rig& rig, std::vector<FitParameter> parameters, const Experime
   const DataScale scale = scale_of(rig, experiments);
   std::vector<double> sizes;
   for (const FitParameter& parameter : parameters) sizes.push_back(size_of(parameter, scale));
-  const FitProblem problem(rig, parameters, experiments, sizes);
+  std::vector<OwnValues> known = options.known;
+  if (known.empty())
+    for (const auto& experiment : experiments) known.push_back(experiment->own_start);
+  auto task = std::make_unique<FitTask>(rig, experiments, parameters, sizes, std::move(known));
+  const FitProblem& problem = task->problem;
   if (problem.rows() <= static_cast<Eigen::Index>(parameters.size())) {
     result.outcome = {core::OutcomeKind::not_identifiable, std::to_string(parameters.size()) +
                                                                " parameters need more than " +
@@ -185,15 +203,16 @@ Fit fit_rig(const Rig& rig, std::vector<FitParameter> parameters, const Experime
                                                                (fault.empty() ? "" : ": " + fault)};
     return result;
   }
+  if (options.seeks_loads) seek_loads(task, *found, scale.length, search, options.most_work, result.warnings);
   constexpr int most_rounds = 4;
   for (int round = 1;; ++round) {
     Fit described = result;
     const std::optional<Eigen::VectorXd> lower =
-        describe(problem, {rig, parameters, experiments, options}, *found, described);
+        describe(task->problem, {rig, task->parameters, experiments, options}, *found, described);
     if (!lower) return described;
     std::optional<SearchResult> next;
-    problem.limit(options.most_work);
-    if (round < most_rounds) next = search_from(problem, *lower, search);
+    task->problem.limit(options.most_work);
+    if (round < most_rounds) next = search_from(task->problem, *lower, search);
     if (!next) {
       described.warnings.emplace_back(
           "a profile found a smaller sum of squares than that of the estimate, and the search from there did not "

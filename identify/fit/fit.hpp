@@ -38,7 +38,9 @@ namespace dualdamp::identify {
 struct FitOptions {
   bool robust = false;
   bool profile = true;
-  int starts = 0;  ///< 0: 8 if all parameters have stated values, else 40
+  bool seeks_loads = true;            ///< of contacts at the first samples (`first_load.hpp`)
+  std::vector<OwnValues> known = {};  ///< as in `FitProblem`
+  int starts = 0;                     ///< 0: 8 if all parameters have stated values, else 40
   /// Of a search, and of all profiles (`Experiment::work`): some ten minutes of processor time.
   long most_work = 400'000'000;
 };

@@ -1,7 +1,8 @@
 #include <numbers>
 #include <utility>
 
-#include "identify/fit/experiments.hpp"
+#include "identify/fit/experiment.hpp"
+#include "sim/conformance/loaded_contacts.hpp"
 #include "sim/motion/simulate.hpp"
 
 namespace dualdamp::identify {
@@ -28,6 +29,7 @@ class FreeVibration final : public Experiment {
     own_start[static_cast<std::size_t>(Own::position)] = record.extremes.front() - offset;
     own_start[static_cast<std::size_t>(Own::offset)] = offset;
     own_free = {Own::position, Own::offset};
+    own_others = {Own::travel};
     signals.push_back(std::move(x));
     if (!timed) return;
     Signal t{.name = "t", .unit = "s", .measured = record.times, .at_name = "number"};
@@ -42,6 +44,7 @@ class FreeVibration final : public Experiment {
     sim::Model free = model;
     free.excitation = {};
     free.initial = {own[static_cast<std::size_t>(Own::position)], 0.0};
+    if (!sim::load_contacts(free, own[static_cast<std::size_t>(Own::travel)])) return false;
     const std::size_t wanted = signals.front().measured.size();
     const sim::FreeDecay decay = sim::free_decay(free, static_cast<int>(wanted));
     *work += decay.work;

@@ -2,11 +2,12 @@
 #include <cmath>
 #include <utility>
 
-#include "identify/fit/experiments.hpp"
+#include "identify/fit/experiment.hpp"
 #include "identify/fit/starts.hpp"
 #include "identify/records/signals.hpp"
 #include "identify/statistics/noise_level.hpp"
 #include "sim/conformance/law_host.hpp"
+#include "sim/conformance/loaded_contacts.hpp"
 #include "sim/work_limit.hpp"
 
 namespace dualdamp::identify {
@@ -50,7 +51,7 @@ class FrictionLoop final : public Experiment {
     for (std::size_t i = edge_; i + edge_ < force.size(); ++i)
       signal.at.push_back(start_ + static_cast<double>(i) / rate_);
     signals.push_back(std::move(signal));
-    own_others = {Own::offset};
+    own_others = {Own::offset, Own::travel};
     if (history.x.empty()) own_of_place = {Own::offset};
   }
 
@@ -62,7 +63,7 @@ class FrictionLoop final : public Experiment {
     constexpr long samples_of_unit = 8;
     *work += static_cast<long>(x_.size()) / samples_of_unit;
     for (const friction::Law& law : model.friction)
-      if (!add(law, offset, force)) return false;
+      if (!add(law, offset, own[static_cast<std::size_t>(Own::travel)], force)) return false;
     bridge(force);
     for (std::size_t i = 0; i < force.size(); ++i) {
       if (o.mass > 0.0) force[i] += o.mass * a_[i];
@@ -122,15 +123,16 @@ class FrictionLoop final : public Experiment {
   }
 
   /// Adds the force of a law. A law without memory needs no path between the samples.
-  [[nodiscard]] bool add(const friction::Law& law, double offset, std::vector<double>& force) const {
+  [[nodiscard]] bool add(const friction::Law& law, double offset, double travel, std::vector<double>& force) const {
     if (!law.is_modal() && !law.has_rates() && !(law.delay() > 0.0) && !law.advances()) {
       for (std::size_t i = 0; i < force.size(); ++i)
         force[i] += law.force({}, instant(i, offset), direction_of(law_v_[i]));
       return true;
     }
-    sim::LawHost host(law, instant(0, offset));
+    sim::LawHost host = sim::loaded_host(law, instant(0, offset), travel);
     host.limit_steps(std::min(most_steps(), sim::WorkLimit::most()));
-    host.change_direction(direction_of(law_v_[0]));
+    if (const Direction first = direction_of(law_v_[0]); travel == 0.0 || first != host.direction())
+      host.change_direction(first);
     force[0] += host.force();
     for (std::size_t i = 1; i < force.size() && !host.broken(); ++i) {
       move(host, i, offset);

@@ -5,13 +5,14 @@
 
 #include "core/numbers.hpp"
 #include "identify/fit/drive_values.hpp"
-#include "identify/fit/experiments.hpp"
+#include "identify/fit/experiment.hpp"
 #include "identify/fit/starts.hpp"
 #include "identify/fit/tie.hpp"
 #include "identify/records/signals.hpp"
 #include "identify/statistics/decompositions.hpp"
 #include "identify/statistics/median.hpp"
 #include "identify/statistics/noise_level.hpp"
+#include "sim/conformance/loaded_contacts.hpp"
 #include "sim/engine/engine.hpp"
 
 namespace dualdamp::identify {
@@ -149,7 +150,7 @@ class MeasuredMotion final : public Experiment {
     }
     samples_ = signals.front().measured.size();
     own_free = {Own::position, Own::velocity};
-    own_others = {Own::offset};
+    own_others = {Own::offset, Own::travel};
     if (!history.v.empty()) own_others.push_back(Own::offset_v);
     if (!history.a.empty()) own_others.push_back(Own::offset_a);
     begin(history);
@@ -160,6 +161,7 @@ class MeasuredMotion final : public Experiment {
                              Eigen::VectorXd& outputs) const override {
     sim::Model there = model;
     there.initial = {own[static_cast<std::size_t>(Own::position)], own[static_cast<std::size_t>(Own::velocity)]};
+    if (!sim::load_contacts(there, own[static_cast<std::size_t>(Own::travel)])) return false;
     const double end = static_cast<double>(samples_ - 1) / rate_;
     there.excitation = drive ? *drive : drive_from(model.excitation, start_, end);
     if (tie_) {

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "core/numbers.hpp"
+#include "identify/fit/residual_test.hpp"
 #include "identify/statistics/decompositions.hpp"
 
 namespace dualdamp::identify {
@@ -68,7 +69,7 @@ double uncertainty_of(const Fit& held, const Rig& rig, const std::vector<FitPara
     values[values.size() - 1] = fitted.value;
     sizes.push_back(fitted.value == 0.0 ? 1.0 : std::abs(fitted.value));
   }
-  const FitProblem problem(rig, all, experiments, sizes);
+  const FitProblem problem(rig, all, experiments, sizes, held.own);
   const Eigen::VectorXd q = problem.coordinates(values);
   Eigen::VectorXd outputs;
   Eigen::MatrixXd jacobian;
@@ -174,6 +175,63 @@ void judge(Prediction& found, const Fit& attainable) {
     found.text += ": the law also describes this record";
 }
 
+/// The load of the contacts of a record in a fit.
+struct Load {
+  std::optional<FitParameter> sought{};
+  double travel = 0.0;
+
+  [[nodiscard]] bool is_none() const { return !sought && travel == 0.0; }
+};
+
+Load load_of(const Fit& fit, std::size_t record) {
+  Load load{.travel = fit.own[record][static_cast<std::size_t>(Own::travel)]};
+  for (const FittedParameter& fitted : fit.parameters) {
+    const FitParameter& parameter = fitted.parameter;
+    if (parameter.owner != Owner::record || parameter.index != record || parameter.own != Own::travel) continue;
+    load.sought = parameter;
+    load.sought->stated = load.travel;
+  }
+  return load;
+}
+
+/// Whether one fit seeks the load of the contacts at a first sample, and the other one does not.
+bool loads_differ(const Fit& one, const Fit& other, std::size_t records) {
+  for (std::size_t e = 0; e < records; ++e) {
+    const Load a = load_of(one, e);
+    const Load b = load_of(other, e);
+    if (a.sought.has_value() != b.sought.has_value() || (!a.sought && a.travel != b.travel)) return true;
+  }
+  return false;
+}
+
+/// The loads for both fits: those of the prediction, or if it found none, those of the other fit.
+struct Loads {
+  std::vector<OwnValues> known;
+  std::vector<FitParameter> sought;
+};
+
+Loads loads_of_both(const Fit& held, const Fit& alone, const Experiments& experiments) {
+  Loads loads;
+  for (std::size_t e = 0; e < experiments.size(); ++e) {
+    Load load = load_of(held, e);
+    if (load.is_none()) load = load_of(alone, e);
+    loads.known.push_back(experiments[e]->own_start);
+    if (load.sought)
+      loads.sought.push_back(*load.sought);
+    else
+      loads.known.back()[static_cast<std::size_t>(Own::travel)] = load.travel;
+  }
+  return loads;
+}
+
+void describe_held(const Rig& rig, const std::vector<FitParameter>& parameters, const SharedUncertainty& known,
+                   const Experiments& experiments, Prediction& found) {
+  found.error = error_of(found.fit);
+  found.noise_units = found.fit.noise_units;
+  found.bands = bands_of(found.fit, experiments);
+  found.uncertainty = uncertainty_of(found.fit, rig, parameters, known, experiments);
+}
+
 }  // namespace
 
 Prediction predict_records(const Rig& rig, const std::vector<FitParameter>& parameters,
@@ -193,9 +251,7 @@ Prediction predict_records(const Rig& rig, const std::vector<FitParameter>& para
     found.text = "the record holds no motion to predict";
     return found;
   }
-  found.noise_units = found.fit.noise_units;
-  found.bands = bands_of(found.fit, experiments);
-  found.uncertainty = uncertainty_of(found.fit, rig, parameters, known, experiments);
+  describe_held(rig, parameters, known, experiments, found);
   std::vector<FitParameter> all;
   const std::vector<FitParameter> now = parameters_of(rig);
   for (const FitParameter& parameter : parameters) {
@@ -207,10 +263,25 @@ Prediction predict_records(const Rig& rig, const std::vector<FitParameter>& para
   }
   const std::vector<FitParameter> shared = all;
   std::ranges::move(own_parameters(rig, experiments), std::back_inserter(all));
-  const Fit attainable = fit_rig(rig, all, experiments, quick);
+  Fit attainable = fit_rig(rig, all, experiments, quick);
   if (!attainable.outcome.ok()) {
     found.text = "the record alone does not determine the rig: " + attainable.outcome.reason;
     return found;
+  }
+  if (loads_differ(found.fit, attainable, experiments.size())) {
+    const Loads loads = loads_of_both(found.fit, attainable, experiments);
+    quick.seeks_loads = false;
+    quick.known = loads.known;
+    std::vector<FitParameter> own = own_parameters(rig, experiments);
+    std::ranges::copy(loads.sought, std::back_inserter(own));
+    std::ranges::copy(loads.sought, std::back_inserter(all));
+    Fit held = fit_rig(rig, own, experiments, quick);
+    Fit alone = fit_rig(rig, all, experiments, quick);
+    if (held.outcome.ok() && alone.outcome.ok()) {
+      found.fit = std::move(held);
+      attainable = std::move(alone);
+      describe_held(rig, parameters, known, experiments, found);
+    }
   }
   // If the search ended at a worse place than the prediction, the prediction itself is the best fit.
   const Fit& best = error_of(attainable) < found.error ? attainable : found.fit;

@@ -46,11 +46,13 @@ bool guarded(const Work& work) {
 }  // namespace
 
 FitProblem::FitProblem(const Rig& rig, const std::vector<FitParameter>& parameters, const Experiments& experiments,
-                       const std::vector<double>& sizes)
-    : rig_(rig), parameters_(parameters) {
+                       const std::vector<double>& sizes, std::vector<OwnValues> known)
+    : rig_(rig), parameters_(parameters), known_(std::move(known)) {
   for (std::size_t i = 0; i < parameters.size(); ++i)
     coordinates_.push_back(coordinate_of(parameters[i], sizes[i]));
   for (const auto& experiment : experiments) experiments_.push_back(experiment.get());
+  if (known_.empty())
+    for (const Experiment* experiment : experiments_) known_.push_back(experiment->own_start);
   number_rows();
 }
 
@@ -61,6 +63,7 @@ FitProblem::FitProblem(const FitProblem& whole, Experiments parts)
       parts_(std::move(parts)),
       experiments_(whole.experiments_),
       coordinates_(whole.coordinates_),
+      known_(whole.known_),
       most_work_(whole.most_work_) {
   for (std::size_t e = 0; e < parts_.size(); ++e)
     if (parts_[e]) experiments_[e] = parts_[e].get();
@@ -179,9 +182,7 @@ Eigen::MatrixXd FitProblem::slope(const Eigen::VectorXd& q) const {
 }
 
 std::vector<OwnValues> FitProblem::own(const Eigen::VectorXd& values) const {
-  std::vector<OwnValues> result;
-  result.reserve(experiments_.size());
-  for (const Experiment* experiment : experiments_) result.push_back(experiment->own_start);
+  std::vector<OwnValues> result = known_;
   for (std::size_t i = 0; i < parameters_.size(); ++i)
     if (parameters_[i].owner == Owner::record)
       result[parameters_[i].index][static_cast<std::size_t>(parameters_[i].own)] =

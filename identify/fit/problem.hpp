@@ -13,6 +13,7 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "identify/fit/experiment.hpp"
@@ -46,9 +47,10 @@ class FitProblem {
  public:
   using Experiments = std::vector<std::unique_ptr<Experiment>>;
 
-  /// `sizes`: of each parameter, > 0, in its unit. The arguments must outlive this.
+  /// `sizes`: of each parameter, > 0, in its unit. `known`: values of the records' own parameters that are not
+  /// sought, in place of those of the experiments. The other arguments must outlive this.
   FitProblem(const Rig& rig, const std::vector<FitParameter>& parameters, const Experiments& experiments,
-             const std::vector<double>& sizes);
+             const std::vector<double>& sizes, std::vector<OwnValues> known = {});
 
   // `this` must outlive the problems returned by roughly(), first_part() and tied().
 
@@ -117,6 +119,7 @@ class FitProblem {
   Experiments parts_;  ///< experiments that this problem owns
   std::vector<const Experiment*> experiments_;
   std::vector<Coordinate> coordinates_;
+  std::vector<OwnValues> known_;  ///< of each experiment
   std::vector<SignalRows> signals_;
   std::vector<Eigen::Index> begins_;  ///< of each experiment
   Eigen::VectorXd measured_;
@@ -124,6 +127,29 @@ class FitProblem {
   Eigen::Index rows_ = 0;
   /// Of `work`; of all problems made from one.
   std::shared_ptr<long> most_work_ = std::make_shared<long>(std::numeric_limits<long>::max());
+};
+
+/// A problem with all that it refers to.
+struct FitTask {
+  /// `known`: values of the records' own parameters that are not sought. The rig and the experiments must outlive
+  /// this.
+  FitTask(const Rig& of_rig, const FitProblem::Experiments& records, std::vector<FitParameter> sought,
+          std::vector<double> sizes_of_sought, std::vector<OwnValues> known)
+      : rig(of_rig),
+        experiments(records),
+        parameters(std::move(sought)),
+        sizes(std::move(sizes_of_sought)),
+        begins(std::move(known)),
+        problem(rig, parameters, experiments, sizes, begins) {}
+  FitTask(const FitTask&) = delete;
+  FitTask& operator=(const FitTask&) = delete;
+
+  const Rig& rig;
+  const FitProblem::Experiments& experiments;
+  std::vector<FitParameter> parameters;
+  std::vector<double> sizes;
+  std::vector<OwnValues> begins;
+  FitProblem problem;
 };
 
 }  // namespace dualdamp::identify

@@ -6,8 +6,8 @@
 /// path into lists and records ("elements[1].stiffness", "warming.power"). If two parameters have the same name,
 /// "system." or "friction." ("friction[1]." for laws in parallel) is put before it. Each record adds its own
 /// parameters: position and velocity at its first sample, offset, offset_v and offset_a (the readings of x, v and a
-/// at rest), release (the time of the first extreme). A law's parameter with such a name also gets "friction."
-/// before it.
+/// at rest), release (the time of the first extreme), travel (the way of the mass that has loaded the contacts
+/// before the first sample). A law's parameter with such a name also gets "friction." before it.
 ///
 /// Ranges are those of the laws' tables. The last `share` of a list of elements is 1 minus the sum of the others.
 
@@ -32,11 +32,11 @@ struct RigLaw {
 };
 
 /// The parameters of a single record, in this order.
-enum class Own { position, velocity, offset, release, offset_v, offset_a };
-inline constexpr std::size_t own_count = 6;
-inline constexpr std::array<std::string_view, own_count> own_names = {"position", "velocity", "offset",
-                                                                      "release",  "offset_v", "offset_a"};
-/// m, m/s, m, s, m/s, m/s^2
+enum class Own { position, velocity, offset, release, offset_v, offset_a, travel };
+inline constexpr std::size_t own_count = 7;
+inline constexpr std::array<std::string_view, own_count> own_names = {"position", "velocity", "offset", "release",
+                                                                      "offset_v", "offset_a", "travel"};
+/// m, m/s, m, s, m/s, m/s^2, m
 using OwnValues = std::array<double, own_count>;
 
 /// What a parameter belongs to.

@@ -242,7 +242,15 @@ std::optional<LeastSquaresFit> finish(LeastSquaresFit found, Search& search, con
   return found;
 }
 
-/// Whether the residuals of any signal are more than noise.
+bool has_several_weights(const FitProblem& problem, const SearchOptions& options) {
+  return options.robust || problem.signals().size() > 1;
+}
+
+/// The first steps need only find the region of the minimum.
+constexpr Accuracy of_first_steps{.tolerance = 1e-7, .step = 1e-3};
+
+}  // namespace
+
 bool holds_motion(const SearchResult& found, const FitProblem& problem) {
   Eigen::VectorXd outputs;
   if (!problem.outputs(found.coordinates, outputs)) return false;
@@ -256,11 +264,16 @@ bool holds_motion(const SearchResult& found, const FitProblem& problem) {
   });
 }
 
-bool has_several_weights(const FitProblem& problem, const SearchOptions& options) {
-  return options.robust || problem.signals().size() > 1;
+std::optional<SearchResult> search_near(const FitProblem& problem, const std::vector<Eigen::VectorXd>& points,
+                                        const SearchOptions& options) {
+  constexpr int some = 16;
+  const FitProblem rough_problem = problem.roughly(of_first_steps);
+  const Search rough_search(rough_problem, options);
+  std::optional<LeastSquaresFit> best;
+  for (const Eigen::VectorXd& q : points)
+    take_better(rough_search.improve(q, rough, some), rough_search, rough_problem, best);
+  return best ? search_from(problem, best->parameters, options) : std::nullopt;
 }
-
-}  // namespace
 
 std::optional<SearchResult> search_from(const FitProblem& problem, const Eigen::VectorXd& coordinates,
                                         const SearchOptions& options) {
@@ -278,8 +291,7 @@ std::optional<SearchResult> search_parameters(const FitProblem& problem,
   const std::vector<Eigen::VectorXd> points = parameters.empty()
                                                   ? std::vector<Eigen::VectorXd>{Eigen::VectorXd(0)}
                                                   : start_points(problem, parameters, sizes, options.points);
-  // The first steps need only find the region of the minimum.
-  const FitProblem rough_problem = problem.roughly({.tolerance = 1e-7, .step = 1e-3});
+  const FitProblem rough_problem = problem.roughly(of_first_steps);
   const Search rough_search(rough_problem, options);
   const bool several_weights = has_several_weights(problem, options);
   const Search alike(problem, options);  // compares ended searches with equal weights

@@ -38,4 +38,12 @@ struct SearchResult {
 [[nodiscard]] std::optional<SearchResult> search_from(const FitProblem& problem, const Eigen::VectorXd& coordinates,
                                                       const SearchOptions& options);
 
+/// The best local minimum near any of these points. Nothing if the rig has no such motion there.
+[[nodiscard]] std::optional<SearchResult> search_near(const FitProblem& problem,
+                                                      const std::vector<Eigen::VectorXd>& points,
+                                                      const SearchOptions& options);
+
+/// Whether the residuals of any signal are more than noise.
+[[nodiscard]] bool holds_motion(const SearchResult& found, const FitProblem& problem);
+
 }  // namespace dualdamp::identify

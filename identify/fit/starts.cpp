@@ -1,6 +1,7 @@
 #include "identify/fit/starts.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -56,6 +57,7 @@ Guess guess_of(const FitParameter& parameter, const DataScale& s) {
     case Owner::damping_ratio:
       return {0.05, 10.0};
     case Owner::record:
+      if (parameter.own == Own::travel) return {0.03 * s.length, 1.0};
       return {parameter.unit == "s"       ? time
               : parameter.unit == "m/s"   ? s.speed
               : parameter.unit == "m/s^2" ? s.speed / time
@@ -151,12 +153,16 @@ DataScale scale_of(const Rig& rig, const std::vector<std::unique_ptr<Experiment>
 
 double size_of(const FitParameter& parameter, const DataScale& scale) {
   const double stated = std::abs(parameter.stated);
-  double size = is_known(stated) && parameter.owner != Owner::record ? stated : guess_of(parameter, scale).size;
+  const bool is_size = parameter.owner != Owner::record || parameter.own == Own::travel;
+  double size = is_known(stated) && is_size ? stated : guess_of(parameter, scale).size;
   // The search is around the size: it is moved between the bounds.
   const auto& [low, high, low_open, high_open] = parameter.range;
   if (is_known(high)) size = std::min(size, high);
   return std::max({size, low, -high});
 }
+
+/// Loads of contacts at the first sample, in units of their size: none, yielded in either direction, in between.
+constexpr std::array travels = {0.0, 30.0, -30.0, 1.0, -1.0, 0.1, -0.1};
 
 Eigen::VectorXd start_of(const std::vector<FitParameter>& parameters, const std::vector<double>& sizes,
                          int number) {
@@ -174,7 +180,9 @@ Eigen::VectorXd start_of(const std::vector<FitParameter>& parameters, const std:
     const double about_stated = all_stated ? 1.5 : 1.0;
     const double spread = is_stated ? about_stated : guess_of(parameter, unit).spread;
     double value = sizes[i] * std::pow(spread, 2.0 * share - 1.0);
-    if (parameter.owner == Owner::record || (is_stated && (number == 0 || !(parameter.stated > 0.0))))
+    if (parameter.owner == Owner::record && parameter.own == Own::travel && parameter.stated == 0.0)
+      value = sizes[i] * travels[static_cast<std::size_t>(number) % travels.size()];
+    else if (parameter.owner == Owner::record || (is_stated && (number == 0 || !(parameter.stated > 0.0))))
       value = parameter.stated;
     else if (parameter.range.low < 0.0 && !is_stated)
       value = sizes[i] * of_either_sign(2.0 * share - 1.0, guess_of(parameter, unit).spread);

@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "friction_models/law_fault.hpp"
-#include "identify/fit/experiments.hpp"
+#include "identify/fit/experiment.hpp"
 #include "sim/orbits/steady_state_near.hpp"
 
 namespace dualdamp::identify {

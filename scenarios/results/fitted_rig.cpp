@@ -100,6 +100,12 @@ void begin_at(const sim::Excitation& drive, double start, double duration, Json&
   }
 }
 
+/// Contacts that were loaded at the first sample.
+void state_load(const identify::OwnValues& own, Json& scenario) {
+  const double travel = own[static_cast<std::size_t>(Own::travel)];
+  if (travel != 0.0) scenario["initial"]["travel"] = travel;
+}
+
 void ask_for_motion(const identify::Fit& fit, const identify::Experiment& experiment, std::size_t index,
                     Json& scenario) {
   const identify::OwnValues& own = fit.own[index];
@@ -109,6 +115,7 @@ void ask_for_motion(const identify::Fit& fit, const identify::Experiment& experi
     begin_at(fit.rig.known.excitation, t.front(), t.back() - t.front(), scenario["excitation"]);
   scenario["initial"] = {{"position", own[static_cast<std::size_t>(Own::position)]},
                          {"velocity", own[static_cast<std::size_t>(Own::velocity)]}};
+  state_load(own, scenario);
   scenario["analysis"] = {{"type", "simulate"}, {"duration", t.back() - t.front()}, {"sample_rate", rate}};
 }
 
@@ -203,6 +210,7 @@ std::string scenario_text(const identify::Fit& fit, const identify::Experiments&
     case ExperimentKind::decay:
       scenario.erase("excitation");
       scenario["initial"] = {{"position", own[static_cast<std::size_t>(Own::position)]}, {"velocity", 0.0}};
+      state_load(own, scenario);
       scenario["analysis"] = {{"type", "free_decay"}, {"peaks", experiment.signals.front().measured.size()}};
       break;
     case ExperimentKind::history:

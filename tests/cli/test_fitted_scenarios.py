@@ -60,6 +60,27 @@ class FittedScenarios(case.Case):
         self.assertIn("are not noise", result.stderr)
         self.assertIn("the measured drive has noise, to which the rig responds", result.stderr)
 
+    def test_of_a_record_that_begins_with_a_loaded_contact(self):
+        friction = "{law: free_play, kinetic: 1.5 N, play: 3 mm}"
+        motion = ("schema: dualdamp/1\nsystem: {mass: 1 kg, stiffness: 1000 N/m, damping: 1 N.s/m, friction: %s}\nexcitation: {type: base_harmonic, frequency: 4 Hz, amplitude: 6 mm}\n"
+                  "initial: {position: 3 mm, velocity: 0.05 m/s, travel: %s}\nanalysis: {type: simulate, duration: 1.596 s, sample_rate: 250 Hz}\n")
+        self.write("made/motion.yaml", motion % (friction, "1 mm"))
+        self.run_program("run", "made/motion.yaml", "--out", "made/motion")
+        made = self.table("made/motion/history.csv")
+        lines = ["t [s],x [m]"] + [f"{t!r},{x + 1e-5 * math.sin(977.0 * i * i)!r}" for i, (t, x) in enumerate(zip(made["t"], made["x"]))]
+        self.write("run.csv", "\n".join(lines) + "\n")
+        drive = ("--frequency", "4 Hz", "--amplitude", "6 mm")
+        result = self.run_program("fit", "free_play", "run.csv", *CONSTANTS, *drive, "--no-profile", "--out", "fit")
+        self.assertIn("the contacts were loaded when the record began", result.stderr)
+        self.assertAlmostEqual(self.named_value("fit/parameters.csv", "travel"), 1e-3, delta=5e-5)
+        self.assertAlmostEqual(self.named_value("fit/parameters.csv", "kinetic"), 1.5, delta=0.02)
+        self.assertIn("travel:", (self.folder / "fit/fitted.yaml").read_text())
+        self.assert_gives_the_fitted_curve("fit", "fitted.yaml", "fit_0_x.csv")
+
+    def named_value(self, table, name):
+        with open(self.folder / table) as file:
+            return float(next(row["value"] for row in csv.DictReader(line for line in file if not line.startswith("#")) if row["name"] == name))
+
     def test_of_a_driving_torque(self):
         path = self.record("data/turn.csv", 4.0, "coordinate: angle, ", "force [N.m]", 5.0)
         self.run_program("fit", "coulomb", path, "--mass", "1 kg.m^2", "--stiffness", "1000 N.m/rad", "--drive", "force", "--no-profile", "--out", "fit")

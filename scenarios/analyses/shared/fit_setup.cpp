@@ -347,6 +347,8 @@ identify::Experiments experiments_from(const std::vector<DataItem>& items, const
       if (sought.initial_is_known && experiment->kind == identify::ExperimentKind::history) {
         experiment->own_start[static_cast<std::size_t>(Own::position)] = model.initial.position;
         experiment->own_start[static_cast<std::size_t>(Own::velocity)] = model.initial.velocity;
+        experiment->own_start[static_cast<std::size_t>(Own::travel)] = model.initial.travel;
+        experiment->knows_load = true;
       }
       all.push_back(std::move(experiment));
     }
@@ -378,7 +380,7 @@ std::vector<FitParameter> parameters_for(const identify::Rig& rig, const identif
       std::string names;
       for (const FitParameter& parameter : all) names += (names.empty() ? "" : ", ") + parameter.name;
       faults.push_back(
-          {"free", fault + "; there are " + names + ", position, velocity, offset, offset_v, offset_a"});
+          {"free", fault + "; there are " + names + ", position, velocity, travel, offset, offset_v, offset_a"});
     }
     for (FitParameter& parameter : found) add_new(std::move(parameter), parameters);
   }

@@ -1,0 +1,225 @@
+#include "identify/fit/first_load.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "core/constants.hpp"
+#include "core/numbers.hpp"
+#include "identify/fit/uncertainty.hpp"
+#include "identify/statistics/decompositions.hpp"
+#include "identify/statistics/distributions.hpp"
+#include "sim/parallel.hpp"
+
+namespace dualdamp::identify {
+
+namespace {
+
+using core::infinity;
+
+constexpr auto travel_of_record = static_cast<std::size_t>(Own::travel);
+
+/// Whether the load of the contacts of a record is open.
+bool may_be_loaded(const FitTask& task, const Eigen::VectorXd& values, std::size_t index) {
+  const Experiment& experiment = *task.experiments[index];
+  if (experiment.kind == ExperimentKind::steady_states || experiment.knows_load) return false;
+  if (task.begins[index][travel_of_record] != 0.0) return false;
+  const bool is_sought = std::ranges::any_of(task.parameters, [index](const FitParameter& parameter) {
+    return parameter.owner == Owner::record && parameter.index == index && parameter.own == Own::travel;
+  });
+  if (is_sought) return false;
+  const std::optional<Rig> rig = with_values(task.rig, task.parameters, values);
+  const std::optional<sim::Model> model = rig ? model_of(*rig) : std::nullopt;
+  return model && std::ranges::any_of(model->friction, &friction::Law::remembers_way);
+}
+
+class LoadSearch {
+ public:
+  LoadSearch(const FitTask& before, const SearchResult& found, std::size_t index, double length,
+             const SearchOptions& options, long most_work)
+      : before_(before),
+        found_(found),
+        index_(index),
+        length_(length),
+        options_(options),
+        most_work_(most_work),
+        leaves_motion_(holds_motion(found, before.problem)) {}
+
+  [[nodiscard]] std::optional<LoadedFit> run() const {
+    const std::vector<double> travels = best_travels();
+    if (travels.empty()) return std::nullopt;
+    std::optional<LoadedFit> loaded = with_travel(travels);
+    if (!loaded) return std::nullopt;
+    std::optional<LoadedFit> yielded = once_yielded(*loaded);
+    if (yielded) loaded = std::move(yielded);
+    if (!(chance_of(*loaded) < most_chance)) return std::nullopt;
+    return loaded;
+  }
+
+ private:
+  static constexpr double most_chance = 2e-3;
+
+  [[nodiscard]] std::unique_ptr<FitTask> task_with(std::vector<FitParameter> parameters, std::vector<double> sizes,
+                                                   double travel) const {
+    std::vector<OwnValues> begins = before_.begins;
+    begins[index_][travel_of_record] = travel;
+    auto task = std::make_unique<FitTask>(before_.rig, before_.experiments, std::move(parameters), std::move(sizes),
+                                          std::move(begins));
+    task->problem.limit(most_work_);
+    return task;
+  }
+
+  [[nodiscard]] Eigen::VectorXd weighted_misses(const FitProblem& problem, const Eigen::VectorXd& q,
+                                                const Eigen::VectorXd& weights) const {
+    Eigen::VectorXd outputs;
+    if (!problem.outputs(q, outputs)) return {};
+    return problem.misses(outputs).cwiseProduct(weights);
+  }
+
+  [[nodiscard]] double squares(const FitTask& task, const SearchResult& at, const Eigen::VectorXd& weights) const {
+    const Eigen::VectorXd misses = weighted_misses(task.problem, at.coordinates, weights);
+    return misses.size() > 0 && misses.allFinite() ? misses.squaredNorm() : infinity;
+  }
+
+  /// The travels with the smallest sums of squares, without what the other parameters can make up for. None if no
+  /// travel reduces the sum by more than noise may do.
+  [[nodiscard]] std::vector<double> best_travels() const {
+    constexpr int steps = 9;
+    std::vector<double> travels;
+    for (int i = 0; i < steps; ++i)
+      for (const double side : {1.0, -1.0}) travels.push_back(side * length_ * std::pow(10.0, -0.5 * i));
+    Eigen::VectorXd outputs;
+    Eigen::MatrixXd jacobian;
+    if (!before_.problem.derivatives(found_.coordinates, outputs, jacobian)) return {};
+    const Eigen::MatrixXd basis = orthonormal_basis(found_.weights.asDiagonal() * jacobian);
+    const auto left_of = [&](const Eigen::VectorXd& misses) {
+      return misses.size() > 0 && misses.allFinite()
+                 ? misses.squaredNorm() - (basis.transpose() * misses).squaredNorm()
+                 : infinity;
+    };
+    const double least = left_of(Eigen::VectorXd(before_.problem.misses(outputs).cwiseProduct(found_.weights)));
+    std::vector<std::pair<double, double>> order(travels.size());
+    sim::in_parts(travels.size(), 1, 0, [&](std::size_t i, std::size_t) {
+      const std::unique_ptr<FitTask> trial = task_with(before_.parameters, before_.sizes, travels[i]);
+      order[i] = {left_of(weighted_misses(trial->problem, found_.coordinates, found_.weights)), travels[i]};
+    });
+    std::ranges::sort(order);
+    const double variance = least / std::max(1.0, freedom(before_));
+    constexpr double enough = 4.0;
+    if (!std::isfinite(order.front().first)) return {};
+    if (!leaves_motion_ && least - order.front().first < enough * variance) return {};
+    constexpr std::size_t wanted = 3;
+    std::vector<double> best;
+    for (const auto& [left, travel] : order)
+      if (std::isfinite(left) && best.size() < wanted) best.push_back(travel);
+    return best;
+  }
+
+  [[nodiscard]] static double freedom(const FitTask& task) {
+    return task.problem.counted().sum() - static_cast<double>(task.parameters.size());
+  }
+
+  [[nodiscard]] std::optional<LoadedFit> with_travel(const std::vector<double>& travels) const {
+    double size = infinity;
+    for (const double travel : travels) size = std::min(size, std::abs(travel));
+    std::vector<FitParameter> parameters = before_.parameters;
+    std::vector<double> sizes = before_.sizes;
+    parameters.push_back(
+        own_parameter(*before_.experiments[index_], index_, Own::travel, before_.experiments.size() == 1));
+    parameters.back().stated = 0.0;
+    // Contacts that yield later than over the whole motion are not contacts.
+    constexpr double most = 10.0;
+    parameters.back().range = {-most * length_, most * length_};
+    sizes.push_back(size);
+    LoadedFit loaded{task_with(std::move(parameters), std::move(sizes), 0.0), {}, {}};
+    const FitProblem& problem = loaded.task->problem;
+    std::vector<Eigen::VectorXd> points;
+    for (const double travel : travels) {
+      points.emplace_back(found_.coordinates.size() + 1);
+      points.back() << found_.coordinates, travel / size;
+    }
+    std::optional<SearchResult> best = search_near(problem, points, options_);
+    if (leaves_motion_ && (!best || holds_motion(*best, problem))) {
+      std::optional<SearchResult> other =
+          search_parameters(problem, loaded.task->parameters, loaded.task->sizes, options_);
+      if (other &&
+          (!best || squares(*loaded.task, *other, found_.weights) < squares(*loaded.task, *best, found_.weights)))
+        best = std::move(other);
+    }
+    if (!best) return std::nullopt;
+    loaded.found = std::move(*best);
+    const double travel = problem.values(loaded.found.coordinates)[loaded.found.coordinates.size() - 1];
+    loaded.text = before_.experiments[index_]->label +
+                  ": the contacts were loaded when the record began, as by a way of " +
+                  core::format_number(travel, 3) +
+                  " in SI units from an unloaded state: it is sought as travel; state 'initial' if they were not";
+    return loaded;
+  }
+
+  /// The same with a known travel, if a longer one changes nothing.
+  [[nodiscard]] std::optional<LoadedFit> once_yielded(const LoadedFit& loaded) const {
+    const Eigen::VectorXd& q = loaded.found.coordinates;
+    const Eigen::Index last = q.size() - 1;
+    Eigen::VectorXd outputs;
+    Eigen::MatrixXd jacobian;
+    if (!loaded.task->problem.derivatives(q, outputs, jacobian)) return std::nullopt;
+    constexpr double nothing = 0.1;  // deviations, all readings together, for a change of 100 %
+    const double effect = jacobian.col(last).cwiseProduct(loaded.found.weights).norm() * std::abs(q[last]);
+    if (!(effect < nothing)) return std::nullopt;
+    const double travel = loaded.task->problem.values(q)[last];
+    LoadedFit yielded{
+        task_with(before_.parameters, before_.sizes, std::copysign(std::max(std::abs(travel), length_), travel)),
+        {},
+        before_.experiments[index_]->label + ": the contacts had yielded when the record began, in the " +
+            (travel > 0.0 ? "positive" : "negative") + " direction; state 'initial' if they were unloaded"};
+    std::optional<SearchResult> found = search_from(yielded.task->problem, q.head(last), options_);
+    if (!found) return std::nullopt;
+    yielded.found = std::move(*found);
+    const double least = squares(*loaded.task, loaded.found, loaded.found.weights);
+    const double now = squares(*yielded.task, yielded.found, loaded.found.weights);
+    if (now > least + least / std::max(1.0, freedom(*loaded.task))) return std::nullopt;
+    return yielded;
+  }
+
+  /// The chance that a load that does not exist reduces the sum of squares as much.
+  [[nodiscard]] double chance_of(const LoadedFit& loaded) const {
+    const Eigen::VectorXd& weights = loaded.found.weights;
+    const double with = squares(*loaded.task, loaded.found, weights);
+    const double without = squares(before_, found_, weights);
+    if (!std::isfinite(with) || !std::isfinite(without)) return std::isfinite(with) ? 0.0 : 1.0;
+    const Eigen::VectorXd misses = weighted_misses(loaded.task->problem, loaded.found.coordinates, weights);
+    double independent = 0.0;
+    double all = 0.0;
+    for (const SignalRows& rows : loaded.task->problem.signals()) {
+      const Eigen::Index size = rows.end - rows.begin;
+      independent +=
+          independent_samples(misses.segment(rows.begin, size), loaded.task->problem.signal(rows).is_sampled);
+      all += static_cast<double>(size);
+    }
+    // The parameter of the load counts also where the readings leave only its sign.
+    const double left = freedom(before_) - 1.0;
+    if (!(left >= 1.0)) return 1.0;
+    const double share = std::min(1.0, independent / all);
+    const double statistic = share * (without - with) / (with / left);
+    return f_test_p_value(std::max(statistic, 0.0), 1.0, std::max(1.0, share * left));
+  }
+
+  const FitTask& before_;
+  const SearchResult& found_;
+  std::size_t index_;
+  double length_;
+  const SearchOptions& options_;
+  long most_work_;
+  bool leaves_motion_;
+};
+
+}  // namespace
+
+std::optional<LoadedFit> with_first_load(const FitTask& before, const SearchResult& found, std::size_t index,
+                                         double length, const SearchOptions& options, long most_work) {
+  if (!may_be_loaded(before, before.problem.values(found.coordinates), index)) return std::nullopt;
+  return LoadSearch(before, found, index, length, options, most_work).run();
+}
+
+}  // namespace dualdamp::identify
