@@ -189,7 +189,7 @@ Fit fit_rig(const Rig& rig, std::vector<FitParameter> parameters, const Experime
       std::ranges::none_of(parameters, [](const FitParameter& parameter) { return std::isnan(parameter.stated); });
   result.starts = options.starts > 0 ? options.starts : all_stated ? 8 : 40;
   const SearchOptions search{
-      .points = result.starts, .most_starts = all_stated ? 2U : 3U, .robust = options.robust};
+      .points = result.starts, .most_starts = all_stated ? 2U : 3U, .robust = options.robust, .scale = scale};
   problem.limit(options.most_work);
   std::optional<SearchResult> found = search_parameters(problem, parameters, sizes, search);
   if (problem.is_exhausted()) {

@@ -130,9 +130,10 @@ class Search {
 };
 
 std::vector<Eigen::VectorXd> start_points(const FitProblem& problem, const std::vector<FitParameter>& parameters,
-                                          const std::vector<double>& sizes, int count) {
+                                          const std::vector<double>& sizes, const SearchOptions& options) {
   std::vector<Eigen::VectorXd> points;
-  for (int i = 0; i < count; ++i) points.push_back(problem.coordinates(start_of(parameters, sizes, i)));
+  for (int i = 0; i < options.points; ++i)
+    points.push_back(problem.coordinates(start_of(parameters, sizes, i, options.scale)));
   return points;
 }
 
@@ -218,7 +219,12 @@ std::optional<LeastSquaresFit> search_roughly(const std::vector<Eigen::VectorXd>
   };
   ends_alike(search_growing(points, 0.1, search, problem, options));
   if (ends_alike(search_growing(points, 0.35, search, problem, options))) return best;
-  const std::vector<Eigen::VectorXd> starts = best_of(points, search, options.most_starts);
+  std::vector<Eigen::VectorXd> starts = best_of(points, search, options.most_starts);
+  // Near resonance the amplitude tells more of the damping than of the friction: a start with a friction that does
+  // not act may come closer than the one from the energy of the states, from which a search ends at the minimum.
+  if (options.scale.friction > 0.0 && std::ranges::find(starts, points.front()) == starts.end() &&
+      std::isfinite(search.squares(points.front())))
+    starts.push_back(points.front());
   constexpr int few = 8;
   for (const Eigen::VectorXd& start : starts)
     take_better(search.improve(start, rough, starts.size() > 1 ? few : 100), search, problem, best);
@@ -290,7 +296,7 @@ std::optional<SearchResult> search_parameters(const FitProblem& problem,
                                               const std::vector<double>& sizes, const SearchOptions& options) {
   const std::vector<Eigen::VectorXd> points = parameters.empty()
                                                   ? std::vector<Eigen::VectorXd>{Eigen::VectorXd(0)}
-                                                  : start_points(problem, parameters, sizes, options.points);
+                                                  : start_points(problem, parameters, sizes, options);
   const FitProblem rough_problem = problem.roughly(of_first_steps);
   const Search rough_search(rough_problem, options);
   const bool several_weights = has_several_weights(problem, options);

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "identify/fit/problem.hpp"
+#include "identify/fit/starts.hpp"
 
 namespace dualdamp::identify {
 
@@ -21,6 +22,7 @@ struct SearchOptions {
   int points = 40;              ///< number of starts at which the sum of squares is computed
   std::size_t most_starts = 3;  ///< how many of the best starts are fitted with all readings
   bool robust = false;
+  DataScale scale = {};  ///< of the data, for the spread of the starts
 };
 
 struct SearchResult {

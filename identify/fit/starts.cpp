@@ -32,6 +32,9 @@ struct Guess {
 
 Guess guess_of(const FitParameter& parameter, const DataScale& s) {
   const double time = s.length / s.speed;
+  constexpr double about = 3.0;  // spread of what the energy of steady states gives
+  if (s.friction > 0.0 && parameter.owner == Owner::law && parameter.unit == "N") return {s.friction, about};
+  if (s.damping > 0.0 && parameter.unit == "N.s/m") return {s.damping, about};
   const std::map<std::string, Guess, std::less<>> by_unit = {
       {"N", {0.15 * s.force, 15.0}},
       {"N/m", {10.0 * s.force / s.length, 100.0}},
@@ -83,6 +86,39 @@ double share_of(int number, std::size_t dimension, std::size_t dimensions) {
 double of_either_sign(double way, double spread) {
   constexpr double far = 10.0;
   return spread < far ? way : std::copysign(std::pow(spread, 2.0 * std::abs(way) - 1.0), way);
+}
+
+/// Friction and damping from the energy of a period in each steady state, if there are two amplitudes.
+void add_energy(const Experiment& experiment, DataScale& scale) {
+  const std::vector<std::pair<double, double>> levels = experiment.levels();
+  const std::vector<double>& x = experiment.signals.front().measured;
+  const bool has_phases = experiment.signals.size() > 1 && experiment.signals[1].measured.size() == x.size();
+  double largest = 0.0;
+  double ones = 0.0, sum = 0.0, square = 0.0, of_pull = 0.0, product = 0.0;
+  for (std::size_t i = 0; i < levels.size(); ++i) {
+    const auto& [Y, omega] = levels[i];
+    const double P = experiment.is_force_driven ? Y : scale.stiffness * Y;
+    const double in_phase = (scale.stiffness - scale.mass * omega * omega) * x[i];
+    const double pull = has_phases               ? P * std::sin(experiment.signals[1].measured[i])
+                        : std::abs(in_phase) < P ? std::sqrt(P * P - in_phase * in_phase)
+                                                 : 0.0;
+    const double speed = omega * x[i];
+    largest = std::max(largest, P);
+    ones += 1.0;
+    sum += speed;
+    square += speed * speed;
+    of_pull += pull;
+    product += pull * speed;
+  }
+  const double spread = ones * square - sum * sum;
+  constexpr double alike = 1e-4;
+  if (!(spread > alike * ones * square) || !(largest > 0.0)) return;
+  const double damping = (ones * product - sum * of_pull) / spread;
+  const double friction = 0.25 * std::numbers::pi * (of_pull - damping * sum) / ones;
+  // A line that noise or a wrong constant has bent leaves at least sizes below which nothing would show.
+  constexpr double least = 0.01;
+  scale.friction = std::max(friction, least * largest);
+  scale.damping = std::max(damping, least * largest * ones / sum);
 }
 
 }  // namespace
@@ -148,6 +184,8 @@ DataScale scale_of(const Rig& rig, const std::vector<std::unique_ptr<Experiment>
   scale.stiffness = is_known(o.stiffness) ? o.stiffness : scale.mass * omega * omega;
   if (is_known(o.mass) && !is_known(o.stiffness)) scale.stiffness += slope;
   if (force == 0.0) scale.force = scale.stiffness * length;
+  for (const auto& experiment : experiments)
+    if (experiment->kind == ExperimentKind::steady_states) add_energy(*experiment, scale);
   return scale;
 }
 
@@ -164,9 +202,8 @@ double size_of(const FitParameter& parameter, const DataScale& scale) {
 /// Loads of contacts at the first sample, in units of their size: none, yielded in either direction, in between.
 constexpr std::array travels = {0.0, 30.0, -30.0, 1.0, -1.0, 0.1, -0.1};
 
-Eigen::VectorXd start_of(const std::vector<FitParameter>& parameters, const std::vector<double>& sizes,
-                         int number) {
-  const DataScale unit;
+Eigen::VectorXd start_of(const std::vector<FitParameter>& parameters, const std::vector<double>& sizes, int number,
+                         const DataScale& scale) {
   // Stated values are varied only if all values are stated.
   const bool all_stated =
       std::ranges::none_of(parameters, [](const FitParameter& parameter) { return std::isnan(parameter.stated); });
@@ -178,14 +215,14 @@ Eigen::VectorXd start_of(const std::vector<FitParameter>& parameters, const std:
     const bool is_stated = !std::isnan(parameter.stated) && (parameter.stated != 0.0 || number % 2 == 0);
     const double share = number == 0 ? 0.5 : share_of(number, i, parameters.size());
     const double about_stated = all_stated ? 1.5 : 1.0;
-    const double spread = is_stated ? about_stated : guess_of(parameter, unit).spread;
+    const double spread = is_stated ? about_stated : guess_of(parameter, scale).spread;
     double value = sizes[i] * std::pow(spread, 2.0 * share - 1.0);
     if (parameter.owner == Owner::record && parameter.own == Own::travel && parameter.stated == 0.0)
       value = sizes[i] * travels[static_cast<std::size_t>(number) % travels.size()];
     else if (parameter.owner == Owner::record || (is_stated && (number == 0 || !(parameter.stated > 0.0))))
       value = parameter.stated;
     else if (parameter.range.low < 0.0 && !is_stated)
-      value = sizes[i] * of_either_sign(2.0 * share - 1.0, guess_of(parameter, unit).spread);
+      value = sizes[i] * of_either_sign(2.0 * share - 1.0, guess_of(parameter, scale).spread);
     if (parameter.above && !(is_stated && number == 0))
       value = start[static_cast<Eigen::Index>(*parameter.above)] * (1.0 + share);
     start[static_cast<Eigen::Index>(i)] = value;

@@ -5,6 +5,14 @@
 /// bounds mass and stiffness. An acceleration a alone, of frequency w, gives the length a/w^2. The size of a
 /// parameter in N/m is then force over length, times a typical ratio of friction to spring. The size may be wrong
 /// by a factor, because the starts spread over two decades around it.
+///
+/// Steady states are often near resonance, where the force of the spring is many times that of the drive, and
+/// friction is bounded by the latter. There the energy of a period gives friction and damping
+/// (liang2004identifying, tomlinson1979):
+///
+///   P sin(phase) = (4/pi) F + c w X,   P: amplitude of the driving force, X: that of the motion
+///
+/// a straight line over w X. Without a phase, sin(phase) follows from P cos(phase) = (k - m w^2) X.
 
 #include <Eigen/Core>
 #include <vector>
@@ -20,6 +28,9 @@ struct DataScale {
   double force = 1.0;
   double length = 1.0;
   double speed = 1.0;
+  /// From the energy of steady states; 0: not known.
+  double friction = 0.0;
+  double damping = 0.0;
 };
 
 /// Largest distance of a value from the mean.
@@ -36,6 +47,6 @@ struct DataScale {
 
 /// Start `number` (0, 1, ...). Start 0 has the stated values, and the sizes of the other parameters.
 [[nodiscard]] Eigen::VectorXd start_of(const std::vector<FitParameter>& parameters,
-                                       const std::vector<double>& sizes, int number);
+                                       const std::vector<double>& sizes, int number, const DataScale& scale = {});
 
 }  // namespace dualdamp::identify

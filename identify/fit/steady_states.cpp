@@ -27,6 +27,7 @@ class SteadyStates final : public Experiment {
  public:
   SteadyStates(const PairRecord& record, const ExperimentOptions& options) : by_force_(options.force_driven) {
     kind = ExperimentKind::steady_states;
+    is_force_driven = by_force_;
     Signal x{.name = "x", .unit = "m", .noise = options.sigma_x, .is_stated = options.sigma_x > 0.0};
     Signal phase{
         .name = "phase", .unit = "rad", .noise = options.sigma_phase, .is_stated = options.sigma_phase > 0.0};
@@ -51,7 +52,7 @@ class SteadyStates final : public Experiment {
   }
 
   [[nodiscard]] bool predict(const sim::Model& model, const OwnValues&, Eigen::VectorXd& outputs) const override {
-    return fill(outputs, [&](std::size_t i) {
+    return fill(model, outputs, [&](std::size_t i) {
       return sim::steady_state(driven(model, levels_[i], by_force_), options(model));
     });
   }
@@ -77,7 +78,7 @@ class SteadyStates final : public Experiment {
       }
     }
     [[nodiscard]] bool predict(const sim::Model& model, const OwnValues&, Eigen::VectorXd& outputs) const override {
-      return states_.fill(outputs, [&](std::size_t i) {
+      return states_.fill(model, outputs, [&](std::size_t i) {
         return sim::steady_state_near(orbits_[i], driven(model, states_.levels_[i], states_.by_force_),
                                       states_.options(model));
       });
@@ -96,8 +97,16 @@ class SteadyStates final : public Experiment {
     return options;
   }
 
+  /// A mass that is hardly moved slips in the moments of the largest pull: a square wave, a quarter period behind
+  /// it.
+  [[nodiscard]] double lag_at_rest(const sim::Model& model, const Level& level) const {
+    const sim::Oscillator& o = model.oscillator;
+    const bool through_damper = !by_force_ && o.damper_to == sim::DamperTo::base;
+    return 0.5 * std::numbers::pi - (through_damper ? std::atan2(o.damping * level.omega, o.stiffness) : 0.0);
+  }
+
   template <typename Find>
-  bool fill(Eigen::VectorXd& outputs, Find find) const {
+  bool fill(const sim::Model& model, Eigen::VectorXd& outputs, Find find) const {
     outputs.resize(size());
     std::size_t phases = 0;
     for (std::size_t i = 0; i < levels_.size(); ++i) {
@@ -106,10 +115,12 @@ class SteadyStates final : public Experiment {
       if (!state.outcome.ok()) return false;
       outputs[static_cast<Eigen::Index>(i)] = state.amplitude;
       if (phases == with_phase_.size() || with_phase_[phases] != i) continue;
-      // The phase that is nearest to the measured one, modulo 2 pi.
+      // The phase that is nearest to the measured one, modulo 2 pi. A mass at rest has the phase with which its
+      // motion dies out, when the friction reaches the largest pull: else the phase would jump there.
       const double measured = signals[1].measured[phases];
+      const double lag = state.amplitude > 0.0 ? state.phase : lag_at_rest(model, levels_[i]);
       outputs[static_cast<Eigen::Index>(levels_.size() + phases)] =
-          measured + std::remainder(state.phase - measured, 2.0 * std::numbers::pi);
+          measured + std::remainder(lag - measured, 2.0 * std::numbers::pi);
       ++phases;
     }
     return true;

@@ -383,4 +383,10 @@ double truth_of(const identify::Rig& rig, const std::string& name) {
   return found.size() == 1 ? found.front().stated : 0.0;
 }
 
+const identify::FittedParameter* find_fitted(const identify::Fit& fit, const std::string& name) {
+  const auto found =
+      std::ranges::find(fit.parameters, name, [](const auto& fitted) { return fitted.parameter.name; });
+  return found == fit.parameters.end() ? nullptr : &*found;
+}
+
 }  // namespace dualdamp::test

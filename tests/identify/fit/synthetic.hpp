@@ -104,4 +104,7 @@ struct SmallRecord {
 /// The true value of a parameter of a law, or of the damping.
 [[nodiscard]] double truth_of(const identify::Rig& rig, const std::string& name);
 
+/// The parameter of a fit with this name; nullptr: there is none.
+[[nodiscard]] const identify::FittedParameter* find_fitted(const identify::Fit& fit, const std::string& name);
+
 }  // namespace dualdamp::test

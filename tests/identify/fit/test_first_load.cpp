@@ -12,7 +12,7 @@ using namespace dualdamp;
 
 namespace {
 
-identify::Experiments experiments_of(const identify::Record& record) {
+identify::Experiments loaded_experiments(const identify::Record& record) {
   std::string fault;
   identify::Experiments experiments = identify::experiments_of(record, {.name = "record"}, fault);
   REQUIRE(fault.empty());
@@ -49,14 +49,8 @@ Sought sought_in(identify::Rig rig, const std::vector<std::string>& names,
   return {std::move(rig), std::move(parameters)};
 }
 
-const identify::FittedParameter* found_in(const identify::Fit& fit, const std::string& name) {
-  const auto found = std::ranges::find_if(
-      fit.parameters, [&](const identify::FittedParameter& fitted) { return fitted.parameter.name == name; });
-  return found == fit.parameters.end() ? nullptr : &*found;
-}
-
 void check_value(const identify::Fit& fit, const std::string& name, double truth) {
-  const identify::FittedParameter* found = found_in(fit, name);
+  const identify::FittedParameter* found = test::find_fitted(fit, name);
   REQUIRE(found != nullptr);
   CAPTURE(name, truth, found->value, found->std);
   CHECK(std::abs(found->value - truth) < 4.0 * found->std);
@@ -70,7 +64,7 @@ TEST_CASE("fit: the load of a contact at the first sample is found", "[identify]
        {"contact_compliance", {"kinetic", "contact_stiffness"}, -8e-4},
        {"dahl", {"kinetic", "sigma0"}, -8e-4}}));
   const identify::Rig truth = soft_rig(law);
-  const identify::Experiments experiments = experiments_of(record_after(truth, travel, 0.05, 5));
+  const identify::Experiments experiments = loaded_experiments(record_after(truth, travel, 0.05, 5));
   const Sought sought = sought_in(truth, names, experiments);
   const identify::Fit fit = identify::fit_rig(sought.rig, sought.parameters, experiments, {.profile = false});
   REQUIRE(fit.outcome.ok());
@@ -86,12 +80,12 @@ TEST_CASE("fit: the load of a contact at the first sample is found", "[identify]
 TEST_CASE("fit: a contact that had yielded at the first sample is known, not sought",
           "[identify][fit][first_load]") {
   const identify::Rig truth = soft_rig("contact_compliance");
-  const identify::Experiments experiments = experiments_of(record_after(truth, 5e-3, 0.1, 6));
+  const identify::Experiments experiments = loaded_experiments(record_after(truth, 5e-3, 0.1, 6));
   const Sought sought = sought_in(truth, {"kinetic", "contact_stiffness"}, experiments);
   const identify::Fit fit = identify::fit_rig(sought.rig, sought.parameters, experiments, {.profile = false});
   REQUIRE(fit.outcome.ok());
   CHECK(fit.noise_units < 1.1);
-  CHECK(found_in(fit, "travel") == nullptr);
+  CHECK(test::find_fitted(fit, "travel") == nullptr);
   CHECK(fit.own.front()[static_cast<std::size_t>(identify::Own::travel)] > 1e-3);
   CHECK(fit.not_identifiable.empty());
   for (const char* name : {"kinetic", "contact_stiffness"}) check_value(fit, name, test::truth_of(truth, name));
@@ -99,7 +93,7 @@ TEST_CASE("fit: a contact that had yielded at the first sample is known, not sou
 
 TEST_CASE("fit: a record that begins unloaded is fitted without a load", "[identify][fit][first_load]") {
   const identify::Rig truth = soft_rig("contact_compliance");
-  const identify::Experiments experiments = experiments_of(record_after(truth, 0.0, 0.05, 7));
+  const identify::Experiments experiments = loaded_experiments(record_after(truth, 0.0, 0.05, 7));
   const Sought sought = sought_in(truth, {"kinetic", "contact_stiffness"}, experiments);
   const identify::Fit fit = identify::fit_rig(sought.rig, sought.parameters, experiments, {.profile = false});
   const identify::Fit plain =
@@ -114,12 +108,12 @@ TEST_CASE("fit: a record that begins unloaded is fitted without a load", "[ident
 
 TEST_CASE("prediction: a record that begins loaded does not make its law wrong", "[identify][fit][first_load]") {
   const identify::Rig truth = soft_rig("contact_compliance");
-  const identify::Experiments first = experiments_of(record_after(truth, 0.0, 0.05, 8));
+  const identify::Experiments first = loaded_experiments(record_after(truth, 0.0, 0.05, 8));
   const Sought sought = sought_in(truth, {"kinetic", "contact_stiffness"}, first);
   const identify::Fit fit = identify::fit_rig(sought.rig, sought.parameters, first, {.profile = false});
   REQUIRE(fit.outcome.ok());
   const double travel = GENERATE(-1e-3, 8e-4, 5e-3);
-  const identify::Experiments second = experiments_of(record_after(truth, travel, -0.1, 9));
+  const identify::Experiments second = loaded_experiments(record_after(truth, travel, -0.1, 9));
   const identify::Prediction found =
       identify::predict_records(fit.rig, sought.parameters, identify::shared_uncertainty(fit), second);
   REQUIRE(found.outcome.ok());

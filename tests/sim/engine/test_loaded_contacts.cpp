@@ -17,7 +17,7 @@ sim::Model model_with(const std::string& law, friction::ParameterValues values) 
   return {.oscillator = {.mass = 1.0, .stiffness = 1000.0, .damping = 1.0}, .friction = entry->make(values)};
 }
 
-struct Case {
+struct LoadedCase {
   std::string law;
   friction::ParameterValues values;
 };
@@ -29,13 +29,13 @@ sim::Sample last_of(const sim::Model& model, double duration) {
 }  // namespace
 
 TEST_CASE("A motion that begins loaded goes on as the one that loaded it", "[sim][loaded_contacts]") {
-  const auto [law, values] = GENERATE(from_range(
-      std::vector<Case>{{"contact_compliance", {{"kinetic", 1.0}, {"static", 1.3}, {"contact_stiffness", 1000.0}}},
-                        {"reset_integrator", {{"kinetic", 1.0}, {"stiffness", 1500.0}, {"static_gain", 0.2}}},
-                        {"free_play", {{"kinetic", 1.0}, {"play", 1e-3}}},
-                        {"iwan", {{"stiffness", 2000.0}, {"limit", 1.0}, {"count", 5.0}}},
-                        {"dahl", {{"kinetic", 1.0}, {"sigma0", 1500.0}}},
-                        {"bouc_wen", {{"limit", 1.0}, {"stiffness", 1500.0}, {"exponent", 2.0}}}}));
+  const auto [law, values] = GENERATE(from_range(std::vector<LoadedCase>{
+      {"contact_compliance", {{"kinetic", 1.0}, {"static", 1.3}, {"contact_stiffness", 1000.0}}},
+      {"reset_integrator", {{"kinetic", 1.0}, {"stiffness", 1500.0}, {"static_gain", 0.2}}},
+      {"free_play", {{"kinetic", 1.0}, {"play", 1e-3}}},
+      {"iwan", {{"stiffness", 2000.0}, {"limit", 1.0}, {"count", 5.0}}},
+      {"dahl", {{"kinetic", 1.0}, {"sigma0", 1500.0}}},
+      {"bouc_wen", {{"limit", 1.0}, {"stiffness", 1500.0}, {"exponent", 2.0}}}}));
   const double velocity = GENERATE(0.1, -0.1);
   const double duration = GENERATE(3e-3, 12e-3);  // before and after the contact of the first law yields
   CAPTURE(law, velocity, duration);

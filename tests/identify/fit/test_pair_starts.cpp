@@ -1,0 +1,88 @@
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "friction_models/registry.hpp"
+#include "identify/fit/starts.hpp"
+#include "tests/identify/fit/synthetic.hpp"
+
+using namespace dualdamp;
+
+namespace {
+
+/// Near resonance: the force of the spring is 30 times that of the drive, and 380 times the friction.
+identify::Rig resonant_rig(const std::string& law) {
+  identify::Rig rig;
+  rig.known.oscillator = {.mass = 1.042, .stiffness = 1568.0, .damping = 1.2};
+  rig.known.excitation.type = sim::ExcitationType::base_harmonic;
+  friction::ParameterValues values = {{"kinetic", 2.0}};
+  if (law == "contact_compliance") values.set("contact_stiffness", 6000.0);
+  rig.laws.push_back({friction::find_law(law), values});
+  return rig;
+}
+
+identify::Experiments states_of(const identify::Rig& rig, double from, double to, bool with_phases,
+                                std::uint64_t seed) {
+  std::vector<std::pair<double, double>> levels;
+  constexpr int count = 8;
+  for (int i = 0; i < count; ++i) levels.emplace_back(from + (to - from) * i / (count - 1), 38.79);
+  identify::Record record = test::steady_states_of(rig, levels, 1e-4, 2e-3, seed);
+  if (!with_phases)
+    for (identify::Pair& pair : record.pairs->pairs) pair.phase = identify::unknown;
+  std::string fault;
+  identify::Experiments experiments = identify::experiments_of(record, {.name = "pairs"}, fault);
+  REQUIRE(fault.empty());
+  return experiments;
+}
+
+/// A fit that begins without any value of the law.
+identify::Fit fit_of(identify::Rig rig, const identify::Experiments& experiments) {
+  rig.known.oscillator.damping = identify::unknown;
+  rig.laws.front().values = {};
+  std::vector<std::string> faults;
+  const std::vector<identify::FitParameter> sought = identify::unstated_parameters(rig, faults);
+  REQUIRE(faults.empty());
+  return identify::fit_rig(rig, sought, experiments, {.profile = false});
+}
+
+}  // namespace
+
+TEST_CASE("fit: pairs near resonance start from the energy of the states", "[identify][fit][pairs]") {
+  const identify::Rig truth = resonant_rig("coulomb");
+  for (const bool with_phases : {false, true}) {
+    const identify::Experiments experiments = states_of(truth, 4e-3, 16e-3, with_phases, 3);
+    const identify::DataScale scale = identify::scale_of(truth, experiments);
+    CAPTURE(with_phases);
+    CHECK(scale.friction == Approx(2.0).epsilon(0.1));
+    CHECK(scale.damping == Approx(1.2).epsilon(0.02));
+  }
+}
+
+TEST_CASE("fit: pairs of a contact that yields little end at the best fit", "[identify][fit][pairs]") {
+  const identify::Rig truth = resonant_rig("contact_compliance");
+  const auto [from, to] = GENERATE(table<double, double>({{4e-3, 16e-3}, {2e-3, 8e-3}}));
+  const bool with_phases = GENERATE(true, false);
+  const identify::Experiments experiments = states_of(truth, from, to, with_phases, 1);
+  const identify::Fit fit = fit_of(truth, experiments);
+  REQUIRE(fit.outcome.ok());
+  CAPTURE(from, with_phases, test::find_fitted(fit, "kinetic")->value,
+          test::find_fitted(fit, "contact_stiffness")->value);
+  CHECK(fit.signals.front().rms < 1.6e-4);
+  if (with_phases) CHECK(fit.signals.back().rms < 3.2e-3);
+  CHECK(test::find_fitted(fit, "kinetic")->value == Approx(2.0).epsilon(0.05));
+  CHECK(test::find_fitted(fit, "damping")->value == Approx(1.2).epsilon(0.01));
+}
+
+TEST_CASE("fit: the phase of a mass goes on smoothly where it comes to rest", "[identify][fit][pairs]") {
+  const identify::Rig truth = resonant_rig("coulomb");
+  const identify::Experiments experiments = states_of(truth, 2e-3, 8e-3, true, 2);
+  const auto lag_under = [&](double kinetic) {
+    identify::Rig rig = truth;
+    rig.laws.front().values.set("kinetic", kinetic);
+    Eigen::VectorXd outputs;
+    REQUIRE(experiments.front()->predict(*identify::model_of(rig), {}, outputs));
+    return outputs[8];
+  };
+  constexpr double largest_pull = 1568.0 * 2e-3;
+  CHECK(lag_under(1.001 * largest_pull) == Approx(lag_under(0.9999 * largest_pull)).margin(0.03));
+}
