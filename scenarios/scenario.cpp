@@ -139,6 +139,16 @@ void refuse_many_laws(const sim::Model& model, const Document& document, const R
                        {}});
 }
 
+/// A travel before t = 0 loads nothing but a law that remembers its way.
+void refuse_idle_travel(const sim::Model& model, const Document& document, const Reading& reading) {
+  if (model.initial.travel == 0.0 || std::ranges::any_of(model.friction, &friction::Law::remembers_way)) return;
+  throw core::InputError(core::Diagnostic{document.locate(reading.places.at("initial.travel")),
+                                          "'initial.travel' loads no law of this file: none remembers its way",
+                                          "a law that does, such as contact_compliance, dahl or free_play",
+                                          {},
+                                          {}});
+}
+
 /// Warnings about structural damping.
 std::vector<std::string> loss_factor_warnings(const sim::Model& model) {
   if (model.oscillator.loss_factor == 0.0) return {};
@@ -245,6 +255,7 @@ Scenario scenario_of(const Document& document, Reading reading, const std::strin
   if (values.contains("system")) scenario.model = model(values, !sought);
   scenario.model.excitation.samples = checked.drive;
   refuse_many_laws(scenario.model, document, reading);
+  if (!sought) refuse_idle_travel(scenario.model, document, reading);
   if (!sought && values.contains("system") && values.at("system").contains("friction"))
     scenario.warnings = law_warnings(values.at("system").at("friction"), scenario.model.oscillator.coordinate);
   std::ranges::move(checked.warnings, std::back_inserter(scenario.warnings));

@@ -143,6 +143,9 @@ struct FitTask {
         problem(rig, parameters, experiments, sizes, begins) {}
   FitTask(const FitTask&) = delete;
   FitTask& operator=(const FitTask&) = delete;
+  FitTask(FitTask&&) = delete;
+  FitTask& operator=(FitTask&&) = delete;
+  ~FitTask() = default;
 
   const Rig& rig;
   const FitProblem::Experiments& experiments;
