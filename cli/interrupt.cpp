@@ -3,6 +3,7 @@
 #include <signal.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <ctime>
 #include <system_error>
 #include <thread>
@@ -50,7 +51,10 @@ void watch_for_interrupt() {
   }
 }
 
+/// Once: while the program ends slowly, the watcher's patience may be over, too.
 void say_interrupted() {
+  static std::atomic_flag said = ATOMIC_FLAG_INIT;
+  if (said.test_and_set()) return;
   static constexpr char message[] = "interrupted\n";
   if (::write(STDERR_FILENO, message, sizeof message - 1) < 0) {
     // There is no way left to report the failure.

@@ -34,7 +34,10 @@ bool threads_are_to_be_had() {
 class LoopOrder {
  public:
   LoopOrder() { release(&begin_); }
-  void loop_ended() { acquire(&end_); }
+  LoopOrder(const LoopOrder&) = delete;
+  LoopOrder& operator=(const LoopOrder&) = delete;
+  /// Also where a part threw: the loop waits for the others before it throws on.
+  ~LoopOrder() { acquire(&end_); }
 
   class Part {
    public:
@@ -82,7 +85,6 @@ void in_parts(std::size_t size, std::size_t grain, int threads,
     tbb::task_arena(most).execute(loop);
   else
     tbb::this_task_arena::isolate(loop);
-  order.loop_ended();
 }
 
 struct ThreadLimit::Control {
