@@ -106,7 +106,7 @@ TEST_CASE("scenario: what is wrong with --set is said there", "[scenarios]") {
   CHECK(only({"system.mas=1 kg"}).suggestion == "mass");
   CHECK(only({"system.friction[0].kinetic=1 N"}).message == "there is no such list item");
   CHECK(only({"system.mass.value=1 N"}).message.find("has no keys") != std::string::npos);
-  CHECK(only({"initial=3"}).allowed == "a map of position, velocity");
+  CHECK(only({"initial=3"}).allowed == "a map of position, velocity, travel");
   CHECK(only({"system.mass"}).message == "this does not name a value");
   CHECK(only({"=1"}).message == "this does not name a value");
   CHECK(only({"a..b=1"}).message == "this does not name a value");
