@@ -321,7 +321,11 @@ std::optional<Rig> with_values(const Rig& rig, const std::vector<FitParameter>& 
   return result;
 }
 
-bool feels_place(const Rig& rig, const std::vector<FitParameter>& sought) {
+namespace {
+
+/// A model of the rig. Sought numbers are as they are stated, but those that are unknown or zero are 1. Nothing if
+/// a law refuses them: the fit reports that.
+std::optional<sim::Model> example_of(const Rig& rig, const std::vector<FitParameter>& sought) {
   Eigen::VectorXd values(static_cast<Eigen::Index>(sought.size()));
   for (std::size_t i = 0; i < sought.size(); ++i) {
     const double stated = sought[i].stated;
@@ -331,22 +335,39 @@ bool feels_place(const Rig& rig, const std::vector<FitParameter>& sought) {
   }
   try {
     const std::optional<Rig> whole = with_values(rig, sought, values);
-    const std::optional<sim::Model> model = whole ? model_of(*whole) : std::nullopt;
-    if (!model) return false;
-    const auto depends = [](const friction::Law& law) {
-      constexpr double far = 100.0;      // m
-      constexpr double rounding = 1e-5;  // N
-      const auto force_at = [&](double x) {
-        sim::LawHost host(law, {.x = x});
-        host.change_direction(friction::Direction::forward);
-        return host.force();
-      };
-      return std::abs(force_at(0.0) - force_at(far)) > rounding;
-    };
-    return model->oscillator.stiffness > 0.0 || std::ranges::any_of(model->friction, depends);
+    return whole ? model_of(*whole) : std::nullopt;
+  } catch (const friction::LawFault&) {
+    return std::nullopt;
+  }
+}
+
+/// Whether the force of a law without a way behind it depends on the position.
+bool depends_on_place(const friction::Law& law) {
+  constexpr double far = 100.0;      // m
+  constexpr double rounding = 1e-5;  // N
+  const auto force_at = [&](double x) {
+    sim::LawHost host(law, {.x = x});
+    host.change_direction(friction::Direction::forward);
+    return host.force();
+  };
+  return std::abs(force_at(0.0) - force_at(far)) > rounding;
+}
+
+}  // namespace
+
+bool feels_place(const Rig& rig, const std::vector<FitParameter>& sought) {
+  const std::optional<sim::Model> model = example_of(rig, sought);
+  if (!model) return false;
+  try {
+    return model->oscillator.stiffness > 0.0 || std::ranges::any_of(model->friction, depends_on_place);
   } catch (const friction::LawFault&) {
     return false;  // a law that cannot be computed is reported by the fit
   }
+}
+
+bool remembers_way(const Rig& rig, const std::vector<FitParameter>& sought) {
+  const std::optional<sim::Model> model = example_of(rig, sought);
+  return !model || std::ranges::any_of(model->friction, &friction::Law::remembers_way);
 }
 
 std::optional<sim::Model> model_of(Rig rig) {

@@ -98,6 +98,10 @@ void arrange(const Rig& rig, std::vector<FitParameter>& parameters);
 /// numbers count as they are stated, but those that are unknown or zero as 1.
 [[nodiscard]] bool feels_place(const Rig& rig, const std::vector<FitParameter>& sought);
 
+/// Whether a law of the rig remembers the way of the mass, so that a travel before the first sample can load it.
+/// Yes if a law cannot be made of these numbers.
+[[nodiscard]] bool remembers_way(const Rig& rig, const std::vector<FitParameter>& sought);
+
 /// The model of a rig. Nothing if a law refuses its values.
 [[nodiscard]] std::optional<sim::Model> model_of(Rig rig);
 

@@ -78,6 +78,11 @@ Setup setup_of(const Json& analysis, const Json& system, const Json& excitation,
     std::vector<identify::FitParameter> parameters = parameters_for(rig, setup.data, sought, faults);
     setup.candidates.push_back({std::move(rig), std::move(parameters)});
   }
+  const auto is_loaded = [](const FitQuestion::Candidate& candidate) {
+    return identify::remembers_way(candidate.rig, candidate.parameters);
+  };
+  if (model.initial.travel != 0.0 && std::ranges::none_of(setup.candidates, is_loaded))
+    faults.push_back({"data", "'initial.travel' loads no law of this fit: none remembers its way"});
   return setup;
 }
 

@@ -101,6 +101,14 @@ initial: {{position: 1 mm, velocity: 0 m/s}}
 analysis: {{type: fit, data: [{{file: loop.csv, loop: true}}, {{file: run.csv}}]}}
 """))
 
+    def test_a_travel_that_loads_no_law(self):
+        rows = "".join(f"{i / 100},{math.exp(-i / 100) * math.cos(0.3 * i):.6f}\n" for i in range(200))
+        self.write("free.csv", "t [s],x [mm]\n" + rows)
+        constants = ["free.csv", "--mass", "1 kg", "--stiffness", "900 N/m", "--set", "initial.travel=1 mm", "--starts", "1", "--no-profile"]
+        said = self.run_program("fit", "coulomb", *constants, status=3).stderr
+        self.assertIn("'initial.travel' loads no law of this fit: none remembers its way", said)
+        self.run_program("fit", "contact_compliance", *constants, "--set", "system.friction.kinetic=0.1 N", "--set", "system.friction.contact_stiffness=900 N/m", status=0)
+
     def test_the_frequency_of_other_records(self):
         """Of a fit to readings with frequencies of their own: that of its first reading is not that of further pairs."""
         shipped = ROOT / "scenarios/examples"
