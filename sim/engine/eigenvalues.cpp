@@ -7,14 +7,11 @@
 
 namespace dualdamp::sim {
 
-namespace {
-
-/// Scales the coordinates by powers of two until rows and columns have similar sizes. The solver's
-/// error is relative to the largest entry: in m and m/s an entry may be 1e17 times another one, and both matter.
-Eigen::MatrixXd balanced(Eigen::MatrixXd matrix) {
+Eigen::VectorXd balance(Eigen::MatrixXd& matrix) {
   constexpr double enough = 0.95;
   constexpr int most_sweeps = 100;
   const auto size_of = [](const auto& part, Eigen::Index i) { return part.cwiseAbs().sum() - std::abs(part[i]); };
+  Eigen::VectorXd units = Eigen::VectorXd::Ones(matrix.rows());
   bool changed = matrix.allFinite();
   for (int sweep = 0; changed && sweep < most_sweeps; ++sweep) {
     changed = false;
@@ -26,16 +23,17 @@ Eigen::MatrixXd balanced(Eigen::MatrixXd matrix) {
       if (column * factor + row / factor >= enough * (column + row)) continue;
       matrix.col(i) *= factor;
       matrix.row(i) /= factor;
+      units[i] *= factor;
       changed = true;
     }
   }
-  return matrix;
+  return units;
 }
 
-}  // namespace
-
 Eigen::VectorXcd eigenvalues_of(const Eigen::MatrixXd& matrix) {
-  const Eigen::EigenSolver<Eigen::MatrixXd> solver(balanced(matrix), false);
+  Eigen::MatrixXd balanced = matrix;
+  balance(balanced);
+  const Eigen::EigenSolver<Eigen::MatrixXd> solver(balanced, false);
   if (solver.info() != Eigen::Success) return Eigen::VectorXcd::Constant(matrix.rows(), core::infinity);
   return solver.eigenvalues();
 }

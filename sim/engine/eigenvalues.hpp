@@ -5,6 +5,11 @@
 
 namespace dualdamp::sim {
 
+/// Scales the coordinates by powers of two until rows and columns have similar sizes; returns the new units. The
+/// error of a computation with a matrix is relative to its largest entry: in m and m/s an entry may be 1e17 times
+/// another one, and both matter.
+Eigen::VectorXd balance(Eigen::MatrixXd& matrix);
+
 /// Infinite if the solver does not converge, for example for a matrix that is not finite: a map whose Floquet
 /// multipliers are not known must not count as attracting.
 [[nodiscard]] Eigen::VectorXcd eigenvalues_of(const Eigen::MatrixXd& matrix);

@@ -18,6 +18,8 @@ namespace {
 
 /// Relative increment of a difference at which truncation and rounding are equal.
 constexpr double increment = 1.5e-8;
+/// Of a law that is affine in each mode: there is no truncation, and the rounding of a slope is 1e-12 of it.
+constexpr double affine_increment = 1e-4;
 
 /// Laws may change over speeds down to this part of the largest one: the scale of Stribeck curves.
 constexpr double slow = 0.01;
@@ -181,12 +183,14 @@ Flow::Slope Flow::difference(std::size_t i, std::size_t column, double step, std
 void Flow::differentiate_law(std::size_t i, std::size_t column, std::span<const double> X, double t, double base,
                              std::span<double> columns) const {
   const double own = std::abs(X[column]);
-  double step = increment * (own + (column == 1 ? slow * scales_[1] : scales_[column]));
+  const bool affine = model_.friction[i].is_affine();
+  double step =
+      (affine ? affine_increment : increment) * (own + (column == 1 ? slow * scales_[1] : scales_[column]));
   double slope = difference(i, column, step, X, t, base).value;
   // Friction that depends on the logarithm of the speed is a steep dashpot at speeds far below the largest one. So
   // the step is shortened until the slope no longer grows.
   const double shortest = std::max(increment * own, least_speed * scales_[1]);
-  while (column == 1 && step > ladder * shortest) {
+  while (column == 1 && !affine && step > ladder * shortest) {
     step = std::max(shortest, step / ladder);
     const Slope steeper = difference(i, column, step, X, t, base);
     if (!steeper.resolved || !(std::abs(steeper.value) > 2.0 * std::abs(slope))) break;

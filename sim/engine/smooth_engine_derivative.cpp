@@ -17,7 +17,6 @@
 #include "friction_models/state_sizes.hpp"
 #include "sim/engine/smooth_engine.hpp"
 #include "sim/engine/variation.hpp"
-#include "sim/steppers/radau_collocation.hpp"
 
 namespace dualdamp::sim {
 
@@ -83,14 +82,14 @@ void SmoothEngine::track_step() {
   const auto size = static_cast<std::size_t>(columns_.rows());
   if (variation_size_ != size) variation_ = make_variation(size);
   variation_size_ = size;
-  const auto rows = static_cast<Eigen::Index>(RadauCollocation::stages) * columns_.rows();
   Eigen::VectorXd late(columns_.rows());
   const TakenStep step{*stepper_, local_time_, taken_, part_for_rate * shortest_period(), flow_.scales()};
-  const long parts = variation_->parts();
+  const auto work = [&] { return variation_->parts() + variation_->operations() / operations_in_unit; };
+  const long before = work();
   if (!variation_->pass(flow_, step, {columns_.data(), static_cast<std::size_t>(columns_.size())},
                         {late.data(), size}))
     columns_.setConstant(std::numeric_limits<double>::quiet_NaN());
-  variation_work_ += (variation_->parts() - parts) * (1 + rows * rows * rows / operations_in_unit);
+  variation_work_ += work() - before;
   columns_ -= late * lead_;
 }
 

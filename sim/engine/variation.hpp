@@ -9,12 +9,13 @@
 ///
 /// The variational equation may need shorter steps than the motion. J alone may change sharply within a step, as at
 /// v = 0 under a level that falls within a small part of the speed. Such a step is halved until each entry of J at
-/// a stage agrees with a cubic through the other stages. A step is also halved while a perturbation turns by more
-/// than 1 rad in it although the motion does not.
+/// a stage agrees with a cubic through the other stages. A perturbation may also turn many times in a step although
+/// the motion does not: the exponential of J then takes it through (`fast_turns.hpp`). Where J changes too much for
+/// that, the step is halved until the perturbation turns by no more than 1 rad in each part.
 ///
 /// Errors: order 9 in the length of a part; J is as exact as the field gives it. Cost of a part: five Jacobians,
-/// ten evaluations of the field, LU factors of five times as many rows as the state has; eigenvalues of J if
-/// components act on each other within the part.
+/// ten evaluations of the field, LU factors of five times as many rows as the state has components that change;
+/// eigenvalues of J if components act on each other within the part.
 
 #include <memory>
 #include <span>
@@ -41,6 +42,8 @@ class Variation {
                                   std::span<double> late) = 0;
   /// Number of parts passed so far, each with one linearisation.
   [[nodiscard]] virtual long parts() const = 0;
+  /// Operations of linear algebra so far.
+  [[nodiscard]] virtual long operations() const = 0;
 };
 
 /// For states of `size` components.

@@ -93,7 +93,9 @@ std::optional<Orbit> Approach::find(SteadyState& result) {
 
 /// Examines the motion after one more period: the orbit, if it has been reached.
 std::optional<Orbit> Approach::look(const ForcingPeriod& period, SteadyState& result) {
-  if (std::optional<Orbit> orbit = closed(period.end)) {
+  std::optional<Orbit> orbit = closed(period.end);
+  if (!orbit && has_arrived(period.end)) orbit = at_start(*candidate_);
+  if (orbit) {
     const double radius = has_past_ || !period.moves ? 0.0 : orbit->period.radius();
     if (radius > 1.0 + neutral_margin) {
       result.warnings.emplace_back(repelling);
@@ -102,7 +104,6 @@ std::optional<Orbit> Approach::look(const ForcingPeriod& period, SteadyState& re
     }
     return orbit;
   }
-  if (has_arrived(period.end)) return at_start(*candidate_);
   if (!has_past_) try_candidate(period.end);
   if (is_time_to_tell()) {
     is_told_ = true;

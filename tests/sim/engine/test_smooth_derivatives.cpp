@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <complex>
 #include <numbers>
 #include <string_view>
 #include <utility>
@@ -276,4 +277,72 @@ TEST_CASE("smooth engine: the delay of a mode change that leaves the force as it
   CHECK(period.monodromy(1, 0) == Approx(-2.02674716e-3).epsilon(1e-6));
   CHECK(period.monodromy(1, 1) == Approx(9.99162544e-1).epsilon(1e-7));
   CHECK(std::abs(period.monodromy(1, 2) + 4.6e-12) < 1e-12);
+}
+
+TEST_CASE("smooth engine: a perturbation that turns a million times in a forcing period is followed at once",
+          "[sim][smooth][derivative]") {
+  // A mass on a contact that never slips rings at 53,000 rad/s under a drive of 0.19 rad/s; nothing of that is left
+  // after the period. Another rings at 600 rad/s, hardly damped. The motion follows the drive in steps of up to
+  // 0.012 s. Halved until a perturbation turns by less than 1 rad, these were millions of parts.
+  const auto [decay, contact] = GENERATE(std::pair(60.0, 5e7), std::pair(0.03, 6.4e3));
+  sim::Model model;
+  model.oscillator = {.mass = 0.0177, .stiffness = 79.1};
+  model.oscillator.damping = 2.0 * decay * model.oscillator.mass;
+  model.excitation = {
+      .type = sim::ExcitationType::base_harmonic, .amplitude = 5e-4, .frequency = 0.19, .phase = 1.0};
+  add_law(model, "contact_compliance", {{"kinetic", 0.3}, {"contact_stiffness", contact}});
+  model.solver.kind = sim::SolverKind::implicit_steps;
+  // On the linear response, which does not ring.
+  const double w = model.excitation.frequency;
+  const std::complex<double> response =
+      model.oscillator.stiffness * std::polar(model.excitation.amplitude, model.excitation.phase) /
+      std::complex(model.oscillator.stiffness + contact - model.oscillator.mass * w * w,
+                   model.oscillator.damping * w);
+  sim::PeriodMap motion(model);
+  (void)motion.from_start(response.real(), -w * response.imag(), Monodromy::without);
+  const long alone = motion.engine().work();
+  sim::PeriodMap map(model);
+  const ForcingPeriod period = map.from_start(response.real(), -w * response.imag(), Monodromy::with);
+  REQUIRE(period.monodromy.rows() == 3);
+  // exp(A t) of x'' + 2 decay x' + ringing^2 x = 0. Its phase of 2e4 rad is known to 1e-8 of itself, and what has
+  // died out to the rounding of what was there.
+  const double ringing = std::sqrt((model.oscillator.stiffness + contact) / model.oscillator.mass - decay * decay);
+  const double t = 2.0 * std::numbers::pi / w;
+  const double left = std::exp(-decay * t);
+  const double c = std::cos(ringing * t);
+  const double s = std::sin(ringing * t);
+  CAPTURE(decay, period.monodromy, map.engine().work(), alone, left, c, s);
+  const double allowed = 2e-4 * left + 1e-12;
+  CHECK(std::abs(period.monodromy(0, 0) - left * c) < allowed);
+  CHECK(std::abs(period.monodromy(0, 1) * ringing - left * s) < allowed);
+  CHECK(std::abs(period.monodromy(1, 0) / ringing + left * s) < allowed);
+  CHECK(std::abs(period.monodromy(1, 1) - left * c) < allowed);
+  CHECK(map.engine().work() < 4 * alone);
+}
+
+TEST_CASE(
+    "smooth engine: a perturbation that turns fast on a stiffness that changes is followed in parts of a step",
+    "[sim][smooth][derivative]") {
+  // It turns 100 times in a forcing period on a contact that never slips, beside a spring whose stiffness changes
+  // by 0.75 % of the contact's: 2.4 rad more or less.
+  sim::Model model;
+  model.oscillator = {.mass = 1.0, .stiffness = 100.0, .damping = 2.0, .cubic_stiffness = 1e6};
+  model.excitation = {.type = sim::ExcitationType::base_harmonic, .amplitude = 0.05, .frequency = 10.0};
+  add_law(model, "contact_compliance", {{"kinetic", 1e5}, {"contact_stiffness", 1e6}});
+  model.solver.kind = sim::SolverKind::implicit_steps;
+  sim::PeriodMap map(model);
+  ForcingPeriod period = map.from_start(0.0, 0.0, Monodromy::without);
+  for (int i = 0; i < 20; ++i) period = map.next(Monodromy::without);
+  period = map.from(period.end, Monodromy::with);
+  model.solver.kind = sim::SolverKind::explicit_steps;
+  sim::PeriodMap quick(model);
+  for (const Eigen::Index j : {0, 1}) {
+    const Eigen::VectorXd expected = quotient(quick, period, j, 1e-3 * period.size * (j == 0 ? 1.0 : 1000.0));
+    CAPTURE(j, period.monodromy.col(j).transpose(), expected.transpose());
+    // In units of the ringing: velocities are 1000 times positions.
+    CHECK(std::abs(period.monodromy(0, j) - expected[0]) <
+          1e-5 * std::abs(expected[1]) / 1000.0 + 1e-5 * std::abs(expected[0]));
+    CHECK(std::abs(period.monodromy(1, j) - expected[1]) <
+          1e-5 * std::abs(expected[1]) + 1e-5 * 1000.0 * std::abs(expected[0]));
+  }
 }
