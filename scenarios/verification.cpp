@@ -11,6 +11,7 @@
 #include "core/numbers.hpp"
 #include "friction_models/law_fault.hpp"
 #include "scenarios/aligned_answer.hpp"
+#include "scenarios/telling_events.hpp"
 #include "sim/engine/engine.hpp"
 
 namespace dualdamp::scenarios {
@@ -206,8 +207,8 @@ class Comparison {
     const auto other = std::ranges::find(other_.tables, table.name, &Table::name);
     const std::string& name = table.key.empty() ? table.name : table.key;
     if (other == other_.tables.end()) return differ(name, "the other result has none");
-    std::vector<std::size_t> mine = rows_of(table);
-    std::vector<std::size_t> theirs = rows_of(*other);
+    std::vector<std::size_t> mine = telling_rows(table, rows_of(table), sizes_["m"]);
+    std::vector<std::size_t> theirs = telling_rows(*other, rows_of(*other), sizes_["m"]);
     if (table.ends_with_accuracy) {
       mine.resize(std::min(mine.size(), theirs.size()));
       theirs.resize(mine.size());

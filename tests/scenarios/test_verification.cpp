@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <numbers>
+#include <string>
+#include <tuple>
+#include <vector>
 
 #include "core/diagnostics.hpp"
 #include "scenarios/run.hpp"
@@ -258,6 +261,66 @@ TEST_CASE("verification: a speed is measured by the largest of the motion, not b
   const std::vector<scenarios::ResultField> velocity = {{"v", "m/s", ""}};
   CHECK(scenarios::compare_answers(speed(1e-3), speed(1e-3 + 5e-9), velocity).agrees);
   CHECK_FALSE(scenarios::compare_answers(speed(1e-3), speed(1e-3 + 5e-8), velocity).agrees);
+}
+
+TEST_CASE("verification: turns of a mass that rings down to rounding are not compared",
+          "[scenarios][verification]") {
+  // Cases 31409:19 and 31409:125 of scripts/crosscheck: 138 events and 268, 59 and 56.
+  const std::string text = GENERATE(
+      std::string("{mass: 0.6204612731145216, stiffness: 334319.0263120376, damping: 2044.4080293066393, friction: "
+                  "[{law: coulomb, kinetic: 2.091127411161229, fluctuation: {ratio: 0.8080149061207652, "
+                  "correlation_time: 0.02088005329297089, seed: 248}}, {law: contact_compliance, kinetic: 2e7, "
+                  "contact_stiffness: 7.7e8}]}\nexcitation: {type: none}\ninitial: {position: "
+                  "0.045322912933695766}\nanalysis: {type: simulate, duration: 0.08559662901554196}"),
+      std::string(
+          "{mass: 0.44193016043098804, stiffness: 0.3377306165775848, damping: 0.4537278423436972, friction: "
+          "[{law: gap_spring, stiffness: 2.1798913199901278, gap: 0.1058851611694762}]}\nexcitation: "
+          "{type: base_chirp, amplitude: 0.7171290877725714, from: 1.3546368569362042 rad/s, to: "
+          "1.0531001037561405 rad/s, duration: 10.74067738632066, spacing: linear, phase: "
+          "4.022896848817823}\nanalysis: {type: simulate, duration: 71.87394332841433}"));
+  const scenarios::RunResult result = scenarios::run(scenarios::parse_scenario(
+      "schema: dualdamp/1\nsystem: " + text + "\nnumerics: {verify: true}\n", "test.yaml"));
+  INFO(text << result.verification->reason);
+  CHECK(result.verification->agrees);
+}
+
+TEST_CASE("verification: a stop from which the mass goes on at once may be a grazing, a slip may not be lost",
+          "[scenarios][verification]") {
+  using Event = std::tuple<double, std::string, double>;
+  const auto events = [](const std::vector<Event>& list) {
+    Answer result;
+    result.result["events"] = nullptr;
+    scenarios::Column t{.name = "t", .unit = "s"};
+    scenarios::Column kind{.name = "kind", .kind = scenarios::CellKind::text};
+    scenarios::Column x{.name = "x", .unit = "m"};
+    for (const auto& [time, name, place] : list) {
+      t.numbers.push_back(time);
+      kind.texts.push_back(name);
+      x.numbers.push_back(place);
+    }
+    result.tables.push_back({.name = "events", .columns = {t, kind, x}, .key = "events"});
+    return result;
+  };
+  const auto agree = [&](const std::vector<Event>& a, const std::vector<Event>& b) {
+    return scenarios::compare_answers(events(a), events(b), {}).agrees &&
+           scenarios::compare_answers(events(b), events(a), {}).agrees;
+  };
+  const Event first = {0.0, "reversal", -1.0};
+  const Event last = {10.0, "reversal", 1.0};
+  CHECK(agree({first, last}, {first, {4.0, "stop", 0.5}, {4.00001, "release", 0.5}, last}));
+  CHECK(agree({first, {4.0, "grazing", 0.5}, last},
+              {first, {4.0, "reversal", 0.5}, {4.00001, "reversal", 0.5}, last}));
+  // It rests too long, or goes back.
+  CHECK_FALSE(agree({first, last}, {first, {4.0, "stop", 0.5}, {4.001, "release", 0.5}, last}));
+  CHECK_FALSE(agree({first, {10.0, "reversal", -2.0}},
+                    {first, {4.0, "stop", 0.5}, {4.00001, "release", 0.5}, {10.0, "reversal", -2.0}}));
+  // A slip of rounding, and one that counts.
+  const Event stop = {4.0, "stop", 0.5};
+  const Event release = {8.0, "release", 0.5};
+  CHECK(agree({first, stop, release, last},
+              {first, stop, {5.0, "release", 0.5}, {5.1, "stop", 0.5 + 1e-12}, release, last}));
+  CHECK_FALSE(agree({first, stop, release, last},
+                    {first, stop, {5.0, "release", 0.5}, {5.1, "stop", 0.5 + 1e-7}, release, last}));
 }
 
 TEST_CASE("verification: a mass a million times lighter than its damper needs is computed again",

@@ -1,0 +1,24 @@
+#pragma once
+/// Events that tell something about a motion. Where a mass hardly moves - it rings down, creeps, slips by rounding
+/// - the times and the number of its reversals, stops and releases depend on rounding. The same holds for a stop
+/// from which the mass goes on at once: a grazing.
+
+#include <cstddef>
+#include <vector>
+
+#include "scenarios/results/table.hpp"
+
+namespace dualdamp::scenarios {
+
+/// Of `rows` of a table of events: all but
+///
+/// * reversals, stops and releases that are less than 1e-8 of `length` away from those before and after;
+/// * pairs of a stop and a release, or of two reversals, at one place to 1e-8 of `length` and at one time to 1e-5
+/// of
+///   the last event's, if the mass goes on in its direction.
+///
+/// All rows of other tables.
+[[nodiscard]] std::vector<std::size_t> telling_rows(const Table& table, const std::vector<std::size_t>& rows,
+                                                    double length);
+
+}  // namespace dualdamp::scenarios
