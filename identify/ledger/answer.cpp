@@ -102,6 +102,10 @@ void correct(Estimate& estimate) {
 void keep_physical(Estimate& estimate) {
   for (const ReportedParameter& parameter : reported_parameters) {
     double& value = estimate.value.*parameter.value;
+    if (value < 0.0 && (parameter.name == "zeta" || parameter.name == "F0"))
+      estimate.warnings.push_back(std::string(parameter.name) + " is fitted best by a negative value (" +
+                                  number(value) +
+                                  " in SI units), and is answered as zero: the data do not tell it from zero");
     value = value < 0.0 ? 0.0 : value;
     if (!estimate.interval95) continue;
     double& low = ((*estimate.interval95).*parameter.interval)[0];
@@ -324,6 +328,44 @@ std::string over_laws(const std::vector<Estimate>& estimates, core::Coordinate c
          " (" + ends(laws.F0_ends) + ").";
 }
 
+/// The interval of the answer and what is not excluded beyond it. A range over laws holds departures already.
+std::optional<UnseenRange> range_of(const Estimate& best, const Ledger& ledger) {
+  if (!best.interval95 || (!best.laws && !ledger.unseen)) return std::nullopt;
+  UnseenRange range{.ends = *best.interval95};
+  if (best.laws) return range;
+  for (const ReportedParameter& parameter : reported_parameters) {
+    Interval& own = range.ends.*parameter.interval;
+    const Interval& other = ledger.unseen->ends.*parameter.interval;
+    own = {std::min(own[0], other[0]), std::max(own[1], other[1])};
+  }
+  const auto name_ends = [&](Interval ParameterIntervals::* member, auto by) {
+    for (std::size_t end = 0; end < 2; ++end)
+      if ((range.ends.*member)[end] != ((*best.interval95).*member)[end])
+        (range.*by)[end] = ((*ledger.unseen).*by)[end];
+  };
+  name_ends(&ParameterIntervals::zeta, &UnseenRange::zeta_by);
+  name_ends(&ParameterIntervals::F0, &UnseenRange::F0_by);
+  return range;
+}
+
+/// " What no test of these data excludes allows zeta from 0.018 to 0.024 (quadratic term over speed)."
+std::string range_text(const Identification& all) {
+  if (!all.range) return {};
+  const auto ends = [](const Interval& range, const std::array<std::string, 2>& by, const std::string& unit) {
+    const auto named = [](const std::string& name) { return name.empty() ? "" : " (" + name + ")"; };
+    return number(range[0]) + (by[0] == by[1] ? "" : named(by[0])) + " to " + number(range[1]) + unit +
+           named(by[1]);
+  };
+  const auto moved = [](const std::array<std::string, 2>& by) { return !by[0].empty() || !by[1].empty(); };
+  std::vector<std::string> texts;
+  if (moved(all.range->zeta_by)) texts.push_back("zeta from " + ends(all.range->ends.zeta, all.range->zeta_by, ""));
+  if (moved(all.range->F0_by))
+    texts.push_back("F0 from " +
+                    ends(all.range->ends.F0, all.range->F0_by, " " + core::unit_for(all.ledger.coordinate, "N")));
+  if (texts.empty()) return {};
+  return " What no test of these data excludes allows " + core::joined(texts, " and ") + ".";
+}
+
 std::string verdict_of(const Identification& all) {
   std::string text = departures_text(all.ledger);
   const bool of_friction = departs_in_friction(all.ledger);
@@ -345,13 +387,14 @@ std::string verdict_of(const Identification& all) {
   for (const Estimate& other : all.estimates)
     if (disagree(best, other))
       text += " " + other.method + " disagrees: " + numbers_of(other, all.ledger.coordinate) + ".";
+  text += range_text(all);
   return text + over_laws(all.estimates, all.ledger.coordinate);
 }
 
 }  // namespace
 
 Identification concluded(std::vector<Estimate> estimates, Ledger ledger) {
-  Identification all{std::move(estimates), std::move(ledger), std::nullopt, {}, {}};
+  Identification all{.estimates = std::move(estimates), .ledger = std::move(ledger)};
   bool beside = all.estimates.size() > 1;  // a single method that was asked for answers alone, if it can
   for (Estimate& estimate : all.estimates) {
     correct(estimate);
@@ -368,7 +411,10 @@ Identification concluded(std::vector<Estimate> estimates, Ledger ledger) {
   for (Estimate& estimate : all.estimates)
     if (estimate.laws) reached_by = extend_to_relaxed(estimate, all.ledger);
   all.answer = preferred(all.estimates, all.ledger);
-  if (all.answer) keep_physical(all.estimates[*all.answer]);
+  if (all.answer) {
+    keep_physical(all.estimates[*all.answer]);
+    all.range = range_of(all.estimates[*all.answer], all.ledger);
+  }
   all.reason = all.answer ? why_preferred(all) : why_none(all);
   const bool any = std::ranges::any_of(all.estimates, [](const Estimate& e) { return e.outcome.ok(); });
   if (any) all.verdict = verdict_of(all);

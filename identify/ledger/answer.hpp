@@ -23,8 +23,11 @@ struct Identification {
   std::vector<Estimate> estimates;  ///< `usable` and `reason` as the ledger sets them
   Ledger ledger;
   std::optional<std::size_t> answer;  ///< place among the estimates; nothing: no answer
-  std::string reason;                 ///< why this one, or why none and what would help
-  std::string verdict;                ///< the answer and what the data contradict, in sentences
+  /// Of the answer: its interval, extended by what departures that no test sees may make of it. Nothing without an
+  /// interval, and where nothing could be tested.
+  std::optional<UnseenRange> range;
+  std::string reason;   ///< why this one, or why none and what would help
+  std::string verdict;  ///< the answer and what the data contradict, in sentences
 };
 
 /// `estimates`: of the methods asked for. If these are several, or the joint model excludes one, the estimate of

@@ -13,6 +13,7 @@
 #include "identify/ledger/history_rows.hpp"
 #include "identify/ledger/history_ways.hpp"
 #include "identify/ledger/innovations.hpp"
+#include "identify/ledger/stated_noise.hpp"
 #include "identify/methods/histories/forward_fit.hpp"
 #include "identify/statistics/decompositions.hpp"
 #include "identify/statistics/statistics.hpp"
@@ -36,8 +37,8 @@ using Numbers = std::vector<std::size_t>;
 /// The histories of one record with their fit, at which the joint model is linearised.
 class Histories {
  public:
-  Histories(const Record& record, const KnownConstants& constants, Estimate& taken)
-      : record_(record), constants_(constants), fit_(record, constants, {}, taken) {
+  Histories(const Record& record, const KnownConstants& constants, double sigma_x, Estimate& taken)
+      : record_(record), constants_(constants), sigma_x_(sigma_x), fit_(record, constants, {}, taken) {
     if (!fit_.problem().empty()) return;
     start_.p = fit_.found().parameters;
     const ForceParameters force = fit_.layout().force(start_.p);
@@ -50,7 +51,7 @@ class Histories {
     for (std::size_t i = 0; i < zeros_.size(); ++i) start_.zeros[static_cast<Eigen::Index>(i)] = zeros_[i].near;
     start_.g = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(list_.relaxations.size()));
     for (const ForwardTest& test : fit_.tests()) {
-      noise_.push_back(noise_levels(*test.history, force.k, scale_));
+      noise_.push_back(noise_levels(*test.history, force.k, scale_, sigma_x));
       if (noise_.back().drive > 0.0) shaken_.emplace(noise_.size() - 1, with_noisier_drive(*test.history));
     }
   }
@@ -94,6 +95,14 @@ class Histories {
     return joint(at, taken, all);
   }
 
+  void forget_stated() {  // the noise of x is that of its samples
+    sigma_x_ = 0.0;
+    for (std::size_t t = 0; t < noise_.size(); ++t)
+      noise_[t].x = noise_levels(*fit_.tests()[t].history, unit_force_ / scale_.length, scale_).x;
+  }
+
+  /// Deviation of the samples of x over that stated.
+  [[nodiscard]] double scatter() const { return scatter_; }
   /// Why the fit tells nothing; empty otherwise.
   [[nodiscard]] std::string fault_of_fit() { return freed_.fault(); }
 
@@ -113,7 +122,8 @@ class Histories {
     JointModel model;
     model.relaxations = list_.relaxations;
     if (std::optional<Linearised> found = taken.empty() ? seen_from_afar(at, all) : linearised(at, all, true)) {
-      model.deviance = found->log_variances + squares_beside(*found, taken);
+      model.deviance =
+          found->log_variances + squares_beside(found->residuals, free_columns(found->base, found->relaxed, taken));
       model.residuals = std::move(found->residuals);
       model.base = std::move(found->base);
       model.relaxed = std::move(found->relaxed);
@@ -130,7 +140,8 @@ class Histories {
       if (model.shaken.size() > 0) model.shaken.col(1 + j) *= units[j];
     }
     model.constants = {force.m, force.k, constants_.frequency};
-    model.scale_freedom = static_cast<double>(model.residuals.size());
+    model.is_stated = sigma_x_ > 0.0;
+    model.scale_freedom = model.is_stated ? known_freedom : static_cast<double>(model.residuals.size());
     model.F0_parts = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(list_.ways.size()));
     model.zeta_parts = model.F0_parts;
     for (std::size_t j = 0; j < list_.ways.size(); ++j) {
@@ -140,12 +151,6 @@ class Histories {
         model.zeta_parts[own] = unit_force_ / scale_.speed / critical_damping(force.m, force.k);
     }
     return model;
-  }
-
-  /// Sum of squares that base parameters and the relaxations taken leave.
-  [[nodiscard]] static double squares_beside(const Linearised& rows, const Numbers& taken) {
-    const Eigen::MatrixXd columns = free_columns(rows.base, rows.relaxed, taken);
-    return (rows.residuals - columns * pivoted_least_squares(columns, rows.residuals)).squaredNorm();
   }
 
   /// Far from the right constants the fit misses most of the motion. What it leaves is then a swing, and no noise:
@@ -210,16 +215,6 @@ class Histories {
     return at;
   }
 
-  /// With negative damping the noise of the drive grows in the motion. The residuals then do not show the noise
-  /// level.
-  [[nodiscard]] bool noise_grows(const ForceParameters& force) {
-    const double rate = -0.5 * force.c / force.m;
-    return std::ranges::any_of(fit_.tests(), [rate](const ForwardTest& test) {
-      const History& history = *test.history;
-      return rate * static_cast<double>(history.x.size()) > history.sample_rate;
-    });
-  }
-
   /// Rows of every channel. `white`: whitened by `errors`, else by its own residuals, with `shaken`.
   [[nodiscard]] std::optional<Linearised> linearised(const Place& at, const Numbers& wanted, bool white,
                                                      const std::vector<Autoregression>& errors = {}) {
@@ -229,7 +224,7 @@ class Histories {
     // Innovations are nearly white: the noise levels are estimates.
     Channel v{.most_lags = 4};
     Channel a{.most_lags = 4};
-    const bool shake = white && !shaken_.empty() && !noise_grows(force);
+    const bool shake = white && !shaken_.empty() && !noise_grows(force, record_);
     for (std::size_t t = 0; t < fit_.tests().size(); ++t)
       if (!add_test(t, at, wanted, shake, x, v, a)) return std::nullopt;
     Linearised result;
@@ -240,7 +235,9 @@ class Histories {
     for (Channel* channel : {&x, &v, &a}) {
       if (channel->rows.rows() == 0) continue;
       if (!white) channel->most_lags = 0;
-      WhiteRows made = made_white(*channel, base + more, errors.empty() ? nullptr : &errors[parts.size()]);
+      const Autoregression* known = errors.empty() ? nullptr : &errors[parts.size()];
+      WhiteRows made = made_white(*channel, base + more, known, channel == &x && sigma_x_ > 0.0);
+      if (channel == &x && white && known == nullptr) scatter_ = made.scatter;
       result.log_variances += made.log_variances;
       result.errors.push_back(std::move(made.errors));
       parts.push_back(std::move(made.rows));
@@ -269,7 +266,7 @@ class Histories {
       const Way& way = list_.ways[j];
       const double g = at.g[static_cast<Eigen::Index>(j)];
       if (way.kind == Way::Kind::constant) by.push_back(way.by);
-      if (way.kind == Way::Kind::friction_of_history) parameters.F0 += g * share_of(way, t);
+      if (way.kind == Way::Kind::friction_of_history) parameters.F0 += g * share_of(way, t, fit_.tests().size());
       if (way.kind != Way::Kind::force) continue;
       const double unit = way.term->assumption == Assumption::sensors ? 1.0 : unit_force_;
       forces.emplace_back([term = way.term, unit, scale = scale_](const SampledOscillator::Instant& instant) {
@@ -298,7 +295,8 @@ class Histories {
     // The same rows in every step of a fit.
     if (moving_.size() == t) moving_.push_back(moving_rows(history, motion.x, parameters.F0 / parameters.k));
     const Eigen::Index moving = moving_[t];
-    in_x.add(averaged(rows.x.topRows(moving), width));
+    // Means of independent errors have their deviation over the root of the width.
+    in_x.add(std::sqrt(static_cast<double>(width)) * averaged(rows.x.topRows(moving), width));
     if (!history.v.empty()) in_v.add(averaged(rows.v.topRows(moving), width));
     if (!history.a.empty()) in_a.add(averaged(rows.a.topRows(moving), width));
     return true;
@@ -358,14 +356,9 @@ class Histories {
       const Eigen::Index to = base + static_cast<Eigen::Index>(j);
       if (way.kind == Way::Kind::force) result.col(to) = derivatives.col(from++);
       if (way.kind == Way::Kind::friction_of_history)
-        result.col(to) = result.col(1) * (share_of(way, t) / layout.shared()[1].scale);
+        result.col(to) = result.col(1) * (share_of(way, t, fit_.tests().size()) / layout.shared()[1].scale);
     }
     return result;
-  }
-
-  /// Share of a free friction force of one test in every test, so that F0 stays the mean over all tests.
-  [[nodiscard]] double share_of(const Way& way, std::size_t test) {
-    return way.history == test ? 1.0 : -1.0 / (static_cast<double>(fit_.tests().size()) - 1.0);
   }
 
   /// Rows of one reading, with the columns of what is free in its sensor.
@@ -409,6 +402,8 @@ class Histories {
 
   const Record& record_;  // outlives the tests
   KnownConstants constants_;
+  double sigma_x_;        ///< stated; 0: none
+  double scatter_ = 1.0;  ///< of the rows of x where the model was linearised last
   ForwardFit fit_;
   Place start_;
   MotionScale scale_;
@@ -424,14 +419,23 @@ class Histories {
 
 }  // namespace
 
-std::variant<JointModel, std::string> history_model(const Record& record, const KnownConstants& constants) {
+std::variant<JointModel, std::string> history_model(const Record& record, const KnownConstants& constants,
+                                                    double sigma_x) {
   if (std::string fault = fault_of_histories(record); !fault.empty()) return fault;
   Estimate taken;
-  const auto histories = std::make_shared<Histories>(record, constants, taken);
+  const auto histories = std::make_shared<Histories>(record, constants, sigma_x, taken);
   ForwardFit& fit = histories->fit();
   if (!fit.problem().empty()) return fit.problem();
   if (std::string fault = histories->fault_of_fit(); !fault.empty()) return fault;
   JointModel model = histories->fitted({});
+  const double scatter = histories->scatter();
+  const auto freedom = static_cast<double>(sigma_x > 0.0 ? model.residuals.size() : 0);
+  const int contradicts = contradicts_stated(scatter, freedom);
+  if (contradicts > 0) {
+    histories->forget_stated();
+    model = histories->fitted({});
+  }
+  note_contradiction(contradicts, scatter, "samples of x", model);
   if (model.residuals.size() == 0 || !model.residuals.allFinite() || !model.base.allFinite())
     return "the simulated motion, fitted with the mass and the stiffness as stated, grows beyond all numbers";
   model.refit = [histories](const Numbers& numbers) { return histories->fitted(numbers); };

@@ -24,8 +24,10 @@
 
 namespace dualdamp::identify {
 
-/// The model, or why there is none.
+/// The model, or why there is none. `sigma_x`: stated deviation of a sample of x [m], used unless the samples
+/// scatter clearly more; 0: none. How long errors last is taken from the samples in any case.
 [[nodiscard]] std::variant<JointModel, std::string> history_model(const Record& record,
-                                                                  const KnownConstants& constants);
+                                                                  const KnownConstants& constants,
+                                                                  double sigma_x = 0.0);
 
 }  // namespace dualdamp::identify

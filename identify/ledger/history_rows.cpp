@@ -49,7 +49,8 @@ Eigen::VectorXd error_covariances(const Eigen::MatrixXd& columns, const Eigen::V
 
 }  // namespace
 
-WhiteRows made_white(const Channel& channel, Eigen::Index count_of_columns, const Autoregression* known) {
+WhiteRows made_white(const Channel& channel, Eigen::Index count_of_columns, const Autoregression* known,
+                     bool is_unit) {
   const double twice = 2.0 * static_cast<double>(channel.rows.rows());
   if (known != nullptr)
     return {whitened(channel.rows, channel.blocks, *known), twice * std::log(known->deviation), *known};
@@ -58,9 +59,12 @@ WhiteRows made_white(const Channel& channel, Eigen::Index count_of_columns, cons
   const Eigen::VectorXd left = target - columns * pivoted_least_squares(columns, target);
   const auto count = static_cast<double>(left.size());
   const int most = std::clamp(static_cast<int>(count / 20.0), 0, channel.most_lags);
-  Autoregression errors = autoregression_of(error_covariances(columns, left, channel.blocks, most), count);
+  const Eigen::VectorXd covariances = error_covariances(columns, left, channel.blocks, most);
+  const double scatter = std::sqrt(covariances[0]);
+  Autoregression errors = autoregression_of(covariances, count);
+  if (is_unit && scatter > 0.0) errors.deviation /= scatter;
   errors.deviation = std::max(errors.deviation, 1e-13 * target.cwiseAbs().maxCoeff() + 1e-300);
-  return {whitened(channel.rows, channel.blocks, errors), twice * std::log(errors.deviation), errors};
+  return {whitened(channel.rows, channel.blocks, errors), twice * std::log(errors.deviation), errors, scatter};
 }
 
 Eigen::VectorXd course_of(Eigen::Index samples) { return Eigen::VectorXd::LinSpaced(samples, 0.0, 1.0); }
@@ -148,13 +152,24 @@ double noise_of(const std::vector<double>& signal) {
   return std::max(level.deviation(), converter_step(signal) / std::sqrt(12.0));
 }
 
-ReadingNoise noise_levels(const History& history, double k, const MotionScale& scale) {
+ReadingNoise noise_levels(const History& history, double k, const MotionScale& scale, double sigma_x) {
   // Readings without noise are still rounded.
   constexpr double rounding = 1e-9;
   return {std::hypot(k * noise_of(history.y), noise_of(history.force)),
-          std::max(noise_of(history.x), rounding * scale.length),
+          sigma_x > 0.0 ? sigma_x : std::max(noise_of(history.x), rounding * scale.length),
           std::max(noise_of(history.v), rounding * scale.speed),
           std::max(noise_of(history.a), rounding * scale.speed * scale.speed / scale.length)};
+}
+
+bool noise_grows(const ForceParameters& force, const Record& record) {
+  const double rate = -0.5 * force.c / force.m;
+  return std::ranges::any_of(record.histories, [rate](const History& history) {
+    return rate * static_cast<double>(history.x.size()) > history.sample_rate;
+  });
+}
+
+double squares_beside(const Eigen::VectorXd& residuals, const Eigen::MatrixXd& columns) {
+  return (residuals - columns * pivoted_least_squares(columns, residuals)).squaredNorm();
 }
 
 std::string fault_of_histories(const Record& record) {

@@ -27,12 +27,14 @@ struct WhiteRows {
   Eigen::MatrixXd rows;
   double log_variances = 0.0;  ///< sum of the logs of the variances that the errors had
   Autoregression errors = {};
+  double scatter = 1.0;  ///< standard deviation that the errors had
 };
 
 /// The rows with independent errors. The errors are those of `known`, else what the first `columns` columns leave
-/// of the residual.
+/// of the residual. `is_unit`: the rows are stated to have unit variance, and only how their errors last from row
+/// to row is taken from the residual.
 [[nodiscard]] WhiteRows made_white(const Channel& channel, Eigen::Index columns,
-                                   const Autoregression* known = nullptr);
+                                   const Autoregression* known = nullptr, bool is_unit = false);
 
 /// Errors of a sensor. It reads gain x(t - delay) + zero + drift s, where s is the share of the record that is
 /// over.
@@ -88,8 +90,16 @@ void leave_out_reversals(const Eigen::VectorXd& v, Eigen::MatrixXd& rows);
 /// Standard deviation of the noise of a signal, its rounding to the steps of a converter included.
 [[nodiscard]] double noise_of(const std::vector<double>& signal);
 
-/// Noise of the drive k y + f, and of readings.
-[[nodiscard]] ReadingNoise noise_levels(const History& history, double k, const MotionScale& scale);
+/// Noise of the drive k y + f, and of readings. `sigma_x`: stated for x; 0: none.
+[[nodiscard]] ReadingNoise noise_levels(const History& history, double k, const MotionScale& scale,
+                                        double sigma_x = 0.0);
+
+/// With negative damping the noise of the drive grows in the motion: within one of the histories by the factor e or
+/// more. The residuals then do not show the noise level.
+[[nodiscard]] bool noise_grows(const ForceParameters& force, const Record& record);
+
+/// Sum of squares that columns leave.
+[[nodiscard]] double squares_beside(const Eigen::VectorXd& residuals, const Eigen::MatrixXd& columns);
 
 /// Why the motion of the histories cannot be simulated; empty when it can.
 [[nodiscard]] std::string fault_of_histories(const Record& record);

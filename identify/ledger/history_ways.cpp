@@ -66,6 +66,10 @@ std::vector<FreeZero> free_zeros(const std::vector<ForwardTest>& tests, const Mo
   return list;
 }
 
+double share_of(const Way& way, std::size_t test, std::size_t tests) {
+  return way.history == test ? 1.0 : -1.0 / (static_cast<double>(tests) - 1.0);
+}
+
 HistoryWays history_ways(const std::vector<ForwardTest>& tests, const KnownConstants& constants) {
   const auto has = [&](std::vector<double> History::* signal) {
     return std::ranges::any_of(tests, [&](const ForwardTest& test) { return !(test.history->*signal).empty(); });

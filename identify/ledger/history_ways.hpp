@@ -33,6 +33,9 @@ struct Way {
   MotionSensor sensor = MotionSensor::x;
 };
 
+/// Share of the free friction force of one history in every history, so that F0 stays the mean over all.
+[[nodiscard]] double share_of(const Way& way, std::size_t test, std::size_t tests);
+
 /// All relaxations that the histories may show, each with its way.
 struct HistoryWays {
   std::vector<Relaxation> relaxations;

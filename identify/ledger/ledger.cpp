@@ -11,6 +11,7 @@
 #include "core/numbers.hpp"
 #include "identify/ledger/amplitude_model.hpp"
 #include "identify/ledger/decay_model.hpp"
+#include "identify/ledger/estimate/joint_estimate.hpp"
 #include "identify/ledger/history_model.hpp"
 #include "identify/ledger/relaxation_tests.hpp"
 #include "identify/ledger/stated_noise.hpp"
@@ -42,11 +43,11 @@ std::string in_percent(double share) { return rounded(100.0 * share) + " %"; }
 /// The first of the models that the record allows; else why there is none.
 MaybeModel testable_model(const Record& record, const KnownConstants& constants, const KnownDeviations& known) {
   MaybeModel model = std::string("the record holds nothing that can be tested");
-  if (!record.histories.empty()) model = history_model(record, constants);
-  if (auto* of_histories = std::get_if<JointModel>(&model); of_histories != nullptr && is_stated(known))
+  if (!record.histories.empty()) model = history_model(record, constants, known.sigma_x);
+  if (auto* of_histories = std::get_if<JointModel>(&model); of_histories != nullptr && known.sigma_Y > 0.0)
     of_histories->warnings.emplace_back(
-        "the stated deviations of x and Y are not used by joint_fit: it reads the samples of the histories, and "
-        "takes their noise from them");
+        "the stated deviation of Y is not used by joint_fit: it reads the samples of the histories, and takes the "
+        "noise of the drive from them");
   if (std::holds_alternative<std::string>(model) && record.pairs) model = amplitude_model(record, constants, known);
   if (std::holds_alternative<std::string>(model) && record.decay)
     model = decay_model(record, constants, known.sigma_x);
@@ -240,7 +241,7 @@ class Writer {
         entry = {.assumption = entry.assumption,
                  .reason = "only " + size + "; " + std::string(what_would_tell(entry.assumption)) + " would tell"};
       else
-        entry.reason = size;
+        entry.reason = size, entry.sight = blind;
     }
   }
 
@@ -268,68 +269,6 @@ class Writer {
   }();
 };
 
-bool is_of_friction(Assumption assumption) {
-  return assumption == Assumption::friction_velocity || assumption == Assumption::friction_displacement ||
-         assumption == Assumption::symmetry;
-}
-
-/// The fit of the joint model with these relaxations free beside the base parameters.
-Estimate joint_estimate(const JointModel& model, const Numbers& relaxed, std::string basis) {
-  Estimate estimate;
-  estimate.method = "joint_fit";
-  const Eigen::MatrixXd columns = free_columns(model.base, model.relaxed, relaxed);
-  const std::optional<Eigen::MatrixXd> covariance = unit_covariance(columns);
-  const double freedom = static_cast<double>(columns.rows() - columns.cols()) - model.spent;
-  if (!covariance || freedom < 1.0) {
-    refuse(estimate, "the record does not tell the parameters of the joint model apart");
-    return estimate;
-  }
-  const Eigen::VectorXd step = *covariance * (columns.transpose() * model.residuals);
-  const double variance = model.is_stated ? 1.0 : (model.residuals - columns * step).squaredNorm() / freedom;
-  const KnownConstants& constants = model.constants;
-  estimate.value =
-      parameters(model.value.zeta + step[0], (model.value.F0 + step[1]) / constants.stiffness, constants);
-  Eigen::Matrix2d of_friction = variance * covariance->topLeftCorner<2, 2>();
-  const Eigen::DiagonalMatrix<double, 2> to_length(1.0, 1.0 / constants.stiffness);
-  of_friction = to_length * of_friction * to_length;
-  set_uncertainty(
-      estimate, of_friction,
-      quantile95(std::min(model.is_stated ? known_freedom : freedom, std::max(1.0, model.scale_freedom))),
-      constants);
-  std::vector<std::string> faults;
-  judge_signs(estimate, 0.0, faults);
-  conclude(estimate, faults, std::move(basis));
-  return estimate;
-}
-
-void widen(Interval& interval, const Interval& other) {
-  interval = {std::min(interval[0], other[0]), std::max(interval[1], other[1])};
-}
-
-/// Is it a term of friction that a test of its own rejects at 25 %?
-bool is_nearly_seen(const JointModel& model, const RelaxationTest& test) {
-  constexpr double level = 0.25;
-  return is_of_friction(model.relaxations[test.index].assumption) && test.p_alone < level;
-}
-
-void widen(Estimate& estimate, const Estimate& other) {
-  if (!estimate.interval95 || !other.interval95) return;
-  for (const ReportedParameter& parameter : reported_parameters)
-    widen((*estimate.interval95).*parameter.interval, (*other.interval95).*parameter.interval);
-}
-
-/// Extends the intervals to cover the estimates in which a nearly seen term of friction is free.
-void reach_over_nearly_seen(const JointModel& model, const RelaxationTests& tests, const Numbers& relaxed,
-                            Estimate& estimate) {
-  const JointModel& here = tests.relaxed ? *tests.relaxed : model;
-  for (const RelaxationTest& test : tests.tests) {
-    if (!is_nearly_seen(model, test)) continue;
-    Numbers further = relaxed;
-    further.push_back(test.index);
-    widen(estimate, joint_estimate(here, further, {}));
-  }
-}
-
 void note_nearly_seen(const JointModel& model, const RelaxationTests& tests, Ledger& ledger) {
   for (const RelaxationTest& test : tests.tests) {
     LedgerEntry& entry = ledger.entries[static_cast<std::size_t>(model.relaxations[test.index].assumption)];
@@ -339,36 +278,6 @@ void note_nearly_seen(const JointModel& model, const RelaxationTests& tests, Led
     if (entry.standing != Standing::violated && is_nearly_seen(model, test) && !noted) entry.reason += note;
   }
 }
-
-/// The estimate with the best explanation of each departure relaxed. If other relaxations explain a departure as
-/// well, the intervals are extended to cover the estimates with those.
-Estimate joint_estimate(const JointModel& model, const RelaxationTests& tests) {
-  Numbers best;
-  std::string relaxed;
-  for (const Departure& departure : tests.departures) {
-    best.push_back(departure.explanations.front().index);
-    relaxed += (relaxed.empty() ? "" : ", ") + model.relaxations[best.back()].test;
-  }
-  const auto with = [&](const Numbers& numbers) {
-    return joint_estimate(
-        model.refit && !numbers.empty() ? model.refit(numbers) : model, numbers,
-        "all of " + model.data + " together" + (relaxed.empty() ? "" : "; free beside zeta and F0: " + relaxed));
-  };
-  Estimate estimate = with(best);
-  for (std::size_t d = 0; d < tests.departures.size(); ++d) {
-    for (const RelaxationTest& other : tests.departures[d].explanations | std::views::drop(1)) {
-      Numbers instead = best;
-      instead[d] = other.index;
-      widen(estimate, with(instead));
-    }
-  }
-  reach_over_nearly_seen(model, tests, best, estimate);
-  return estimate;
-}
-
-}  // namespace
-
-namespace {
 
 Recorded recorded_in(const Record& record) {
   const auto any_has = [&](const std::vector<std::vector<double> History::*>& signals) {
@@ -416,6 +325,7 @@ Ledger ledger_of(const Record& record, const KnownConstants& constants, const Le
   const bool has_spring = constants.stiffness > 0.0 && constants.mass > 0.0;
   if (is_friction || !has_spring || ledger.misfit) return ledger;
   ledger.joint = joint_estimate(model, tests);
+  ledger.unseen = unseen_friction(model, tests, *ledger.joint);
   for (const Departure& departure : tests.departures)
     ledger.relaxed.push_back(model.relaxations[departure.explanations.front().index].test);
   note_nearly_seen(model, tests, ledger);

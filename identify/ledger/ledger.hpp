@@ -18,6 +18,7 @@
 ///
 /// Cost: that of the joint model; a history of 20,000 samples takes 0.2 s.
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -43,6 +44,9 @@ struct LedgerEntry {
   std::optional<double> zeta_change;  ///< relative, when relaxed
   std::optional<double> F0_change;
   std::string reason;  ///< why it is untested, what else explains a departure, or how large a one would be seen
+  /// Relative change of zeta or F0, the larger one, by a departure that is missed in one record of five; nothing
+  /// where the assumption was not tested, or violated.
+  std::optional<double> sight;
   std::string wanted;  ///< the constants that explain a departure: "a stiffness of 1421 N/m instead of 1563 N/m"
 };
 
@@ -68,6 +72,13 @@ struct Recorded {
   bool one_sensor = false;  ///< x alone
 };
 
+/// The range of an estimate: what may be true beside it, for all that the record tells.
+struct UnseenRange {
+  ParameterIntervals ends = {};
+  std::array<std::string, 2> zeta_by,
+      F0_by;  ///< what moves zeta and F0 to each end; empty: the interval reaches so far
+};
+
 struct Ledger {
   std::string data;              ///< what was tested: "24 steady states with phases"; empty: nothing
   bool tests_histories = false;  ///< histories themselves, not steady states or extremes taken from them
@@ -85,6 +96,8 @@ struct Ledger {
   /// Estimate of the joint model with the departures relaxed. Nothing without a model, without mass and stiffness,
   /// or if a departure that matters may be one of friction over speed or displacement, or beside a misfit.
   std::optional<Estimate> joint;
+  /// The interval of `joint`, and beyond it what departures that no test sees may make of zeta and F0.
+  std::optional<UnseenRange> unseen;
 
   [[nodiscard]] const LedgerEntry& entry(Assumption assumption) const {
     return entries[static_cast<std::size_t>(assumption)];

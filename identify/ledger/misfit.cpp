@@ -56,8 +56,26 @@ std::string misfit_size(const Misfit& misfit) {
          " times their noise (p = " + core::format_number(misfit.p_value, 2) + ")";
 }
 
+namespace {
+
+/// Is zeta or F0 fitted as negative by steady states that tell neither of them to its own size?
+bool tells_nothing(const Estimate& joint) {
+  const auto is_vague = [](double value, const Interval& interval) {
+    return interval[1] - interval[0] > 2.0 * std::abs(value);
+  };
+  return (joint.value.zeta < 0.0 || joint.value.F0 < 0.0) && is_vague(joint.value.zeta, joint.interval95->zeta) &&
+         is_vague(joint.value.F0, joint.interval95->F0);
+}
+
+}  // namespace
+
 std::string negative_friction(const Ledger& ledger) {
-  if (!ledger.tests_histories || !ledger.joint || !ledger.joint->interval95) return {};
+  if (!ledger.joint || !ledger.joint->interval95) return {};
+  if (!ledger.tests_histories && ledger.recorded.states && tells_nothing(*ledger.joint))
+    return "the joint model fits these states best with negative friction, and they tell neither zeta nor F0; what "
+           "would help: more states, or states over a wider range of levels and frequencies, and constants that are "
+           "right";
+  if (!ledger.tests_histories) return {};
   const auto clearly_negative = [](double value, const Interval& interval) {
     return value + (interval[1] - interval[0]) < 0.0;
   };

@@ -4,6 +4,7 @@
 #include <iterator>
 #include <utility>
 
+#include "identify/ledger/estimate/unstated_constants.hpp"
 #include "identify/ledger/outliers.hpp"
 #include "identify/methods/any_law/any_law.hpp"
 #include "identify/records/pendulum.hpp"
@@ -238,6 +239,7 @@ identify::Identification IdentifyQuestion::conclude(const identify::Record& reco
     return identify::with_uncertainties(reader, record, methods_.constants, methods_.uncertainties);
   };
   identify::Ledger ledger = identify::ledger_of(record, methods_.constants, methods_.ledger);
+  identify::reach_over_unstated(record, methods_.constants, methods_.ledger, ledger);
   std::vector<identify::Estimate> estimates;
   for (const identify::MethodEntry* method : methods_.list) {
     const identify::Reader reader = reader_of(*method, methods_.options);

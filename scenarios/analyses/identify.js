@@ -26,6 +26,13 @@ const range = (interval, {unit, factor}) =>
          `95 %: ${short(interval[0] * factor, 4)} to ${short(interval[1] * factor, 4)}${unit && ` ${unit}`}` :
          'no interval');
 
+/** Beyond the interval: what no test excludes. */
+const notExcluded = ({interval95, range: whole}, key, {unit, factor}) =>
+    (whole && whole[key][0] !== null && `${whole[key]}` !== `${interval95?.[key]}` ?
+         make('small', {class: 'under', 'data-path': `answer.range.${key}`},
+              `not excluded: ${short(whole[key][0] * factor, 4)} to ${short(whole[key][1] * factor, 4)}${unit && ` ${unit}`}`) :
+         '');
+
 /** The answer with its ranges, or that there is none and why. */
 function answerBox({answer, answer_reason: reason}) {
   if (!answer)
@@ -34,7 +41,7 @@ function answerBox({answer, answer_reason: reason}) {
         make('p', {'data-path': 'answer_reason'}, reason));
   const shown =
       [['ζ', 'zeta'], ['F0', 'F0'], ['c', 'c']].filter(([, key]) => answer[key] !== null)
-          .map(([label, key]) => [label, key, shownAs(key, [answer[key], ...(answer.interval95?.[key] ?? [])])]);
+          .map(([label, key]) => [label, key, shownAs(key, [answer[key], ...(answer.interval95?.[key] ?? []), ...(answer.range?.[key] ?? [])])]);
   return make(
       'section', {class: 'answer'}, make('h2', {}, 'Answer'),
       make(
@@ -49,7 +56,8 @@ function answerBox({answer, answer_reason: reason}) {
                         title: String(answer[key])
                       },
                       short(answer[key] * unit.factor, 5) + (unit.unit && ` ${unit.unit}`),
-                      make('small', {class: 'under'}, range(answer.interval95?.[key], unit)))))),
+                      make('small', {class: 'under'}, range(answer.interval95?.[key], unit)),
+                      notExcluded(answer, key, unit))))),
       make('p', {}, `By ${answer.method}: ${reason}.`));
 }
 

@@ -36,6 +36,15 @@ Json entry_json(const LedgerEntry& entry, const identify::Identification& found)
           {"methods", methods_on(found, entry.assumption)}};
 }
 
+/// The interval and what no test excludes beyond it, with the names of what ends it.
+Json range_json(const identify::Identification& found) {
+  if (!found.range) return nullptr;
+  Json json = interval_json(found.range->ends);
+  json["zeta_by"] = found.range->zeta_by;
+  json["F0_by"] = found.range->F0_by;
+  return json;
+}
+
 Json answer_json(const identify::Identification& found) {
   const identify::Estimate& best = found.estimates[*found.answer];
   return {{"method", best.method},
@@ -45,6 +54,7 @@ Json answer_json(const identify::Identification& found) {
           {"F0", finite_or_null(best.value.F0)},
           {"std", best.std ? parameters_json(*best.std) : Json(nullptr)},
           {"interval95", best.interval95 ? interval_json(*best.interval95) : Json(nullptr)},
+          {"range", range_json(found)},
           {"reason", found.reason}};
 }
 
@@ -117,8 +127,13 @@ ResultFields ledger_fields() {
   fields = joined(fields, parameter_fields("answer.", "", ""));
   fields = joined(fields, parameter_fields("answer.std.", "", "standard error of the "));
   fields = joined(fields, parameter_fields("answer.interval95.", "[]", "95 % interval of the "));
+  fields = joined(
+      fields, parameter_fields("answer.range.", "[]", "range that holds the interval and what no test excludes: "));
   return joined(fields,
-                {{"family_level", "1", "probability that any assumption is rejected in a record where all hold"},
+                {{"answer.range.zeta_by[]", "",
+                  "what moves zeta to each end of its range; empty: the interval reaches so far"},
+                 {"answer.range.F0_by[]", "", "the same for F0"},
+                 {"family_level", "1", "probability that any assumption is rejected in a record where all hold"},
                  {"tested", "", "the data in which the assumptions were tested"},
                  {"left_out[]", "", "parts of the record outside the conditions of the tests"},
                  {"assumptions[].name", "",

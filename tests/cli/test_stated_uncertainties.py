@@ -134,11 +134,13 @@ class StatedUncertainties(unittest.TestCase):
             _, said = self.joint(text, *beside, "--sigma-x", "0.001 mm", constants=constants)
             self.assertIn("the stated noise is too small", said)
 
-    def test_a_joint_fit_to_histories_says_that_it_does_not_use_it(self):
+    def test_a_joint_fit_to_histories_uses_the_stated_noise_of_x(self):
         wn = math.sqrt(1421.2)
         rows = "".join(f"{i / 500:.3f},{20 * math.exp(-0.03 * wn * i / 500) * math.cos(wn * i / 500) + 0.01 * math.sin(i * i):.6f}\n" for i in range(1500))
-        result = self.run_on("t [s],x [mm]\n" + rows, "--method", "free_decay", "--sigma-x", "0.01 mm", constants=CONSTANTS[:4])
-        self.assertIn("the stated deviations of x and Y are not used by joint_fit: it reads the samples of the histories", result.stderr)
+        run = lambda *options: self.run_on("t [s],x [mm]\n" + rows, "--method", "free_decay", *options, constants=CONSTANTS[:4]).stderr
+        self.assertIn("the samples of x scatter", run("--sigma-x", "0.1 mm"))
+        self.assertIn("the stated noise is too small, and joint_fit takes the noise from the readings", run("--sigma-x", "0.0005 mm"))
+        self.assertNotIn("the stated noise", run("--sigma-x", "0.007 mm"))  # the rms of the wiggle
 
     def test_gains_of_pairs_are_those_of_Y_and_x(self):
         by_Y, _ = self.joint(PAIRS, *QUICK, "--gain-uncertainty", "Y=1 %")

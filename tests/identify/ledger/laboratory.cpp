@@ -198,6 +198,7 @@ class Laboratory {
     const double size = 0.5 * (*high - *low);
     History history;
     history.sample_rate = rate;
+    result_.deviations.sigma_x = off_.stated_noise * 0.002 * size * off_.noise;
     const double largest_force = *std::ranges::max_element(motion.drive);
     const auto late = static_cast<std::ptrdiff_t>(std::lround(off_.delay * period * rate));
     for (std::size_t i = 0; i < motion.x.size(); ++i) {

@@ -300,6 +300,8 @@ TEST_CASE("No answer has negative friction") {
   CHECK(answer.value.zeta == 0.0);
   CHECK(answer.value.c == 0.0);
   CHECK(answer.interval95->zeta == Interval{0.0, 0.01});
+  REQUIRE(answer.warnings.size() == 1);
+  CHECK(mentions(answer.warnings.front(), "zeta is fitted best by a negative value"));
   CHECK(answer.value.F0 == 2.0);
   // Nor does an interval reach below zero, whatever its middle is.
   Estimate vague = estimate("joint_fit", 0.06, 2.0, 1.5);
@@ -309,6 +311,20 @@ TEST_CASE("No answer has negative friction") {
   CHECK(of_positive.value.zeta == 0.06);
   CHECK(of_positive.interval95->zeta == std::array<double, 2>{0.0, vague.interval95->zeta[1]});
   CHECK(of_positive.interval95->F0[0] == 0.0);
+}
+
+TEST_CASE("The verdict states the range of the answer where it exceeds the interval") {
+  Ledger tested = ledger({});
+  tested.joint = estimate("joint_fit", 0.1, 4.0, 0.01);
+  tested.unseen = UnseenRange{.ends = *tested.joint->interval95, .zeta_by = {"drag", ""}, .F0_by = {}};
+  tested.unseen->ends.zeta[0] = 0.08;
+  const Identification found = concluded({*tested.joint, *tested.joint}, tested);
+  REQUIRE(found.range);
+  CHECK(found.range->ends.zeta == Interval{0.08, 0.101});
+  CHECK(mentions(found.verdict, "What no test of these data excludes allows zeta from 0.08 (drag) to 0.101."));
+  // An interval that reaches as far by itself needs no such sentence.
+  tested.unseen->ends.zeta[0] = 0.0995;
+  CHECK_FALSE(mentions(concluded({*tested.joint, *tested.joint}, tested).verdict, "no test of these data"));
 }
 
 TEST_CASE("An answer of as many readings as unknowns says that they leave no freedom") {

@@ -11,6 +11,7 @@
 #include "identify/ledger/ledger.hpp"
 #include "identify/methods/histories/friction_force.hpp"
 #include "identify/methods/histories/output_error.hpp"
+#include "identify/statistics/least_squares.hpp"
 #include "tests/identify/ledger/laboratory.hpp"
 #include "tests/identify/readers/refusals.hpp"
 
@@ -26,6 +27,30 @@ bool lists(const JointModel& model, const std::string& test) {
 }
 
 }  // namespace
+
+TEST_CASE("The stated noise of x makes the intervals of a history, unless its samples scatter clearly more") {
+  const auto width = [](double stated, std::size_t warnings) {
+    const Measured m = measured(Kind::decay, 6'300'003, nullptr, {.stated_noise = stated});
+    const Ledger ledger = ledger_of(m.record, m.constants, {.deviations = m.deviations});
+    CHECK(ledger.warnings.size() == warnings);
+    const JointModel model = std::get<JointModel>(history_model(m.record, m.constants, m.deviations.sigma_x));
+    const std::optional<Eigen::MatrixXd> covariance = unit_covariance(model.base);
+    REQUIRE(covariance);
+    return std::pair(model.is_stated, std::sqrt((*covariance)(0, 0)));
+  };
+  const auto [none, own] = width(0.0, 0);
+  CHECK_FALSE(none);
+  const auto [exact, as_stated] = width(1.0, 0);
+  CHECK(exact);
+  CHECK(as_stated == Approx(own).epsilon(0.1));
+  CHECK(width(1.2, 0).second == Approx(1.2 * as_stated).epsilon(0.01));
+  CHECK(width(3.0, 1).second == Approx(3.0 * as_stated).epsilon(0.01));
+  const Measured m = measured(Kind::decay, 6'300'003);
+  CHECK(ledger_of(m.record, m.constants, {.deviations = {.sigma_Y = 1e-4}}).warnings.size() == 1);
+  const auto [used, too_small] = width(0.3, 1);
+  CHECK_FALSE(used);
+  CHECK(too_small == Approx(own));
+}
 
 TEST_CASE("Constants of a decay that are off by a large factor are charged, and no single fit answers") {
   for (const double factor : {0.25, 0.5, 2.0, 4.0}) {

@@ -17,6 +17,7 @@
 #include "identify/ledger/amplitude_model.hpp"
 #include "identify/ledger/answer.hpp"
 #include "identify/ledger/decay_model.hpp"
+#include "identify/ledger/estimate/unstated_constants.hpp"
 #include "identify/ledger/history_model.hpp"
 #include "identify/methods.hpp"
 #include "identify/records/derived_records.hpp"
@@ -86,13 +87,21 @@ std::vector<Row> rows() {
   add("friction: LuGre", [](Rig& rig) { rig.lugre = 0.03; }, {}, all);
   add("friction: asymmetric", [](Rig& rig) { rig.asymmetry = 0.3; }, {}, all);
   add("friction: free play", [](Rig& rig) { rig.play = 0.03; }, {}, all);
+  for (const double stated : {0.0, 1.0}) {
+    const std::string what = stated > 0.0 ? "stated noise" : "noise not stated";
+    const std::vector<Kind> kinds = {Kind::decay, Kind::forced, Kind::beat};
+    add(what + ", plain", nullptr, {.stated_noise = stated}, kinds);
+    add(what + ", weak drag", [](Rig& rig) { rig.drag = 0.06; }, {.stated_noise = stated}, kinds);
+  }
   return list;
 }
 
 Identification identified(Measured& measured) {
   Record& record = measured.record;
   static_cast<void>(complete(record, measured.constants.frequency));
-  Ledger ledger = ledger_of(record, measured.constants);
+  const LedgerOptions options{.deviations = measured.deviations};
+  Ledger ledger = ledger_of(record, measured.constants, options);
+  reach_over_unstated(record, measured.constants, options, ledger);
   std::vector<Estimate> estimates;
   // If the estimate of the joint model is usable it answers, and the other methods need not run.
   if (ledger.joint && ledger.joint->usable && ledger.joint->interval95) {
@@ -147,9 +156,34 @@ std::vector<std::string> known_departures(const Measured& measured) {
 struct Counts {
   int records = 0, rejected = 0, friction = 0, answers = 0, zeta = 0, F0 = 0, off = 0, off_rejected = 0, misled = 0;
   int tested = 0, seen = 0, blamed = 0, joint = 0, joint_zeta = 0, joint_F0 = 0;
+  int ranges = 0, range_zeta = 0, range_F0 = 0, range_misled = 0;
+  std::vector<double> widths, range_widths;  ///< half, of zeta or F0, relative, the larger
   std::map<std::string, int> named, named_off, tests, by, known;
   double seconds = 0.0;
 };
+
+/// Half of the wider one of zeta and F0, relative.
+double width_of(const ParameterIntervals& at, const Rig& rig) {
+  return 0.5 * std::max((at.zeta[1] - at.zeta[0]) / rig.zeta, (at.F0[1] - at.F0[0]) / rig.F0);
+}
+
+void count_range(const Identification& found, const Rig& rig, Counts& counts) {
+  const Estimate& answer = found.estimates[*found.answer];
+  const ParameterIntervals& range = found.range ? found.range->ends : *answer.interval95;
+  counts.ranges += found.range ? 1 : 0;
+  const bool in = covers(range.zeta, rig.zeta);
+  counts.range_zeta += in ? 1 : 0;
+  counts.range_F0 += covers(range.F0, rig.F0) ? 1 : 0;
+  counts.range_misled += !in && std::abs(answer.value.zeta / rig.zeta - 1.0) > 0.05 ? 1 : 0;
+  counts.widths.push_back(width_of(*answer.interval95, rig));
+  counts.range_widths.push_back(width_of(range, rig));
+}
+
+double median(std::vector<double> values) {
+  if (values.empty()) return 0.0;
+  std::ranges::sort(values);
+  return values[values.size() / 2];
+}
 
 void count_verdict(const Row& row, std::uint64_t seed, Counts& counts) {
   Measured record = measured(row.kind, seed, row.alter, row.off);
@@ -198,6 +232,7 @@ void count_verdict(const Row& row, std::uint64_t seed, Counts& counts) {
   counts.zeta += in ? 1 : 0;
   counts.F0 += covers(answer.interval95->F0, rig.F0) ? 1 : 0;
   counts.misled += !in && error(answer.value.zeta, rig.zeta) > largest ? 1 : 0;
+  count_range(found, rig, counts);
 }
 
 std::string list_of(const std::map<std::string, int>& map, int total) {
@@ -214,13 +249,15 @@ void print(const Row& row, const Counts& c) {
     std::printf("[known %.0f by %s] ", share(best->second, c.records), best->first.c_str());
   std::printf(
       "%-34s n %3d tested %3.0f seen %5.1f rejected %5.1f friction %5.1f alone %5.1f joint %5.1f %5.1f answer "
-      "%5.1f zeta %5.1f F0 %5.1f misled %4.1f off %3.0f found %3.0f %4.2f s | named: %s | tests: %s | where off: %s | by: %s\n",
+      "%5.1f zeta %5.1f F0 %5.1f misled %4.1f | ranges %3.0f zeta %5.1f F0 %5.1f misled %4.1f half width %.3f of %.3f | off %3.0f found %3.0f %4.2f s | named: %s | tests: %s | where off: %s | by: %s\n",
       row.name.c_str(), c.records, share(c.tested, c.records), share(c.seen, c.records),
       share(c.rejected, c.records), share(c.friction, c.records), share(c.blamed, c.records),
       share(c.joint_zeta, c.joint), share(c.joint_F0, c.joint), share(c.answers, c.records),
-      share(c.zeta, c.answers), share(c.F0, c.answers), share(c.misled, c.records), share(c.off, c.records),
-      share(c.off_rejected, c.off), c.seconds / std::max(1, c.records), list_of(c.named, c.records).c_str(),
-      list_of(c.tests, c.records).c_str(), list_of(c.named_off, c.off).c_str(), list_of(c.by, c.answers).c_str());
+      share(c.zeta, c.answers), share(c.F0, c.answers), share(c.misled, c.records), share(c.ranges, c.answers),
+      share(c.range_zeta, c.answers), share(c.range_F0, c.answers), share(c.range_misled, c.records),
+      median(c.widths), median(c.range_widths), share(c.off, c.records), share(c.off_rejected, c.off),
+      c.seconds / std::max(1, c.records), list_of(c.named, c.records).c_str(), list_of(c.tests, c.records).c_str(),
+      list_of(c.named_off, c.off).c_str(), list_of(c.by, c.answers).c_str());
   std::fflush(stdout);
 }
 

@@ -1,0 +1,211 @@
+#include "identify/ledger/estimate/joint_estimate.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <ranges>
+#include <utility>
+
+#include "identify/ledger/stated_noise.hpp"
+#include "identify/statistics/decompositions.hpp"
+#include "identify/statistics/distributions.hpp"
+#include "identify/statistics/least_squares.hpp"
+#include "identify/statistics/statistics.hpp"
+
+namespace dualdamp::identify {
+
+namespace {
+
+/// Places of relaxations in the model.
+using Numbers = std::vector<std::size_t>;
+
+void widen(Interval& interval, const Interval& other) {
+  interval = {std::min(interval[0], other[0]), std::max(interval[1], other[1])};
+}
+
+void widen(Estimate& estimate, const Estimate& other) {
+  if (!estimate.interval95 || !other.interval95) return;
+  for (const ReportedParameter& parameter : reported_parameters)
+    widen((*estimate.interval95).*parameter.interval, (*other.interval95).*parameter.interval);
+}
+
+}  // namespace
+
+bool is_of_friction(Assumption assumption) {
+  return assumption == Assumption::friction_velocity || assumption == Assumption::friction_displacement ||
+         assumption == Assumption::symmetry;
+}
+
+bool is_nearly_seen(const JointModel& model, const RelaxationTest& test) {
+  constexpr double level = 0.25;
+  return is_of_friction(model.relaxations[test.index].assumption) && test.p_alone < level;
+}
+
+Estimate joint_estimate(const JointModel& model, const Numbers& relaxed, std::string basis) {
+  Estimate estimate;
+  estimate.method = "joint_fit";
+  const Eigen::MatrixXd columns = free_columns(model.base, model.relaxed, relaxed);
+  const std::optional<Eigen::MatrixXd> covariance = unit_covariance(columns);
+  const double freedom = static_cast<double>(columns.rows() - columns.cols()) - model.spent;
+  if (!covariance || freedom < 1.0) {
+    refuse(estimate, "the record does not tell the parameters of the joint model apart");
+    return estimate;
+  }
+  const Eigen::VectorXd step = *covariance * (columns.transpose() * model.residuals);
+  const double variance = model.is_stated ? 1.0 : (model.residuals - columns * step).squaredNorm() / freedom;
+  const KnownConstants& constants = model.constants;
+  estimate.value =
+      parameters(model.value.zeta + step[0], (model.value.F0 + step[1]) / constants.stiffness, constants);
+  Eigen::Matrix2d of_friction = variance * covariance->topLeftCorner<2, 2>();
+  const Eigen::DiagonalMatrix<double, 2> to_length(1.0, 1.0 / constants.stiffness);
+  of_friction = to_length * of_friction * to_length;
+  set_uncertainty(
+      estimate, of_friction,
+      quantile95(std::min(model.is_stated ? known_freedom : freedom, std::max(1.0, model.scale_freedom))),
+      constants);
+  std::vector<std::string> faults;
+  judge_signs(estimate, 0.0, faults);
+  conclude(estimate, faults, std::move(basis));
+  return estimate;
+}
+
+namespace {
+
+/// Extends the intervals to cover the estimates in which a nearly seen term of friction is free.
+void reach_over_nearly_seen(const JointModel& model, const RelaxationTests& tests, const Numbers& relaxed,
+                            Estimate& estimate) {
+  const JointModel& here = tests.relaxed ? *tests.relaxed : model;
+  for (const RelaxationTest& test : tests.tests) {
+    if (!is_nearly_seen(model, test)) continue;
+    Numbers further = relaxed;
+    further.push_back(test.index);
+    widen(estimate, joint_estimate(here, further, {}));
+  }
+}
+
+}  // namespace
+
+Estimate joint_estimate(const JointModel& model, const RelaxationTests& tests) {
+  Numbers best;
+  std::string relaxed;
+  for (const Departure& departure : tests.departures) {
+    best.push_back(departure.explanations.front().index);
+    relaxed += (relaxed.empty() ? "" : ", ") + model.relaxations[best.back()].test;
+  }
+  const auto with = [&](const Numbers& numbers) {
+    return joint_estimate(
+        model.refit && !numbers.empty() ? model.refit(numbers) : model, numbers,
+        "all of " + model.data + " together" + (relaxed.empty() ? "" : "; free beside zeta and F0: " + relaxed));
+  };
+  Estimate estimate = with(best);
+  for (std::size_t d = 0; d < tests.departures.size(); ++d) {
+    for (const RelaxationTest& other : tests.departures[d].explanations | std::views::drop(1)) {
+      Numbers instead = best;
+      instead[d] = other.index;
+      widen(estimate, with(instead));
+    }
+  }
+  reach_over_nearly_seen(model, tests, best, estimate);
+  return estimate;
+}
+
+namespace {
+
+/// The fit with one more relaxation free, as far as zeta (0) and F0 (1) are concerned.
+class FreedTerm {
+ public:
+  /// Nothing can be said where a column is a combination of the others.
+  FreedTerm(const JointModel& model, const Numbers& columns_free, double quantile, int sign) : quantile_(quantile) {
+    const Eigen::MatrixXd columns = free_columns(model.base, model.relaxed, columns_free);
+    const std::optional<Eigen::MatrixXd> covariance = unit_covariance(columns);
+    const double freedom = static_cast<double>(columns.rows() - columns.cols()) - model.spent;
+    if (!covariance || freedom < 1.0) return;
+    const Eigen::VectorXd step = *covariance * (columns.transpose() * model.residuals);
+    const double variance = model.is_stated ? 1.0 : (model.residuals - columns * step).squaredNorm() / freedom;
+    const Eigen::Index last = columns.cols() - 1;
+    const double of_term = (*covariance)(last, last);
+    const double reach = quantile * std::sqrt(variance * of_term);
+    const double least = sign > 0 ? 0.0 : -std::numeric_limits<double>::infinity();
+    const double most = sign < 0 ? 0.0 : std::numeric_limits<double>::infinity();
+    if (step[last] + reach < least || step[last] - reach > most) return;
+    const double best = std::clamp(step[last], least, most);
+    const std::array<double, 2> ends = {std::max(step[last] - reach, least) - best,
+                                        std::min(step[last] + reach, most) - best};
+    for (Eigen::Index j = 0; j < 2; ++j) {
+      const auto at = static_cast<std::size_t>(j);
+      slopes_[at] = (*covariance)(j, last) / of_term;
+      const double fixed = (*covariance)(j, j) - slopes_[at] * (*covariance)(j, last);
+      errors_[at] = std::sqrt(variance * std::max(0.0, fixed));
+      centres_[at] = step[j] + slopes_[at] * (best - step[last]);
+    }
+    ends_ = ends;
+    is_possible_ = true;
+  }
+
+  [[nodiscard]] bool is_possible() const { return is_possible_; }
+
+  /// Change of the parameter from its value in the model.
+  [[nodiscard]] Interval interval(std::size_t parameter) const {
+    const double slope = slopes_[parameter];
+    const double low = std::min(slope * ends_[0], slope * ends_[1]);
+    const double high = std::max(slope * ends_[0], slope * ends_[1]);
+    const double error = quantile_ * errors_[parameter];
+    return {centres_[parameter] - std::hypot(error, low), centres_[parameter] + std::hypot(error, high)};
+  }
+
+ private:
+  double quantile_;
+  bool is_possible_ = false;
+  std::array<double, 2> centres_{}, slopes_{}, errors_{}, ends_{};
+};
+
+void reach(const Interval& interval, const std::string& test, Interval& range, std::array<std::string, 2>& ends) {
+  if (interval[0] < range[0]) range[0] = interval[0], ends[0] = test;
+  if (interval[1] > range[1]) range[1] = interval[1], ends[1] = test;
+}
+
+}  // namespace
+
+std::optional<UnseenRange> unseen_friction(const JointModel& model, const RelaxationTests& tests,
+                                           const Estimate& estimate) {
+  if (!estimate.outcome.ok() || !estimate.interval95) return std::nullopt;
+  const JointModel& here = tests.relaxed ? *tests.relaxed : model;
+  Numbers taken;
+  for (const Departure& departure : tests.departures) taken.push_back(departure.explanations.front().index);
+  UnseenRange range{.ends = *estimate.interval95};
+  const double freedom = static_cast<double>(here.base.rows() - here.base.cols() - 1) - here.spent;
+  const double quantile =
+      quantile95(std::max(1.0, std::min(here.is_stated ? known_freedom : freedom, here.scale_freedom)));
+  for (const RelaxationTest& test : tests.tests) {
+    const Relaxation& relaxation = here.relaxations[test.index];
+    if (!is_of_friction(relaxation.assumption)) continue;
+    Numbers further = taken;
+    further.push_back(test.index);
+    const FreedTerm freed(here, further, quantile, relaxation.sign);
+    if (std::getenv("DBG"))
+      std::fprintf(stderr, "%s zeta %.3f %.3f F0 %.3f %.3f (%.2f p %.2f)\n", relaxation.test.c_str(),
+                   freed.interval(0)[0] / here.value.zeta, freed.interval(0)[1] / here.value.zeta,
+                   freed.interval(1)[0] / here.value.F0, freed.interval(1)[1] / here.value.F0, test.t,
+                   test.p_alone);
+    if (!freed.is_possible()) continue;
+    const auto from = [&](double value, std::size_t parameter) {
+      const Interval change = freed.interval(parameter);
+      return Interval{std::max(0.0, value + change[0]), value + change[1]};
+    };
+    reach(from(here.value.zeta, 0), relaxation.test, range.ends.zeta, range.zeta_by);
+    reach(from(here.value.F0, 1), relaxation.test, range.ends.F0, range.F0_by);
+  }
+  set_others(here.constants, range);
+  return range;
+}
+
+void set_others(const KnownConstants& constants, UnseenRange& range) {
+  for (std::size_t end = 0; end < 2; ++end) {
+    const ParameterSet both = parameters(range.ends.zeta[end], range.ends.F0[end] / constants.stiffness, constants);
+    range.ends.c[end] = both.c;
+    range.ends.x_f[end] = both.x_f;
+  }
+}
+
+}  // namespace dualdamp::identify
