@@ -10,6 +10,48 @@
 
 namespace dualdamp::identify {
 
+namespace {
+
+/// Beyond this multiple of the limit, the growth may come from steps that led nowhere.
+constexpr double doubtful = 2.0;
+
+/// Of the steps that lead out of a place where the others went nowhere.
+constexpr double least_damping = 0.01;
+
+/// Where the growth of a profile reaches its limit: between two ways from the estimate, with the growths there over
+/// the limit.
+struct Bracket {
+  double inner = 0.0;
+  double inner_growth = 0.0;
+  double outer = std::numeric_limits<double>::infinity();
+  double outer_growth = 0.0;
+
+  /// The root by a new point. The growth is nearly linear, except at a jump, which is halved.
+  [[nodiscard]] double guess(double way, double growth) const {
+    constexpr double half = 0.5;
+    if (growth > doubtful) return inner + half * (way - inner);
+    constexpr double least = 1e-3;
+    return inner + (way - inner) * (1.0 - inner_growth) / std::max(growth - inner_growth, least);
+  }
+
+  void take(double way, double growth) {
+    if (growth < 1.0)
+      inner = way, inner_growth = growth;
+    else
+      outer = way, outer_growth = growth;
+  }
+
+  /// A guess, at least a tenth inside of both ends.
+  [[nodiscard]] double within(double next) const {
+    constexpr double farthest = 4.0;
+    if (std::isinf(outer)) return std::clamp(next, 1.1 * inner, farthest * inner);
+    const double margin = 0.1 * (outer - inner);
+    return std::clamp(next, std::max(inner + margin, outer / farthest), outer - margin);
+  }
+};
+
+}  // namespace
+
 Profiler::Profiler(const FitProblem& problem, const Eigen::VectorXd& weights, const Eigen::VectorXd& q,
                    const Eigen::MatrixXd& rows, const Eigen::VectorXd& residuals)
     : problem_(problem),
@@ -32,7 +74,7 @@ Profiler::Way Profiler::at(const Eigen::VectorXd& q, const Eigen::VectorXd& resi
   return way;
 }
 
-Eigen::VectorXd Profiler::step(Eigen::Index i, double value, const Way& way) const {
+Eigen::VectorXd Profiler::step(Eigen::Index i, double value, const Way& way, double damping) const {
   // Lagrange's multiplier, in units of `way.unit`. A parameter that would leave its range is held at the end of the
   // range, and the step of the others is computed again.
   const Eigen::Index size = q_.size();
@@ -40,6 +82,12 @@ Eigen::VectorXd Profiler::step(Eigen::Index i, double value, const Way& way) con
   const double scale = row.norm();
   Eigen::MatrixXd bordered = Eigen::MatrixXd::Zero(size + 1, size + 1);
   bordered.topLeftCorner(size, size) = way.unit.asDiagonal() * way.normal * way.unit.asDiagonal();
+  constexpr double least = 0.1;  // of the size of a coordinate
+  for (Eigen::Index j = 0; damping > 0.0 && j < size; ++j) {
+    const bool is_logarithm = problem_.coordinates()[static_cast<std::size_t>(j)].logarithmic;
+    const double whole = is_logarithm ? 1.0 : std::max(std::abs(way.q[j]), least);
+    bordered(j, j) += std::pow(damping * growth_of(way.residuals) * way.unit[j] / whole, 2);
+  }
   bordered.block(0, size, size, 1) = row / scale;
   bordered.block(size, 0, 1, size) = row.transpose() / scale;
   Eigen::VectorXd right(size + 1);
@@ -96,14 +144,19 @@ std::optional<double> Profiler::alone(Eigen::Index i, double value, Way& way) co
 
 std::optional<double> Profiler::growth(Eigen::Index i, double value, double limit, Way& way) const {
   const Way before = way;
-  std::optional<double> best = followed(i, value, way);
+  constexpr double nothing = std::numeric_limits<double>::infinity();
+  std::optional<double> best = followed(i, value, nothing, 0.0, way);
   if (best && *best <= limit) return best;
   // The others may have moved across a jump of the sum of squares, such as that of one stick more.
   Way beside = before;
   const std::optional<double> unfollowed = alone(i, value, beside);
-  if (!unfollowed || (best && *unfollowed >= *best)) return best;
-  way = std::move(beside);
-  return unfollowed;
+  const bool led_nowhere = unfollowed && (!best || *unfollowed < *best);
+  if (led_nowhere) way = beside, best = unfollowed;
+  if (!unfollowed || *best <= limit || (!led_nowhere && *best <= doubtful * limit)) return best;
+  // One of the others may have nearly no effect: a small error of its derivative moves it to the end of its range.
+  const std::optional<double> damped = followed(i, value, *unfollowed, least_damping, beside);
+  if (damped && *damped < *best) way = std::move(beside), best = damped;
+  return best;
 }
 
 bool Profiler::take(const Eigen::VectorXd& q, Way& way, double& best) const {
@@ -115,41 +168,50 @@ bool Profiler::take(const Eigen::VectorXd& q, Way& way, double& best) const {
   best = found;
   way.q = q;
   way.residuals = std::move(residuals);
-  note_lower(way);
+  note(way, best);
   return true;
 }
 
-void Profiler::note_lower(const Way& way) const {
+void Profiler::note(const Way& way, double growth) const {
   // In units of the variance of a reading. A smaller gain only means that the search ended near enough to the
   // minimum.
   constexpr double margin = 0.05;
   const double squares = way.residuals.squaredNorm();
   const std::lock_guard lock(mutex_);
+  constexpr double beyond_any_limit = 10.0;
+  if (growth < beyond_any_limit) places_.emplace_back(problem_.values(way.q), growth);
   // The smallest of all, so that the order of the threads does not matter.
   const double limit = lower_ ? lower_->second : squares_ * (1.0 - margin / static_cast<double>(residuals_.size()));
   if (squares < limit) lower_ = {way.q, squares};
 }
 
-std::optional<double> Profiler::followed(Eigen::Index i, double value, Way& way) const {
-  double best = std::numeric_limits<double>::infinity();
+std::optional<double> Profiler::followed(Eigen::Index i, double value, double best, double damping,
+                                         Way& way) const {
   const auto result = [&] { return std::isfinite(best) ? std::optional<double>(best) : std::nullopt; };
   // A bent valley needs many sets of derivatives; elsewhere, the first set suffices.
   constexpr int most_derivatives = 12;
   constexpr int most_steps = 4;
   constexpr double settled = 0.01;
+  constexpr double stronger = 10.0;
+  constexpr double most_damping = 1e4;
   for (int derivative = 0;; ++derivative) {
     const double begun = best;
     bool is_settled = false;
     for (int round = 0; round < most_steps && !is_settled; ++round) {
       const double before = best;
-      const Eigen::VectorXd q = step(i, value, way);
+      const Eigen::VectorXd q = step(i, value, way, damping);
       const Eigen::VectorXd from = way.q;
       if (!take(q, way, best)) return result();
       // A step out of the range of the derivatives is tried again with a shorter length.
       constexpr double shorter = 0.3;
       if (!(best < before) && std::isfinite(before) && !take(from + shorter * (q - from), way, best))
         return result();
+      if (!(best < before) && damping > 0.0 && damping < most_damping) {
+        damping *= stronger;
+        continue;
+      }
       if (!(best < before)) break;
+      damping = damping > 0.0 ? std::max(damping / stronger, least_damping) : 0.0;
       is_settled = before - best <= settled * best;
     }
     if (is_settled || derivative == most_derivatives) return result();
@@ -161,6 +223,25 @@ std::optional<double> Profiler::followed(Eigen::Index i, double value, Way& way)
   }
 }
 
+double Profiler::first_way(Eigen::Index i, const FittedParameter& fitted, double limit) const {
+  if (!std::isnan(fitted.std)) return limit * fitted.std;
+  // A parameter without an effect near the estimate may have one further off.
+  const double norm = rows_.col(i).norm();
+  constexpr double near = 1e-3;
+  return norm > 0.0 ? limit * problem_.slope(q_)(i, i) / norm : near * std::abs(problem_.slope(q_)(i, i));
+}
+
+std::optional<double> Profiler::grown_from(Eigen::Index i, double value, double limit, const Way* within,
+                                           Way& others) const {
+  std::optional<double> best = growth(i, value, limit, others);
+  if (within == nullptr || (best && *best <= limit)) return best;
+  Way again = *within;
+  const std::optional<double> grown = growth(i, value, limit, again);
+  if (!grown || (best && *best <= *grown)) return best;
+  others = std::move(again);
+  return grown;
+}
+
 double Profiler::end(Eigen::Index i, const FittedParameter& fitted, double limit, double sign) const {
   const Coordinate& c = problem_.coordinates()[static_cast<std::size_t>(i)];
   const friction::Range& range = fitted.parameter.range;
@@ -169,43 +250,45 @@ double Profiler::end(Eigen::Index i, const FittedParameter& fitted, double limit
         c.logarithmic ? fitted.value * std::exp(sign * way / fitted.value) : fitted.value + sign * way;
     return std::clamp(value, range.low, range.high);
   };
-  double way = limit * fitted.std;
-  if (std::isnan(fitted.std)) {
-    // A parameter without an effect near the estimate may have one further off.
-    const double norm = rows_.col(i).norm();
-    constexpr double near = 1e-3;
-    way = norm > 0.0 ? limit * problem_.slope(q_)(i, i) / norm : near * std::abs(problem_.slope(q_)(i, i));
-  }
+  double way = first_way(i, fitted, limit);
   Way others = at(q_, residuals_, rows_);
-  double inner = 0.0;
-  double inner_growth = 0.0;
-  double outer = std::numeric_limits<double>::infinity();
+  Way within = others;
+  Bracket bracket;
   double last = 0.0;
-  constexpr int most_rounds = 12;
+  constexpr int most_rounds = 16;
   constexpr double close = 0.02;
   for (int round = 0; round < most_rounds; ++round) {
     const double value = value_at(way);
-    const std::optional<double> grown = growth(i, value, limit, others);
+    const std::optional<double> grown = grown_from(i, value, limit, last > 1.0 ? &within : nullptr, others);
     if (!grown) return unknown;
     last = *grown / limit;
     if (std::abs(last - 1.0) < close) return value;
     if (last < 1.0 && value == (sign < 0.0 ? range.low : range.high)) return value;
-    // The root of the growth is nearly linear, except at a jump, which is bracketed.
-    const double rise = std::max(*grown - inner_growth, 1e-3 * limit);
-    const double next = inner + (way - inner) * (limit - inner_growth) / rise;
-    if (last < 1.0) {
-      inner = way;
-      inner_growth = *grown;
-    } else {
-      outer = way;
+    const double next = bracket.guess(way, last);
+    bracket.take(way, last);
+    if (last < 1.0) within = others;
+    if (bracket.outer - bracket.inner < close * bracket.outer) {
+      // The others may reach from here what they did not reach from further off.
+      if (!(bracket.outer_growth > doubtful)) return value_at(bracket.outer);
+      others = within;
+      const std::optional<double> again = growth(i, value_at(bracket.outer), limit, others);
+      if (!again || *again >= limit) return value_at(bracket.outer);
+      within = others;
+      bracket = {bracket.outer, *again / limit};
     }
-    if (outer - inner < close * outer) return value_at(outer);
-    constexpr double farthest = 4.0;
-    const double margin = std::isfinite(outer) ? 0.1 * (outer - inner) : 0.0;
-    way = std::clamp(next, std::max(inner + margin, way / farthest), std::min(outer - margin, farthest * way));
+    way = bracket.within(next);
   }
   constexpr double near = 0.1;
   return std::abs(last - 1.0) < near ? value_at(way) : unknown;
+}
+
+Interval Profiler::widened(Eigen::Index i, Interval interval, double limit) const {
+  for (const auto& [values, growth] : places_) {
+    if (growth > limit) continue;
+    if (values[i] < interval[0]) interval[0] = values[i];
+    if (values[i] > interval[1]) interval[1] = values[i];
+  }
+  return interval;
 }
 
 Interval Profiler::interval(Eigen::Index i, const FittedParameter& fitted, double limit) const {

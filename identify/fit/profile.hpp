@@ -2,14 +2,17 @@
 /// Intervals by profile likelihood: a parameter is held away from its estimate, and the others are fitted again.
 ///
 /// The others are fitted by Gauss-Newton steps with the derivatives at the estimate. If the steps do not converge,
-/// as along a bent valley, the derivatives are computed again on the way. An interval ends where the sum of squares
-/// has grown by the square of a limit. The sum may also jump over it, when a reading changes its side of an event.
+/// as along a bent valley, the derivatives are computed again on the way. If they do not help at all, as when a
+/// parameter with nearly no effect runs away, they are damped (Levenberg). An interval ends where the sum of
+/// squares has grown by the square of a limit. The sum may also jump over it, when a reading changes its side of an
+/// event.
 
 #include <Eigen/Core>
 #include <functional>
 #include <mutex>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "identify/fit/fit.hpp"
 
@@ -28,6 +31,10 @@ class Profiler {
   /// also ends at the end of the parameter's range. `limit`: of the square root of the growth.
   [[nodiscard]] Interval interval(Eigen::Index i, const FittedParameter& fitted, double limit) const;
 
+  /// An interval that also holds the values of parameter `i` wherever any profile so far came with a growth below
+  /// the limit. A profile that starts beside a bound may not find the valley that another one finds.
+  [[nodiscard]] Interval widened(Eigen::Index i, Interval interval, double limit) const;
+
   /// Coordinates with a smaller sum of squares than the estimate, if a profile found any: the search had not ended
   /// at the minimum.
   [[nodiscard]] std::optional<Eigen::VectorXd> lower() const {
@@ -45,22 +52,29 @@ class Profiler {
   };
   [[nodiscard]] Way at(const Eigen::VectorXd& q, const Eigen::VectorXd& residuals,
                        const Eigen::MatrixXd& rows) const;
-  /// Least squares with parameter `i` held at `value`, by the derivatives of `way`.
-  [[nodiscard]] Eigen::VectorXd step(Eigen::Index i, double value, const Way& way) const;
+  /// Least squares with parameter `i` held at `value`, by the derivatives of `way`. `damping`: a change of
+  /// another parameter by as much as itself counts as this share of the present growth.
+  [[nodiscard]] Eigen::VectorXd step(Eigen::Index i, double value, const Way& way, double damping) const;
   /// The parameter that `i` must not be below; -1: none.
   [[nodiscard]] Eigen::Index other_of(Eigen::Index i, const Eigen::VectorXd& q) const;
   /// `q` with parameter `i` at `value`. The parameter that it must not be below gives way.
   [[nodiscard]] Eigen::VectorXd placed(Eigen::Index i, double value, const Eigen::VectorXd& q) const;
   /// The square root of the growth of the sum of squares with parameter `i` at `value`. Nothing: no motion.
   [[nodiscard]] std::optional<double> growth(Eigen::Index i, double value, double limit, Way& way) const;
-  /// The same by Gauss-Newton steps from `way`.
-  [[nodiscard]] std::optional<double> followed(Eigen::Index i, double value, Way& way) const;
+  /// The same from `others`, which may lie beyond the limit, or from `within` it, if that is better.
+  [[nodiscard]] std::optional<double> grown_from(Eigen::Index i, double value, double limit, const Way* within,
+                                                 Way& others) const;
+  /// The same by Gauss-Newton steps from `way`, whose growth is `best`; infinite: parameter `i` is elsewhere.
+  [[nodiscard]] std::optional<double> followed(Eigen::Index i, double value, double best, double damping,
+                                               Way& way) const;
   /// The same with the other parameters unchanged.
   [[nodiscard]] std::optional<double> alone(Eigen::Index i, double value, Way& way) const;
   /// Moves `way` to `q` if the sum of squares is smaller there. False: no motion.
   [[nodiscard]] bool take(const Eigen::VectorXd& q, Way& way, double& best) const;
-  void note_lower(const Way& way) const;
+  void note(const Way& way, double growth) const;
   [[nodiscard]] double growth_of(const Eigen::VectorXd& residuals) const;
+  /// The first distance of the parameter from its estimate.
+  [[nodiscard]] double first_way(Eigen::Index i, const FittedParameter& fitted, double limit) const;
   [[nodiscard]] double end(Eigen::Index i, const FittedParameter& fitted, double limit, double sign) const;
 
   const FitProblem& problem_;
@@ -71,6 +85,7 @@ class Profiler {
   double squares_ = 0.0;
   mutable std::mutex mutex_;
   mutable std::optional<std::pair<Eigen::VectorXd, double>> lower_;
+  mutable std::vector<std::pair<Eigen::VectorXd, double>> places_;  ///< values, and the growth there
 };
 
 }  // namespace dualdamp::identify

@@ -292,9 +292,10 @@ class Uncertainty {
     FittedParameter& fitted = fit_.parameters[static_cast<std::size_t>(i)];
     const auto& [low, high] = fitted.profile95;
     const bool ends = !std::isnan(low) && !std::isnan(high);
+    const auto& above = fitted.parameter.above;
+    const double least = above ? fit_.parameters[*above].value : fitted.parameter.range.low;
     if (ends && fitted.at_bound) fitted.interval95 = fitted.profile95;
-    if (ends && acts_in_steps(i) && !fitted.at_bound && low > fitted.parameter.range.low &&
-        high < fitted.parameter.range.high) {
+    if (ends && acts_in_steps(i) && !fitted.at_bound && low > least && high < fitted.parameter.range.high) {
       fitted.interval95 = fitted.profile95;
       fitted.reason =
           "its effect comes in steps, from reading to reading: it has an interval and no standard error";
@@ -312,6 +313,7 @@ class Uncertainty {
 
   void add_profiles() {
     const Profiler profiler(end_.problem, end_.weights, end_.q, rows_, residuals_);
+    std::vector<double> limits(static_cast<std::size_t>(size_), 0.0);
     Profiler::for_each(size_, [&](Eigen::Index i) {
       FittedParameter& fitted = fit_.parameters[static_cast<std::size_t>(i)];
       if ((is_lost(i) && !acts_in_steps(i)) || (fitted.at_bound && free_.empty())) return;
@@ -321,9 +323,14 @@ class Uncertainty {
       const double widening = fitted.at_bound || !(variance > 0.0)
                                   ? mean_variance()
                                   : fit_.covariance(i, i) / variance * mean_variance();
-      fitted.profile95 =
-          profiler.interval(i, fitted, quantiles_[static_cast<std::size_t>(i)] * std::sqrt(widening));
+      double& limit = limits[static_cast<std::size_t>(i)];
+      limit = quantiles_[static_cast<std::size_t>(i)] * std::sqrt(widening);
+      fitted.profile95 = profiler.interval(i, fitted, limit);
     });
+    for (Eigen::Index i = 0; i < size_; ++i) {
+      FittedParameter& fitted = fit_.parameters[static_cast<std::size_t>(i)];
+      fitted.profile95 = profiler.widened(i, fitted.profile95, limits[static_cast<std::size_t>(i)]);
+    }
     if (end_.problem.is_exhausted())
       drop_profiles();
     else
