@@ -32,6 +32,10 @@ std::unique_ptr<Experiment> Experiment::thinned() const { return nullptr; }
 
 std::unique_ptr<Experiment> Experiment::tied(double /*strength*/) const { return nullptr; }
 
+std::vector<std::string> Experiment::objections(const sim::Model& /*model*/, const OwnValues& /*own*/) const {
+  return {};
+}
+
 std::unique_ptr<Neighbours> Experiment::neighbours(const sim::Model& /*model*/) const {
   return std::make_unique<Alike>(*this);
 }

@@ -44,6 +44,9 @@ struct Signal {
   /// Samples beside a jump of the signal. They have no weight: a small change of the model moves them across the
   /// jump.
   std::vector<std::size_t> unsure;
+  /// Of a loop: samples at which the mass sticks. Under a law with rigid friction they have no weight: the friction
+  /// is whatever holds the mass, within the bounds of the law.
+  std::vector<std::size_t> rest;
 };
 
 /// Sizes of a measured motion: largest displacement from the mean, and largest speed [m, m/s].
@@ -103,6 +106,8 @@ class Experiment {
   [[nodiscard]] virtual std::unique_ptr<Experiment> thinned() const;
   /// The record with models tied to its motion (`tie.hpp`). Null if the record is no motion in time.
   [[nodiscard]] virtual std::unique_ptr<Experiment> tied(double strength) const;
+  /// What the readings say against `model` although they have no weight; a sentence each.
+  [[nodiscard]] virtual std::vector<std::string> objections(const sim::Model& model, const OwnValues& own) const;
   /// Predictions near `model`. By default, each model is predicted independently.
   [[nodiscard]] virtual std::unique_ptr<Neighbours> neighbours(const sim::Model& model) const;
 

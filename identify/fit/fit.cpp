@@ -4,10 +4,12 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <numbers>
 #include <utility>
 
 #include "core/constants.hpp"
 #include "core/diagnostics.hpp"
+#include "core/numbers.hpp"
 #include "friction_models/law_fault.hpp"
 #include "identify/fit/first_load.hpp"
 #include "identify/fit/freedom.hpp"
@@ -66,13 +68,14 @@ void describe_signals(const FitProblem& problem, const Eigen::VectorXd& weights,
     if (!robust && !problem.signal(rows).is_sampled)
       signal.p_value = either_p_value(signal.p_value, serial.p_value(rows));
     set_mean(bounded, counted, problem.signal(rows).is_sampled, signal);
-    signal.independent = independent_samples(own, problem.signal(rows).is_sampled);
+    signal.independent = independent_samples(bounded, problem.signal(rows).is_sampled);
+    signal.misses = problem.counted(misses, rows);
     const std::optional<ZeroPhaseFilter>& filter = problem.signal(rows).filter;
     signal.white = static_cast<double>(size) * (filter ? std::pow(filter->noise_gain(), 2) : 1.0);
-    result.log_likelihood_count += signal.independent;
+    result.log_likelihood_count += signal.independent * counted / static_cast<double>(size);
     if (problem.signal(rows).is_stated && signal.freedom > least_freedom) {
       const double share = signal.freedom / counted;
-      compare_with_stated((robust ? robust_deviation(own) : signal.rms) / std::sqrt(share),
+      compare_with_stated((robust ? robust_deviation(signal.misses) : signal.rms) / std::sqrt(share),
                           signal.independent * share, signal);
     }
     result.signals.push_back(signal);
@@ -127,6 +130,32 @@ void say_why_sought(const Request& request, Fit& result) {
         result.warnings.push_back(request.experiments[e]->label + ": " + why);
 }
 
+/// Warns of what readings without weight say against the fit.
+void add_objections(const Request& request, Fit& result) {
+  const std::optional<sim::Model> model = model_of(result.rig);
+  for (std::size_t e = 0; model && e < request.experiments.size(); ++e)
+    for (const std::string& objection : request.experiments[e]->objections(*model, result.own[e]))
+      result.warnings.push_back(request.experiments[e]->label + ": " + objection);
+}
+
+/// Warns of histories that are shorter than one period of their drive or, without one, of the rig.
+void warn_of_short(const Request& request, Fit& result) {
+  for (const auto& experiment : request.experiments) {
+    if (experiment->kind != ExperimentKind::history) continue;
+    const sim::Excitation& drive = experiment->drive ? *experiment->drive : result.rig.known.excitation;
+    const sim::Oscillator& o = result.rig.known.oscillator;
+    const bool is_driven = drive.is_harmonic() && drive.frequency > 0.0;
+    const double omega = is_driven ? drive.frequency : std::sqrt(o.stiffness / o.mass);
+    const std::vector<double>& at = experiment->signals.front().at;
+    const double period = 2.0 * std::numbers::pi / omega;
+    if (!std::isfinite(period) || !(at.back() - at.front() < period)) continue;
+    result.warnings.push_back(experiment->label + ": the record lasts " +
+                              core::format_number(at.back() - at.front(), 3) + " s, less than one period of " +
+                              (is_driven ? "the drive" : "the rig") + ", " + core::format_number(period, 3) +
+                              " s: a law that does not hold may fit so short a motion as well");
+  }
+}
+
 /// Sets all results of a fit at the end of a search. Returns coordinates with a smaller sum of squares, if a
 /// profile found any.
 std::optional<Eigen::VectorXd> describe(const FitProblem& problem, const Request& request,
@@ -147,6 +176,8 @@ std::optional<Eigen::VectorXd> describe(const FitProblem& problem, const Request
     result.parameters.push_back(
         {.parameter = request.parameters[i], .value = values[static_cast<Eigen::Index>(i)]});
   say_why_sought(request, result);
+  add_objections(request, result);
+  warn_of_short(request, result);
   warn_of_residuals(request.experiments, request.options.robust, result);
   problem.limit(request.options.most_work);
   return add_uncertainty(
@@ -179,10 +210,13 @@ Fit fit_rig(const Rig& rig, std::vector<FitParameter> parameters, const Experime
     for (const auto& experiment : experiments) known.push_back(experiment->own_start);
   auto task = std::make_unique<FitTask>(rig, experiments, parameters, sizes, std::move(known));
   const FitProblem& problem = task->problem;
-  if (problem.rows() <= static_cast<Eigen::Index>(parameters.size())) {
-    result.outcome = {core::OutcomeKind::not_identifiable, std::to_string(parameters.size()) +
-                                                               " parameters need more than " +
-                                                               std::to_string(problem.rows()) + " readings"};
+  const auto readings = static_cast<Eigen::Index>(problem.counted().sum());
+  if (readings <= static_cast<Eigen::Index>(parameters.size())) {
+    result.outcome = {
+        core::OutcomeKind::not_identifiable,
+        std::to_string(parameters.size()) + " parameters need more than " + std::to_string(readings) + " readings" +
+            (readings < problem.rows() ? "; samples beside a jump, or at rest under rigid friction, do not count"
+                                       : "")};
     return result;
   }
   const bool all_stated =
@@ -232,19 +266,27 @@ SharedUncertainty shared_uncertainty(const Fit& fit) {
 
 namespace {
 
-/// The deviance: -2 ln of the largest likelihood, per reading and without a constant. The stated noise of a signal
-/// is used only if at least one of the fits does not contradict it.
+/// Whether the stated noise of a signal is used: at least one of the fits does not contradict it.
+bool is_as_stated(const std::vector<Fit>& fits, std::size_t s) {
+  return std::ranges::any_of(fits, [s](const Fit& fit) {
+    return fit.outcome.ok() && !std::isnan(fit.signals[s].chi2_per_freedom) &&
+           contradicts_stated(fit.signals[s]) == 0;
+  });
+}
+
+/// The least deviation of a signal in a comparison. For exact data, the residuals are only rounding.
+double least_deviation(const FittedSignal& signal) {
+  constexpr double least = 1e-12;
+  return least * signal.range + std::numeric_limits<double>::min();
+}
+
+/// The deviance: -2 ln of the largest likelihood, per reading and without a constant.
 double deviance_of(const Fit& fit, const std::vector<Fit>& fits) {
   double sum = 0.0;
   double count = 0.0;
   for (std::size_t s = 0; s < fit.signals.size(); ++s) {
     const FittedSignal& signal = fit.signals[s];
-    const bool as_stated = !std::isnan(signal.chi2_per_freedom) && std::ranges::any_of(fits, [s](const Fit& other) {
-      return other.outcome.ok() && contradicts_stated(other.signals[s]) == 0;
-    });
-    constexpr double least = 1e-12;  // for exact data, the residuals are only rounding
-    const double deviation =
-        std::max(as_stated ? signal.noise : signal.rms, least * signal.range + std::numeric_limits<double>::min());
+    const double deviation = std::max(is_as_stated(fits, s) ? signal.noise : signal.rms, least_deviation(signal));
     const double misfit = signal.rms / deviation;
     const auto size = static_cast<double>(signal.rows.end - signal.rows.begin);
     sum += size * (2.0 * std::log(deviation / signal.range) + misfit * misfit);
@@ -253,19 +295,51 @@ double deviance_of(const Fit& fit, const std::vector<Fit>& fits) {
   return sum / count;
 }
 
+/// What Huber's sum says in place of the deviance.
+struct RobustDeviance {
+  double deviance = 0.0;
+  double of_parameter = 1.0;  ///< what a parameter counts, over what it counts in AICc
+};
+
+/// The deviation is that of the fit with the least one, for all fits: the median of a fit's own residuals would
+/// move it by more than a parameter counts.
+RobustDeviance robust_deviance_of(const Fit& fit, const std::vector<Fit>& fits) {
+  double sum = 0.0;
+  double count = 0.0;
+  double psi_squared = 0.0;
+  double psi_slope = 0.0;
+  for (std::size_t s = 0; s < fit.signals.size(); ++s) {
+    const FittedSignal& signal = fit.signals[s];
+    double deviation = infinity;
+    for (const Fit& other : fits)
+      if (other.outcome.ok()) deviation = std::min(deviation, robust_deviation(other.signals[s].misses));
+    if (is_as_stated(fits, s)) deviation = signal.noise;
+    deviation = std::max(deviation, least_deviation(signal));
+    const Eigen::VectorXd residuals = signal.misses / deviation;
+    const auto size = static_cast<double>(signal.rows.end - signal.rows.begin);
+    const double weight = size / std::max(1.0, static_cast<double>(residuals.size()));
+    sum += size * 2.0 * std::log(deviation / signal.range) + weight * huber_sum(residuals);
+    count += size;
+    psi_squared += weight * residuals.array().abs().min(huber_bound).square().sum();
+    psi_slope += weight * static_cast<double>((residuals.array().abs() <= huber_bound).count());
+  }
+  return {sum / count, psi_slope > 0.0 ? psi_squared / psi_slope : 1.0};
+}
+
 }  // namespace
 
-void compare_fits(std::vector<Fit>& fits) {
+void compare_fits(std::vector<Fit>& fits, bool robust) {
   for (Fit& fit : fits)
-    if (fit.outcome.ok()) fit.deviance = deviance_of(fit, fits);
+    if (fit.outcome.ok()) fit.deviance = robust ? robust_deviance_of(fit, fits).deviance : deviance_of(fit, fits);
   const auto least =
       std::ranges::min_element(fits, {}, [](const Fit& fit) { return fit.outcome.ok() ? fit.deviance : infinity; });
   if (least == fits.end()) return;
   const double count = least->log_likelihood_count;
+  const double share = robust && least->outcome.ok() ? robust_deviance_of(*least, fits).of_parameter : 1.0;
   for (Fit& fit : fits) {
     const double K = static_cast<double>(fit.parameters.size() + fit.signals.size());
     if (fit.outcome.ok() && count - K - 1.0 > 0.5)
-      fit.AICc = count * fit.deviance + 2.0 * K + 2.0 * K * (K + 1.0) / (count - K - 1.0);
+      fit.AICc = count * fit.deviance + share * (2.0 * K + 2.0 * K * (K + 1.0) / (count - K - 1.0));
   }
 }
 

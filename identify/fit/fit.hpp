@@ -19,8 +19,8 @@
 /// A search that takes more work than `FitOptions::most_work` ends without a result, and says so. Profiles
 /// have the same limit of their own; beyond it the fit has none.
 ///
-/// Source: ljung1999, burnham2002, newey1987, huber1964. Errors: `outcome`. Cost: that of a motion, times 40 for
-/// the starts and times two for each parameter and step.
+/// Source: ljung1999, burnham2002, newey1987, huber1964, ronchetti1985. Errors: `outcome`. Cost: that of a motion,
+/// times 40 for the starts and times two for each parameter and step.
 
 #include <Eigen/Core>
 #include <memory>
@@ -78,6 +78,7 @@ struct FittedSignal {
   /// chance of a value so far from 1.
   double chi2_per_freedom = unknown;
   double chi2_p_value = unknown;
+  Eigen::VectorXd misses;  ///< outputs minus readings that have a weight
 };
 
 struct Fit {
@@ -116,7 +117,9 @@ struct SharedUncertainty {
 [[nodiscard]] SharedUncertainty shared_uncertainty(const Fit& fit);
 
 /// Sets AICc of each fit. All are fits of the same data. The number of independent samples is that of the fit with
-/// the least deviance.
-void compare_fits(std::vector<Fit>& fits);
+/// the least deviance. `robust`: of fits with Huber's weights, Huber's sum takes the place of the sum of squares,
+/// in units of one deviation for all fits, and a parameter counts 2 E(psi^2)/E(psi') in place of 2, which is the
+/// mean gain of the sum by a parameter that the data do not need (ronchetti1985).
+void compare_fits(std::vector<Fit>& fits, bool robust = false);
 
 }  // namespace dualdamp::identify

@@ -1,9 +1,13 @@
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <numeric>
 #include <utility>
 
+#include "core/numbers.hpp"
 #include "identify/fit/experiment.hpp"
 #include "identify/fit/starts.hpp"
+#include "identify/records/rest_samples.hpp"
 #include "identify/records/signals.hpp"
 #include "identify/statistics/noise_level.hpp"
 #include "sim/conformance/law_host.hpp"
@@ -28,6 +32,7 @@ class FrictionLoop final : public Experiment {
     kind = ExperimentKind::loop;
     RobustNoiseLevel level;
     level.add(history.force);
+    force_noise_ = options.sigma_force > 0.0 ? options.sigma_force : level.deviation();
     complete(history, options.has_mass);
     const double speed = largest_swing(law_v_);
     // The zero of the sensor of a velocity drives its integral away.
@@ -35,21 +40,23 @@ class FrictionLoop final : public Experiment {
     motion = {history.x.empty() ? speed / crossing_frequency(law_v_, duration) : largest_swing(law_x_), speed};
     std::vector<double> force = history.force;
     bridge(force);
+    force_ = force;
     if (filter_) force = (*filter_)(force);
     const bool is_stated = options.sigma_force > 0.0;
-    Signal signal{
-        .name = "force",
-        .unit = "N",
-        .measured = std::vector<double>(force.begin() + static_cast<std::ptrdiff_t>(edge_),
-                                        force.end() - static_cast<std::ptrdiff_t>(edge_)),
-        .at_name = "t",
-        .at_unit = "s",
-        .noise = (is_stated ? options.sigma_force : level.deviation()) * (filter_ ? filter_->noise_gain() : 1.0),
-        .is_stated = is_stated,
-        .is_sampled = true,
-        .filter = filter_};
-    for (std::size_t i = edge_; i + edge_ < force.size(); ++i)
+    Signal signal{.name = "force",
+                  .unit = "N",
+                  .measured = std::vector<double>(force.begin() + static_cast<std::ptrdiff_t>(edge_),
+                                                  force.end() - static_cast<std::ptrdiff_t>(edge_)),
+                  .at_name = "t",
+                  .at_unit = "s",
+                  .noise = force_noise_ * (filter_ ? filter_->noise_gain() : 1.0),
+                  .is_stated = is_stated,
+                  .is_sampled = true,
+                  .filter = filter_};
+    for (std::size_t i = edge_; i + edge_ < force.size(); ++i) {
       signal.at.push_back(start_ + static_cast<double>(i) / rate_);
+      if (rests_[i]) signal.rest.push_back(i - edge_);
+    }
     signals.push_back(std::move(signal));
     own_others = {Own::offset, Own::travel};
     if (history.x.empty()) own_of_place = {Own::offset};
@@ -60,6 +67,7 @@ class FrictionLoop final : public Experiment {
     const sim::Oscillator& o = model.oscillator;
     const double offset = own[static_cast<std::size_t>(Own::offset)];
     std::vector<double> force(x_.size());
+    const bool holds = std::ranges::any_of(model.friction, &friction::Law::holds_mass);
     constexpr long samples_of_unit = 8;
     *work += static_cast<long>(x_.size()) / samples_of_unit;
     for (const friction::Law& law : model.friction)
@@ -69,6 +77,8 @@ class FrictionLoop final : public Experiment {
       if (o.mass > 0.0) force[i] += o.mass * a_[i];
       if (o.stiffness > 0.0) force[i] -= sim::spring_force(o, offset - x_[i]);
       if (!std::isnan(o.damping)) force[i] += o.damping * v_[i];
+      // What holds the mass at rest is known from the measured force alone.
+      if (holds && rests_[i]) force[i] = force_[i];
     }
     if (filter_) force = (*filter_)(force);
     outputs = Eigen::Map<const Eigen::VectorXd>(force.data() + edge_,
@@ -76,7 +86,48 @@ class FrictionLoop final : public Experiment {
     return outputs.allFinite();
   }
 
+  /// Says if the mass sticks under forces that the friction does not hold.
+  [[nodiscard]] std::vector<std::string> objections(const sim::Model& model, const OwnValues& own) const override {
+    if (!std::ranges::any_of(model.friction, &friction::Law::holds_mass) ||
+        std::ranges::any_of(model.friction, has_memory))
+      return {};
+    const double offset = own[static_cast<std::size_t>(Own::offset)];
+    constexpr double rare = 4.0;
+    double most = 0.0;
+    double bound = 0.0;
+    std::size_t held_count = 0;
+    std::size_t count = 0;
+    for (const auto& [begin, end] : deep_rests()) {
+      const double inertia =
+          std::isnan(model.oscillator.mass) ? 0.0 : model.oscillator.mass * mean_rate(begin, end);
+      for (std::size_t i = begin; i < end; ++i) {
+        Instant now = instant(i, offset);
+        now.v = 0.0;
+        double held = force_[i] - inertia;
+        double limit = 0.0;
+        if (model.oscillator.stiffness > 0.0) held += sim::spring_force(model.oscillator, offset - x_[i]);
+        for (const friction::Law& law : model.friction) {
+          held -= law.force({}, now, Direction::none);
+          limit += law.static_limit({}, now);
+        }
+        ++held_count;
+        if (!(std::abs(held) > limit + rare * force_noise_)) continue;
+        ++count;
+        if (std::abs(held) - limit > most - bound) most = std::abs(held), bound = limit;
+      }
+    }
+    constexpr double share = 0.02;
+    if (static_cast<double>(count) <= share * static_cast<double>(held_count)) return {};
+    return {"the mass sticks under a force of " + core::format_number(most, 3) +
+            " N, and the friction of the fit holds at most " + core::format_number(bound, 3) +
+            " N: its static level is higher, or the mass did not rest"};
+  }
+
  private:
+  [[nodiscard]] static bool has_memory(const friction::Law& law) {
+    return law.is_modal() || law.has_rates() || law.delay() > 0.0 || law.advances();
+  }
+
   /// Differentiates or integrates the signals that were not measured. If one is a derivative, all forces are
   /// filtered. The acceleration is not counted as a derivative if no mass needs it.
   void complete(const History& history, bool has_mass) {
@@ -86,6 +137,7 @@ class FrictionLoop final : public Experiment {
     if (a_.empty()) a_ = lacks_speed ? sharp_second_difference(x_, rate_) : sharp_difference(v_, rate_);
     law_x_ = x_;
     law_v_ = v_;
+    rests_ = rest_samples(v_, lacks_speed ? noise_of_speed(x_, rate_, filter_) : noise_of_speed(v_), 0);
     if (!lacks_speed && !(has_mass && history.a.empty())) return;
     History whole = history;
     whole.x = x_;
@@ -97,7 +149,16 @@ class FrictionLoop final : public Experiment {
       law_x_ = (*filter_)(x_);
       law_v_ = sharp_difference(law_x_, rate_);
     }
+    // The smear of the filter is as long as the period of its cut-off over pi.
+    smear_ = static_cast<std::size_t>(std::ceil(rate_ / (std::numbers::pi * cutoffs.front())));
+    rests_ = rest_samples(law_v_, lacks_speed ? noise_of_speed(x_, rate_, filter_) : noise_of_speed(v_), smear_);
+    if (lacks_speed) {
+      // Equal readings of the position, which the filter mixes with others.
+      const std::vector<bool> equal = rest_samples(v_, 0.0, smear_);
+      for (std::size_t i = 0; i < rests_.size(); ++i) rests_[i] = rests_[i] || equal[i];
+    }
     for (std::size_t i = 1; i + 2 < law_v_.size(); ++i) {
+      if (rests_[i] && rests_[i + 1]) continue;
       if (law_v_[i] != 0.0 && law_v_[i] * law_v_[i + 1] >= 0.0) continue;
       const std::size_t nearest = std::abs(law_v_[i]) <= std::abs(law_v_[i + 1]) ? i : i + 1;
       if (turns_.empty() || turns_.back() != nearest) turns_.push_back(nearest);
@@ -117,6 +178,31 @@ class FrictionLoop final : public Experiment {
     for (const std::size_t i : turns_) force[i] = 0.5 * (before[i - 1] + before[i + 1]);
   }
 
+  /// Stretches of samples at rest, without the samples at their ends.
+  [[nodiscard]] std::vector<std::pair<std::size_t, std::size_t>> deep_rests() const {
+    constexpr std::size_t beside = 3;  // a difference of seven points feels the motion
+    constexpr std::size_t least = 5;
+    std::vector<std::pair<std::size_t, std::size_t>> found;
+    for (std::size_t begin = 0; begin < rests_.size();) {
+      std::size_t end = begin;
+      while (end < rests_.size() && rests_[end]) ++end;
+      const std::size_t cut = smear_ + beside;
+      if (end - begin >= 2 * cut + least) found.emplace_back(begin + cut, end - cut);
+      begin = std::max(end, begin + 1);
+    }
+    return found;
+  }
+
+  /// Mean acceleration between two samples, from the means of the velocity in both halves: a slow reversal is no
+  /// rest.
+  [[nodiscard]] double mean_rate(std::size_t begin, std::size_t end) const {
+    const auto half = static_cast<std::ptrdiff_t>((end - begin) / 2);
+    const auto first = law_v_.begin() + static_cast<std::ptrdiff_t>(begin);
+    const double early = std::accumulate(first, first + half, 0.0);
+    const double late = std::accumulate(first + half, first + 2 * half, 0.0);
+    return (late - early) * rate_ / static_cast<double>(half * half);
+  }
+
   /// The zero of the sensor of x does not act on a law.
   [[nodiscard]] Instant instant(std::size_t i, double offset) const {
     return {static_cast<double>(i) / rate_, law_x_[i] - offset, law_v_[i]};
@@ -124,7 +210,7 @@ class FrictionLoop final : public Experiment {
 
   /// Adds the force of a law. A law without memory needs no path between the samples.
   [[nodiscard]] bool add(const friction::Law& law, double offset, double travel, std::vector<double>& force) const {
-    if (!law.is_modal() && !law.has_rates() && !(law.delay() > 0.0) && !law.advances()) {
+    if (!has_memory(law)) {
       for (std::size_t i = 0; i < force.size(); ++i)
         force[i] += law.force({}, instant(i, offset), direction_of(law_v_[i]));
       return true;
@@ -193,8 +279,12 @@ class FrictionLoop final : public Experiment {
   std::vector<double> x_, v_, a_;      ///< measured, or derivatives or integrals of what was measured
   std::vector<double> law_x_, law_v_;  ///< for the laws: filtered before they are differentiated
   std::optional<ZeroPhaseFilter> filter_;
+  std::vector<double> force_;  ///< measured, before the filter
+  double force_noise_ = 0.0;
+  std::vector<bool> rests_;         ///< samples at which the mass sticks
   std::vector<std::size_t> turns_;  ///< samples next to a reversal, if there is a filter
   std::size_t edge_ = 0;
+  std::size_t smear_ = 0;  ///< of the filter, to each side
 };
 
 }  // namespace

@@ -47,7 +47,7 @@ bool guarded(const Work& work) {
 
 FitProblem::FitProblem(const Rig& rig, const std::vector<FitParameter>& parameters, const Experiments& experiments,
                        const std::vector<double>& sizes, std::vector<OwnValues> known)
-    : rig_(rig), parameters_(parameters), known_(std::move(known)) {
+    : rig_(rig), holds_mass_(holds_mass(rig, parameters)), parameters_(parameters), known_(std::move(known)) {
   for (std::size_t i = 0; i < parameters.size(); ++i)
     coordinates_.push_back(coordinate_of(parameters[i], sizes[i]));
   for (const auto& experiment : experiments) experiments_.push_back(experiment.get());
@@ -58,6 +58,7 @@ FitProblem::FitProblem(const Rig& rig, const std::vector<FitParameter>& paramete
 
 FitProblem::FitProblem(const FitProblem& whole, Experiments parts)
     : rig_(whole.rig_),
+      holds_mass_(whole.holds_mass_),
       accuracy_(whole.accuracy_),
       parameters_(whole.parameters_),
       parts_(std::move(parts)),
@@ -107,6 +108,8 @@ void FitProblem::number_rows() {
     measured_.segment(rows.begin, rows.end - rows.begin) =
         Eigen::Map<const Eigen::VectorXd>(signal(rows).measured.data(), rows.end - rows.begin);
     for (const std::size_t i : signal(rows).unsure) counted_[rows.begin + static_cast<Eigen::Index>(i)] = 0.0;
+    if (!holds_mass_) continue;
+    for (const std::size_t i : signal(rows).rest) counted_[rows.begin + static_cast<Eigen::Index>(i)] = 0.0;
   }
 }
 
@@ -132,9 +135,17 @@ void FitProblem::limit(long most) const {
   *most_work_ = most < largest - begun ? begun + most : largest;
 }
 
+Eigen::VectorXd FitProblem::counted(const Eigen::VectorXd& misses, const SignalRows& rows) const {
+  std::vector<Eigen::Index> those;
+  for (Eigen::Index r = rows.begin; r < rows.end; ++r)
+    if (counted_[r] > 0.0) those.push_back(r);
+  return misses(those);
+}
+
 double FitProblem::rms(const Eigen::VectorXd& misses, const SignalRows& rows) const {
   const Eigen::Index size = rows.end - rows.begin;
-  return misses.segment(rows.begin, size).norm() / std::sqrt(counted_.segment(rows.begin, size).sum());
+  return misses.segment(rows.begin, size).norm() /
+         std::sqrt(std::max(1.0, counted_.segment(rows.begin, size).sum()));
 }
 
 const Signal& FitProblem::signal(const SignalRows& rows) const {

@@ -95,6 +95,8 @@ class FitProblem {
   [[nodiscard]] Eigen::VectorXd misses(const Eigen::VectorXd& outputs) const {
     return (outputs - measured_).cwiseProduct(counted_);
   }
+  /// The misses of a signal at the readings that count.
+  [[nodiscard]] Eigen::VectorXd counted(const Eigen::VectorXd& misses, const SignalRows& rows) const;
   /// Root mean square of the misses of a signal, over the readings that count.
   [[nodiscard]] double rms(const Eigen::VectorXd& misses, const SignalRows& rows) const;
   /// The values of each experiment's own parameters.
@@ -114,6 +116,7 @@ class FitProblem {
   /// if a law or an engine refuses the values.
   [[nodiscard]] bool within_limit(std::size_t e, const std::function<bool()>& motions) const;
   const Rig& rig_;
+  bool holds_mass_ = false;  ///< a law of it can make the mass stick
   Accuracy accuracy_{};
   const std::vector<FitParameter>& parameters_;
   Experiments parts_;  ///< experiments that this problem owns

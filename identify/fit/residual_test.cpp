@@ -106,6 +106,12 @@ Eigen::VectorXd bounded_residuals(const Eigen::VectorXd& residuals, const Eigen:
   return residuals.cwiseProduct((weights / largest).cwiseAbs2());
 }
 
+double huber_sum(const Eigen::VectorXd& residuals) {
+  const Eigen::ArrayXd sizes = residuals.cwiseAbs();
+  const Eigen::ArrayXd inside = sizes.min(huber_bound);
+  return (inside * (2.0 * sizes - inside)).sum();
+}
+
 bool is_noise(double p_value) {
   constexpr double level = 1e-3;
   return !(p_value < level);

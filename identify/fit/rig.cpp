@@ -355,6 +355,16 @@ bool depends_on_place(const friction::Law& law) {
 
 }  // namespace
 
+bool holds_mass(const Rig& rig, const std::vector<FitParameter>& sought) {
+  const std::optional<sim::Model> model = example_of(rig, sought);
+  if (!model) return false;
+  try {
+    return std::ranges::any_of(model->friction, &friction::Law::holds_mass);
+  } catch (const friction::LawFault&) {
+    return false;  // a law that cannot be computed is reported by the fit
+  }
+}
+
 bool feels_place(const Rig& rig, const std::vector<FitParameter>& sought) {
   const std::optional<sim::Model> model = example_of(rig, sought);
   if (!model) return false;

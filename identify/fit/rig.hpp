@@ -102,6 +102,9 @@ void arrange(const Rig& rig, std::vector<FitParameter>& parameters);
 /// Yes if a law cannot be made of these numbers.
 [[nodiscard]] bool remembers_way(const Rig& rig, const std::vector<FitParameter>& sought);
 
+/// Whether a law of the rig can make the mass stick.
+[[nodiscard]] bool holds_mass(const Rig& rig, const std::vector<FitParameter>& sought);
+
 /// The model of a rig. Nothing if a law refuses its values.
 [[nodiscard]] std::optional<sim::Model> model_of(Rig rig);
 

@@ -17,9 +17,6 @@ namespace {
 
 using core::infinity;
 
-/// Huber's bound, in deviations.
-constexpr double huber = 1.345;
-
 /// The weights of the readings, and searches with them.
 class Search {
  public:
@@ -36,9 +33,8 @@ class Search {
   [[nodiscard]] double squares(const Eigen::VectorXd& q) const {
     Eigen::VectorXd outputs;
     if (!problem_.outputs(q, outputs)) return infinity;
-    const Eigen::ArrayXd sizes = problem_.misses(outputs).cwiseProduct(weights_).cwiseAbs();
-    const Eigen::ArrayXd inside = options_.robust ? sizes.min(huber) : sizes;
-    const double sum = (inside * (2.0 * sizes - inside)).sum();
+    const Eigen::VectorXd sizes = problem_.misses(outputs).cwiseProduct(weights_);
+    const double sum = options_.robust ? huber_sum(sizes) : sizes.squaredNorm();
     return std::isfinite(sum) ? sum : infinity;
   }
 
@@ -80,8 +76,8 @@ class Search {
     double change = 0.0;
     for (std::size_t s = 0; s < deviations_.size(); ++s) {
       const SignalRows& rows = problem_.signals()[s];
-      const Eigen::VectorXd part = misses.segment(rows.begin, rows.end - rows.begin);
-      const double own = options_.robust ? robust_deviation(part) : problem_.rms(misses, rows);
+      const double own =
+          options_.robust ? robust_deviation(problem_.counted(misses, rows)) : problem_.rms(misses, rows);
       const double count = problem_.counted().segment(rows.begin, rows.end - rows.begin).sum();
       if (problem_.signal(rows).is_stated || freedoms[s] < least_freedom) continue;
       const double found = own * std::sqrt(count / freedoms[s]);
@@ -119,7 +115,7 @@ class Search {
   void bound(const Eigen::VectorXd& misses) {
     for (Eigen::Index i = 0; i < misses.size(); ++i) {
       const double size = std::abs(misses[i]) * weights_[i];
-      if (size > huber) weights_[i] *= std::sqrt(huber / size);
+      if (size > huber_bound) weights_[i] *= std::sqrt(huber_bound / size);
     }
   }
 

@@ -9,6 +9,7 @@
 #include "identify/fit/freedom.hpp"
 #include "identify/fit/profile.hpp"
 #include "identify/fit/residual_covariance.hpp"
+#include "identify/fit/residual_test.hpp"
 #include "identify/fit/trade_offs.hpp"
 #include "identify/statistics/decompositions.hpp"
 #include "identify/statistics/distributions.hpp"
@@ -183,14 +184,14 @@ class Uncertainty {
 
   /// Correction of the covariance: the bound makes the curvature of Huber's sum smaller than the weights do.
   [[nodiscard]] double robust_factor() const {
-    constexpr double huber = 1.345;
     double weight = 0.0;
     double inside = 0.0;
-    for (const double residual : residuals_) {
-      // A bounded residual r has the weighted size sqrt(huber |r|).
-      const double size = std::abs(residual);
-      weight += size > huber ? huber * huber / (size * size) : 1.0;
-      inside += size > huber ? 0.0 : 1.0;
+    for (Eigen::Index i = 0; i < residuals_.size(); ++i) {
+      if (!(end_.weights[i] > 0.0)) continue;
+      // A bounded residual r has the weighted size sqrt(bound |r|).
+      const double size = std::abs(residuals_[i]);
+      weight += size > huber_bound ? huber_bound * huber_bound / (size * size) : 1.0;
+      inside += size > huber_bound ? 0.0 : 1.0;
     }
     return inside > 0.0 ? weight * weight / (inside * inside) : 1.0;
   }

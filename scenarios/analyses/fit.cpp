@@ -200,7 +200,7 @@ Answer FitQuestion::run(const RunContext& /*context*/) const {
   std::vector<identify::Fit> fits;
   for (const Candidate& candidate : candidates_)
     fits.push_back(identify::fit_rig(candidate.rig, candidate.parameters, data_, options_));
-  identify::compare_fits(fits);
+  identify::compare_fits(fits, options_.robust);
   const std::vector<std::size_t> order = ranked(fits);
   const identify::Fit& best = fits[order.front()];
   if (!best.outcome.ok()) return failed(best.outcome.reason);

@@ -5,6 +5,8 @@
 #include "core/random.hpp"
 #include "friction_models/registry.hpp"
 #include "identify/fit/fit.hpp"
+#include "identify/fit/residual_test.hpp"
+#include "identify/records/rest_samples.hpp"
 #include "sim/motion/simulate.hpp"
 #include "tests/identify/fit/synthetic.hpp"
 
@@ -20,7 +22,100 @@ const FittedParameter& estimate_in(const Fit& fit, const std::string& name) {
   throw std::invalid_argument("there is no parameter " + name);
 }
 
+struct RestingLoop {
+  bool x = true;
+  bool v = true;
+  double noise_v = 0.0;       // m/s
+  double static_level = 2.0;  // N
+};
+
+/// Moves of 0.25 s, at rest for 0.15 s between them: m = 1 kg, c = 2 N.s/m, k = 300 N/m, 2 N of friction. At rest
+/// the friction holds the mass with a force that the law does not tell.
+identify::History resting_loop(const RestingLoop& plan) {
+  constexpr double rate = 500.0;
+  constexpr double move = 0.25;
+  constexpr double rest = 0.15;
+  const core::RandomStream draws{17, 2026};
+  identify::History loop{.sample_rate = rate};
+  double from = 0.0;
+  for (std::uint64_t stroke = 0; stroke < 12; ++stroke) {
+    const double to = (stroke % 2 == 0 ? 1.0 : -1.0) * (4e-3 + 0.5e-3 * static_cast<double>(stroke % 5));
+    const double way = to - from;
+    const double held = plan.static_level * (0.98 * std::cos(2.0 * static_cast<double>(stroke)));
+    for (int i = 0; i < static_cast<int>((move + rest) * rate); ++i) {
+      const double s = std::min(1.0, i / (move * rate));
+      const double x = from + way * s * s * s * (10.0 + s * (6.0 * s - 15.0));
+      const double v = way / move * s * s * (30.0 + s * (30.0 * s - 60.0));
+      const double a = way / (move * move) * s * (60.0 + s * (120.0 * s - 180.0));
+      const double at_rest = (i / rate - move) / rest;
+      const double friction = s < 1.0 ? std::copysign(2.0, way) : held * at_rest;
+      const auto sample = static_cast<std::uint64_t>(loop.force.size());
+      if (plan.x) loop.x.push_back(x);
+      if (plan.v) loop.v.push_back(v + plan.noise_v * draws.normal(2 * sample + 1));
+      loop.force.push_back(a + 2.0 * v + 300.0 * x + friction + 0.01 * draws.normal(2 * sample));
+    }
+    from = to;
+  }
+  return loop;
+}
+
+Fit fit_of_resting_loop(const RestingLoop& plan, bool robust = false) {
+  identify::Record record;
+  record.histories.push_back(resting_loop(plan));
+  std::string fault;
+  const identify::Experiments experiments =
+      identify::experiments_of(record, {.name = "loop", .loop = true, .has_mass = true}, fault);
+  REQUIRE(fault.empty());
+  identify::Rig rig = test::rig_with({"coulomb", {{"kinetic", 2.0}}, {"kinetic"}});
+  rig.known.oscillator = {.mass = 1.0, .stiffness = 300.0, .damping = 2.0};
+  rig.known.excitation = {};
+  std::vector<identify::FitParameter> parameters =
+      test::sought_in(rig, {"mass", "stiffness", "damping", "kinetic"}, 1.3);
+  for (const identify::Own own : identify::sought_own(*experiments.front(), true))
+    parameters.push_back(identify::own_parameter(*experiments.front(), 0, own, true));
+  Fit fit = identify::fit_rig(rig, parameters, experiments, {.robust = robust, .profile = false});
+  REQUIRE(fit.outcome.ok());
+  return fit;
+}
+
 }  // namespace
+
+TEST_CASE("loop: a mass at rest says nothing about rigid friction", "[identify][fit]") {
+  // With 0 N of friction at rest, the mass is 1.4 kg and the stiffness 390 N/m.
+  for (const RestingLoop& plan :
+       {RestingLoop{}, RestingLoop{.x = false}, RestingLoop{.v = false}, RestingLoop{.noise_v = 2e-4}})
+    for (const bool robust : {false, true}) {
+      const Fit fit = fit_of_resting_loop(plan, robust);
+      CAPTURE(plan.x, plan.v, plan.noise_v, robust);
+      for (const auto& [name, truth] :
+           {std::pair{"mass", 1.0}, {"stiffness", 300.0}, {"damping", 2.0}, {"kinetic", 2.0}}) {
+        CAPTURE(name, estimate_in(fit, name).value, estimate_in(fit, name).std);
+        CHECK(std::abs(estimate_in(fit, name).value - truth) < 4.0 * estimate_in(fit, name).std);
+      }
+      CHECK(estimate_in(fit, "mass").std < 4e-3);
+      CHECK(fit.signals.front().freedom < 0.8 * static_cast<double>(fit.signals.front().rows.end));
+    }
+}
+
+TEST_CASE("loop: a mass that sticks under more than the friction holds is told", "[identify][fit]") {
+  CHECK(fit_of_resting_loop({}).warnings.empty());
+  const Fit fit = fit_of_resting_loop({.static_level = 3.0});
+  REQUIRE(fit.warnings.size() == 1);
+  CHECK_THAT(fit.warnings.front(), Catch::Contains("the friction of the fit holds at most 2 N"));
+}
+
+TEST_CASE("loop: samples rest at zero speed, or where noise stays at one level", "[identify][fit]") {
+  const auto resting = [](const std::vector<double>& v, double noise, std::size_t spread) {
+    std::string marks;
+    for (const bool rests : identify::rest_samples(v, noise, spread)) marks += rests ? 'r' : '.';
+    return marks;
+  };
+  CHECK(resting({5.0, 0.0, 4.9, 0.0, 0.0, 0.0, 6.0, 0.2}, 0.0, 0) == ".r.rrr..");
+  CHECK(resting({5.0, 4.0, 4.9, 0.0, 0.0, 0.0, 6.0, 0.2}, 0.0, 1) == "..rrrrr.");
+  // A lone sample above the noise between two below it rests as well; a reversal does not.
+  CHECK(resting({9.0, 0.1, -0.2, 0.1, 0.1, 0.5, -0.1, 0.2, 0.02, -0.1, 9.0}, 0.1, 0) == ".rrrrrrrrr.");
+  CHECK(resting({9.0, 0.4, 0.3, 0.2, 0.1, 0.05, -0.1, -0.2, -0.3, -0.4, -9.0}, 0.1, 0) == "...........");
+}
 
 TEST_CASE("fit: intervals beside a parameter at its bound hold what trades with it", "[identify][fit]") {
   // Of v alone, a constant force is a displacement: the levels of both directions and the first position are known
@@ -56,4 +151,47 @@ TEST_CASE("fit: intervals beside a parameter at its bound hold what trades with 
     CHECK((std::isnan(fitted.interval95[0]) || fitted.interval95[0] <= true_value));
     CHECK((std::isnan(fitted.interval95[1]) || fitted.interval95[1] >= true_value));
   }
+}
+
+TEST_CASE("fit: robust fits are compared by Huber's sum", "[identify][fit]") {
+  // Two laws of equal outliers, one of which misses the other readings by a tenth of their deviation.
+  const core::RandomStream draws{5, 1985};
+  constexpr Eigen::Index count = 1000;
+  std::vector<Fit> fits(2);
+  for (std::size_t f = 0; f < 2; ++f) {
+    Eigen::VectorXd misses(count);
+    for (Eigen::Index i = 0; i < count; ++i) {
+      const auto draw = static_cast<std::uint64_t>(i);
+      misses[i] = draws.normal(draw) + (f == 0 ? 0.4 : 0.0);
+      if (i % 50 == 0) misses[i] = 300.0 * draws.normal(draw);
+    }
+    const double rms = misses.norm() / std::sqrt(static_cast<double>(count));
+    fits[f].signals.push_back({.rows = {.end = count},
+                               .rms = f == 0 ? 0.999 * rms : rms,
+                               .range = 100.0,
+                               .independent = static_cast<double>(count),
+                               .misses = misses});
+    fits[f].parameters.resize(f == 0 ? 1 : 2);
+    fits[f].log_likelihood_count = static_cast<double>(count);
+  }
+  identify::compare_fits(fits);
+  CHECK(fits[0].AICc < fits[1].AICc);
+  identify::compare_fits(fits, true);
+  CHECK(fits[0].AICc > fits[1].AICc + 50.0);
+  // A parameter counts 2 E(psi^2)/E(psi') = 1.73 for normal residuals.
+  fits[0].signals = fits[1].signals;
+  identify::compare_fits(fits, true);
+  CHECK(fits[1].AICc - fits[0].AICc == Approx(1.73).epsilon(0.05));
+}
+
+TEST_CASE("fit: a history shorter than one period is told", "[identify][fit]") {
+  const auto warned = [](double duration) {
+    const test::LawCase law = test::law_case_of("coulomb");
+    const Fit fit = test::fit_of(law, 3, {.duration = duration}, false);
+    return std::ranges::count_if(fit.warnings, [](const std::string& warning) {
+      return warning.find("less than one period of the drive, 0.25 s") != std::string::npos;
+    });
+  };
+  CHECK(warned(0.2) == 1);
+  CHECK(warned(0.5) == 0);
 }
