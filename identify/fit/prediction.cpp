@@ -5,6 +5,8 @@
 #include <cmath>
 #include <iterator>
 #include <numbers>
+#include <string>
+#include <utility>
 
 #include "core/numbers.hpp"
 #include "identify/fit/residual_test.hpp"
@@ -236,7 +238,7 @@ void describe_held(const Rig& rig, const std::vector<FitParameter>& parameters, 
 
 Prediction predict_records(const Rig& rig, const std::vector<FitParameter>& parameters,
                            const SharedUncertainty& known, const Experiments& experiments,
-                           const FitOptions& options) {
+                           const FitOptions& options, const Refusal& refuses) {
   Prediction found;
   FitOptions quick = options;
   quick.profile = false;
@@ -249,6 +251,11 @@ Prediction predict_records(const Rig& rig, const std::vector<FitParameter>& para
   found.error = error_of(found.fit);
   if (std::isnan(found.error)) {
     found.text = "the record holds no motion to predict";
+    return found;
+  }
+  if (std::string refusal = refuses ? refuses(found.fit) : std::string(); !refusal.empty()) {
+    found.outcome = {core::OutcomeKind::not_identifiable, std::move(refusal)};
+    found.text = found.outcome.reason;
     return found;
   }
   describe_held(rig, parameters, known, experiments, found);

@@ -10,6 +10,7 @@
 /// Bands: the residual of a sampled signal in octaves, by Haar wavelets: sums and differences of neighbours, whose
 /// squares add up to those of the residual.
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -43,9 +44,13 @@ struct Prediction {
   Fit fit;                            ///< of the record's own parameters, with the rig held fixed
 };
 
+/// Why records are not to be judged, from the fit of their own parameters; empty: they are.
+using Refusal = std::function<std::string(const Fit& held)>;
+
 /// `parameters`: those that were fitted; `rig` has their fitted values. `known`: uncertainty of `parameters`.
+/// `refuses` is asked before the rig is fitted to the records, which takes most of the time.
 [[nodiscard]] Prediction predict_records(const Rig& rig, const std::vector<FitParameter>& parameters,
                                          const SharedUncertainty& known, const Experiments& experiments,
-                                         const FitOptions& options = {});
+                                         const FitOptions& options = {}, const Refusal& refuses = {});
 
 }  // namespace dualdamp::identify

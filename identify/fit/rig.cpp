@@ -151,9 +151,12 @@ void add_missing(const RigLaw& law, std::size_t index, const std::vector<FitPara
       for (const Parameter& parameter : law.entry->parameters)
         if (std::ranges::find(instead, parameter.name) != instead.end() && parameter.required())
           names.emplace_back(parameter.name);
-    } else {
-      faults.push_back("'" + fault.name + "' of " + std::string(law.entry->name) +
-                       " is missing: state the list, with start values; a fit does not choose its length");
+    } else if (own != law.entry->parameters.end()) {
+      // What is missing inside of a stated list or record, the reader of the scenario reports, with its place.
+      faults.push_back("'" + fault.name + "' of " + std::string(law.entry->name) + " is missing: " +
+                       (own->kind == ParameterKind::list
+                            ? "state the list, with start values; a fit does not choose its length"
+                            : "state it; a fit seeks numbers only"));
     }
   }
   for (const Parameter& parameter : law.entry->parameters)

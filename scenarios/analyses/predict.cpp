@@ -155,9 +155,8 @@ std::vector<double> errors_of(const identify::Fit& fit, std::size_t experiments)
 }
 
 /// A record that the rig explains without the drive that was assumed.
-std::string undriven_record(const identify::Rig& rig, const identify::Prediction& prediction,
-                            const identify::Experiments& data, const std::string& drive,
-                            const core::SettingWords& words) {
+std::string undriven_record(const identify::Rig& rig, const identify::Fit& held, const identify::Experiments& data,
+                            const std::string& drive, const core::SettingWords& words) {
   constexpr double part = 0.5;   // of the error under the drive
   constexpr double good = 0.25;  // of the motion: a rig at rest misses by all of it
   identify::Rig undriven = rig;
@@ -168,7 +167,7 @@ std::string undriven_record(const identify::Rig& rig, const identify::Prediction
       own.push_back(identify::own_parameter(*data[e], e, each, data.size() == 1));
   const identify::Fit fit = identify::fit_rig(undriven, own, data, {.profile = false});
   if (!fit.outcome.ok()) return {};
-  const std::vector<double> with = errors_of(prediction.fit, data.size());
+  const std::vector<double> with = errors_of(held, data.size());
   const std::vector<double> without = errors_of(fit, data.size());
   for (std::size_t e = 0; e < data.size(); ++e)
     if (without[e] < good && without[e] < part * with[e])
@@ -181,20 +180,20 @@ std::string undriven_record(const identify::Rig& rig, const identify::Prediction
 }
 
 /// A record that goes on where the rig without a drive comes to rest.
-std::string driven_record(const identify::Prediction& prediction, const identify::Experiments& data,
+std::string driven_record(const identify::Fit& held, const identify::Experiments& data,
                           const core::SettingWords& words) {
   constexpr double part = 0.5;
   const auto size_of = [](const Eigen::VectorXd& values) {
     return (values.array() - values.mean()).matrix().norm();
   };
-  for (const identify::FittedSignal& fitted : prediction.fit.signals) {
+  for (const identify::FittedSignal& fitted : held.signals) {
     const identify::Experiment& experiment = *data[fitted.rows.experiment];
     const Eigen::Index quarter = (fitted.rows.end - fitted.rows.begin) / 4;
     if (experiment.kind != identify::ExperimentKind::history || quarter < 2) continue;
     const std::vector<double>& values = experiment.signals[fitted.rows.signal].measured;
     const Eigen::Map<const Eigen::VectorXd> measured(values.data(), static_cast<Eigen::Index>(values.size()));
     const double last = size_of(measured.tail(quarter));
-    const double predicted = size_of(prediction.fit.outputs.segment(fitted.rows.end - quarter, quarter));
+    const double predicted = size_of(held.outputs.segment(fitted.rows.end - quarter, quarter));
     if (last > part * size_of(measured.head(quarter)) && predicted < part * last)
       return experiment.label +
              ": nothing states the drive of this record, nor did the fit for such a record; the record goes on where the rig "
@@ -233,17 +232,16 @@ std::unique_ptr<const Question> ask_predict(CheckedValues&& values) {
 }  // namespace
 
 Answer PredictQuestion::run(const RunContext& /*context*/) const {
-  identify::Prediction prediction = identify::predict_records(rig_, parameters_, uncertainty_, data_);
+  const bool is_driven = rig_.known.excitation.type != sim::ExcitationType::none;
+  const auto refuses = [&](const identify::Fit& held) {
+    if (assumed_drive_.empty()) return std::string();
+    return is_driven ? undriven_record(rig_, held, data_, assumed_drive_, words_)
+                     : driven_record(held, data_, words_);
+  };
+  identify::Prediction prediction = identify::predict_records(rig_, parameters_, uncertainty_, data_, {}, refuses);
   if (!prediction.outcome.ok()) return failed(prediction.outcome.reason);
-  if (!assumed_drive_.empty() && !std::isnan(prediction.error)) {
-    const bool is_driven = rig_.known.excitation.type != sim::ExcitationType::none;
-    const std::string fault = is_driven ? undriven_record(rig_, prediction, data_, assumed_drive_, words_)
-                                        : driven_record(prediction, data_, words_);
-    if (!fault.empty()) return failed(fault);
-    if (is_driven || prediction.is_wrong)
-      prediction.text +=
-          "; this holds if the record had the drive of the fit, which was assumed: " + assumed_drive_;
-  }
+  if (!assumed_drive_.empty() && !std::isnan(prediction.error) && (is_driven || prediction.is_wrong))
+    prediction.text += "; this holds if the record had the drive of the fit, which was assumed: " + assumed_drive_;
   Answer answer;
   answer.warnings = warnings_;
   std::ranges::move(prediction.warnings, std::back_inserter(answer.warnings));
