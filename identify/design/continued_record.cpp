@@ -66,41 +66,26 @@ std::vector<std::optional<Outlook>> outlook_of(const ReadingModel& block, const 
   std::vector<std::optional<Outlook>> list;
   std::unique_ptr<NearbyOrbits> near;
   double last = 0.0;
-  for (const SeverityFit* fit : rival.fits) {
+  for (const SeverityFit& fit : rival.fits) {
     list.emplace_back();
     // At severity zero each law is plain friction.
-    if (fit->severity == 0.0 && rival.law->law.departure != nullptr) continue;
-    if (near == nullptr || !(fit->severity * last > 0.0)) near = block.no_orbits(block.known_deviations());
+    if (fit.severity == 0.0 && rival.law->law.departure != nullptr) continue;
+    if (near == nullptr || !(fit.severity * last > 0.0)) near = block.no_orbits(block.known_deviations());
     last = 0.0;
-    const LawAt law{rival.law->law.departure, fit->severity};
+    const LawAt law{rival.law->law.departure, fit.severity};
     const VectorXd unknowns =
-        extended(friction_only ? VectorXd(fit->unknowns.head(2)) : fit->unknowns, block.unknowns());
+        extended(friction_only ? VectorXd(fit.unknowns.head(2)) : fit.unknowns, block.unknowns());
     const std::optional<VectorXd> residuals = block.residuals(law, unknowns, *near);
     if (!residuals) continue;
     const std::optional<MatrixXd> slopes = block.derivatives(law, unknowns, *residuals, *near);
     if (!slopes) continue;
-    last = fit->severity;
+    last = fit.severity;
     list.back() = Outlook{block.readings() - *residuals, *slopes};
   }
   return list;
 }
 
 }  // namespace
-
-std::vector<Rival> rivals_of(const LawStudy& study) {
-  constexpr double reach = 12.0;
-  std::vector<Rival> rivals;
-  for (const LawFits& law : study.laws) {
-    const auto answer = std::ranges::find(study.intervals.laws, law.law.name(), &LawAnswer::name);
-    const bool plain = law.law.departure == nullptr;
-    if (answer->rejected && !plain) continue;
-    Rival rival{.law = &law, .allowed = !answer->rejected};
-    for (const SeverityFit& fit : law.fits)
-      if (fit.severity == 0.0 || fit.chi2 < law.best().chi2 + reach) rival.fits.push_back(&fit);
-    rivals.push_back(std::move(rival));
-  }
-  return rivals;
-}
 
 Outlooks outlooks_of(const StudiedRecord& record, const std::vector<Rival>& rivals) {
   const std::unique_ptr<const ReadingModel> block = planned_states(
@@ -234,38 +219,22 @@ ContinuedRecord::ContinuedRecord(const StudiedRecord& record, const std::vector<
   for (const Rival& rival : rivals) planned_.push_back(outlook_of(*block, rival, states == nullptr));
 }
 
-namespace {
-
-/// The most probable fit: the misfit and the prior of the severity together. A record often says little about the
-/// severity, so that its best fit alone is too severe about as often as it is too mild, and by far.
-std::size_t best_of(const Rival& rival) {
-  const LibraryLaw& law = rival.law->law;
-  const double severe = std::abs(rival.law->best().severity);
-  const double deviation = severe > law.largest ? std::max(law.deviation, severe) : law.deviation;
-  const auto best = std::ranges::min_element(rival.fits, {}, [deviation](const SeverityFit* fit) {
-    return fit->chi2 + (fit->severity == 0.0 ? 0.0 : std::pow(fit->severity / deviation, 2));
-  });
-  return static_cast<std::size_t>(best - rival.fits.begin());
-}
-
-}  // namespace
-
 bool ContinuedRecord::possible() const {
   for (std::size_t i = 0; i < rivals_.size(); ++i) {
-    const std::size_t best = best_of(rivals_[i]);
-    if (rivals_[i].allowed && rivals_[i].fits[best]->severity != 0.0 && !(planned_[i][best] && own_[i][best]))
+    const std::size_t best = rivals_[i].probable;
+    if (rivals_[i].allowed && rivals_[i].fits[best].severity != 0.0 && !(planned_[i][best] && own_[i][best]))
       return false;
   }
   return planned_.front().front() && own_.front().front();
 }
 
 bool ContinuedRecord::is_plain(std::size_t truth) const {
-  return rivals_[truth].fits[best_of(rivals_[truth])]->severity == 0.0;
+  return rivals_[truth].fits[rivals_[truth].probable].severity == 0.0;
 }
 
 std::optional<LawIntervals> ContinuedRecord::answer(const CandidateMeasurement& candidate, std::size_t truth,
                                                     std::uint64_t draw) const {
-  const std::size_t best = best_of(rivals_[truth]);
+  const std::size_t best = rivals_[truth].probable;
   // At severity zero each law is plain friction, which is the first rival.
   const bool plain_truth = is_plain(truth);
   const std::size_t of = plain_truth ? 0 : truth;
@@ -281,10 +250,10 @@ std::optional<LawIntervals> ContinuedRecord::answer(const CandidateMeasurement& 
     if (spring_is_free && law.departure != nullptr && is_of_spring(*law.departure)) continue;
     laws.push_back({law});
     for (std::size_t j = 0; j < rivals_[i].fits.size(); ++j) {
-      if (rivals_[i].fits[j]->severity == 0.0)
+      if (rivals_[i].fits[j].severity == 0.0)
         laws.back().fits.push_back(plain->fit);
       else if (own_[i][j] && planned_[i][j])
-        if (auto fit = joint.fit(*rivals_[i].fits[j], *own_[i][j], *planned_[i][j], plain->noise))
+        if (auto fit = joint.fit(rivals_[i].fits[j], *own_[i][j], *planned_[i][j], plain->noise))
           laws.back().fits.push_back(std::move(*fit));
     }
   }

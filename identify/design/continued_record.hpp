@@ -39,7 +39,9 @@ struct StudiedRecord {
 struct Rival {
   const LawFits* law = nullptr;
   bool allowed = false;  ///< otherwise it is not taken as the truth
-  std::vector<const SeverityFit*> fits{};
+  /// Those within reach of the record, the neighbours of the best one, and the most probable one.
+  std::vector<SeverityFit> fits{};
+  std::size_t probable = 0;  ///< index of the fit that is the truth
 };
 
 /// What a law predicts at the unknowns of its fit to the record, in the units of the readings.
@@ -52,7 +54,7 @@ struct Outlook {
 using Outlooks = std::vector<std::vector<std::optional<Outlook>>>;
 
 /// The laws of a study that take part in continued records.
-[[nodiscard]] std::vector<Rival> rivals_of(const LawStudy& study);
+[[nodiscard]] std::vector<Rival> rivals_of(const StudiedRecord& record);
 
 /// All that the states of the record could have given, also their phases.
 [[nodiscard]] Outlooks outlooks_of(const StudiedRecord& record, const std::vector<Rival>& rivals);

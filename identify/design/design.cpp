@@ -46,7 +46,7 @@ Widths widths_of(const LawIntervals& laws, const ParameterSet& moved) {
 class Advisor {
  public:
   Advisor(const StudiedRecord& record, const ParameterSet& moved)
-      : record_(record), moved_(moved), rivals_(rivals_of(record.study)), own_(outlooks_of(record, rivals_)) {
+      : record_(record), moved_(moved), rivals_(rivals_of(record)), own_(outlooks_of(record, rivals_)) {
     for (const Rival& rival : rivals_) allowed_ += rival.allowed ? 1 : 0;
     // Few truths need several draws of the noise each, so that the mean does not hang on one.
     constexpr std::size_t fewest = 12;

@@ -263,7 +263,7 @@ LawIntervals intervals_of(const ReadingModel& model, const KnownConstants& const
   std::erase_if(laws, [](const LawFits& law) { return !law.solved(); });
   std::vector<Profile> profiles;
   for (const LawFits& law : laws) {
-    Profile profile{&law, severity_curve(model, law.fits)};
+    Profile profile{&law, severity_curve(model, SeverityScale(law.law.departure), law.fits)};
     profile.least = best_of(profile.points).chi2;
     profiles.push_back(std::move(profile));
   }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "identify/methods/any_law/severity_refinement.hpp"
 #include "identify/statistics/decompositions.hpp"
 
 namespace dualdamp::identify {
@@ -82,6 +83,14 @@ class Search {
     if (!slopes) return false;
     jacobian_ = with_priors(model_, weights_.asDiagonal() * *slopes);
     return true;
+  }
+
+  /// The step that derivatives of the end still ask for, if it is short enough to be linear: corrected derivatives
+  /// may have ended the search a little early.
+  void settle() {
+    constexpr double linear = 1.0;  // standard deviations
+    const VectorXd step = pivoted_least_squares(jacobian_, residuals_);
+    if (step.allFinite() && (jacobian_ * step).norm() < linear) accept_unseen(step);
   }
 
   [[nodiscard]] SeverityFit result() const {
@@ -199,11 +208,12 @@ ChannelNoise noise_of(const ReadingModel& model, const ChannelNoise& noise, cons
 }
 
 /// Unknowns at a severity, continued linearly from those of the last two fits.
-VectorXd continued(const std::vector<SeverityFit>& fits, double severity) {
+VectorXd continued(SeverityScale scale, const std::vector<SeverityFit>& fits, double severity) {
   const SeverityFit& last = fits.back();
   if (fits.size() < 3) return last.unknowns;
   const SeverityFit& before = fits[fits.size() - 2];
-  const double part = (severity - last.severity) / (last.severity - before.severity);
+  const double end = scale.of(last.severity);
+  const double part = (scale.of(severity) - end) / (end - scale.of(before.severity));
   VectorXd unknowns = last.unknowns + part * (last.unknowns - before.unknowns);
   unknowns.head(2) = unknowns.head(2).cwiseMax(least_share);
   return unknowns;
@@ -216,27 +226,17 @@ bool is_open(const std::vector<SeverityFit>& fits, double least) {
   return fits.back().chi2 <= least && fits.front().chi2 - least > far;
 }
 
-/// The last but one fit gets derivatives interpolated between those of its neighbours, which computed their own.
-void share_slopes(std::vector<SeverityFit>& fits) {
-  const SeverityFit& right = fits.back();
-  const SeverityFit& left = fits[fits.size() - 3];
-  SeverityFit& middle = fits[fits.size() - 2];
-  const double part = (middle.severity - left.severity) / (right.severity - left.severity);
-  SeverityFit shared = middle;
-  shared.slopes = (1.0 - part) * left.slopes + part * right.slopes;
-  if (find_covariance(shared)) middle = std::move(shared);
-}
-
 /// Adds fits at growing severities until no region reaches further, or up to `furthest`.
 void follow(const ReadingModel& model, const rigs::Rig& departure, const ChannelNoise& noise, double furthest,
             NearbyOrbits& near, std::vector<SeverityFit>& fits) {
+  const SeverityScale scale(&departure);
   constexpr double growth = 1.5;
   constexpr double out_of_region = 15.0;
   double least = fits.back().chi2;
   while (std::abs(fits.back().severity) < std::abs(furthest) && fits.back().chi2 - least < out_of_region) {
     double severity = growth * fits.back().severity;
     if (std::abs(severity) > std::abs(furthest)) severity = furthest;
-    const LawStart start{continued(fits, severity), fits.back().slopes, true};
+    const LawStart start{continued(scale, fits, severity), fits.back().slopes, true};
     const std::optional<SeverityFit> fit = fit_law(model, {&departure, severity}, noise, start, near);
     if (!fit) return;
     fits.push_back(*fit);
@@ -246,11 +246,24 @@ void follow(const ReadingModel& model, const rigs::Rig& departure, const Channel
 
 }  // namespace
 
+void share_slopes(SeverityScale scale, std::size_t of, std::vector<SeverityFit>& fits) {
+  const SeverityFit& left = fits[of - 1];
+  const SeverityFit& right = fits[of + 1];
+  const double before = scale.of(left.severity);
+  const double part = (scale.of(fits[of].severity) - before) / (scale.of(right.severity) - before);
+  SeverityFit shared = fits[of];
+  shared.slopes = (1.0 - part) * left.slopes + part * right.slopes;
+  if (find_covariance(shared)) fits[of] = std::move(shared);
+}
+
 std::optional<SeverityFit> fit_law(const ReadingModel& model, const LawAt& law, const ChannelNoise& noise,
                                    const LawStart& start, NearbyOrbits& near) {
   Search search(model, law, noise, near);
   if (!search.minimize(start.unknowns, start.slopes)) return std::nullopt;
-  if (start.own_slopes && !search.differentiate()) return std::nullopt;
+  if (start.own_slopes) {
+    if (!search.differentiate()) return std::nullopt;
+    search.settle();
+  }
   SeverityFit fit = search.result();
   return find_covariance(fit) ? std::optional(fit) : std::nullopt;
 }
@@ -331,23 +344,24 @@ std::vector<SeverityFit> law_profile(const ReadingModel& model, const rigs::Rig&
                                      const ChannelNoise& noise, const SeverityFit& plain, double furthest) {
   constexpr int count = 5;
   constexpr double out_of_reach = 60.0;
+  const SeverityScale scale(&departure);
   std::vector<SeverityFit> fits = {plain};
   const std::unique_ptr<NearbyOrbits> near = model.no_orbits(noise.deviations);
   double least = plain.chi2;
-  for (int i = 1; i <= count; ++i) {
-    // Deflections act on the motion partly by their root: mild severities need to be closer together.
-    const double severity = largest * std::pow(static_cast<double>(i) / count, 1.5);
-    const bool own_slopes = i % 2 == 1;
-    const LawStart start{continued(fits, severity), fits.back().slopes, own_slopes};
+  bool own_slopes = true;
+  for (const double severity : scale.first_severities(largest, count)) {
+    const LawStart start{continued(scale, fits, severity), fits.back().slopes, own_slopes};
     const std::optional<SeverityFit> fit = fit_law(model, {&departure, severity}, noise, start, *near);
     if (!fit) break;
     fits.push_back(*fit);
-    if (own_slopes && i > 1) share_slopes(fits);
+    if (own_slopes && fits.size() > 2) share_slopes(scale, fits.size() - 2, fits);
+    own_slopes = !own_slopes;
     least = std::min(least, fit->chi2);
     if (fit->chi2 > least + out_of_reach && fit->chi2 > fits[fits.size() - 2].chi2) break;
   }
   if (fits.back().severity == largest && is_open(fits, least))
     follow(model, departure, noise, furthest, *near, fits);
+  refine(model, departure, noise, *near, fits);
   return fits;
 }
 

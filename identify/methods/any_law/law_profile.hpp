@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "identify/methods/any_law/reading_model.hpp"
+#include "identify/methods/any_law/severity_scale.hpp"
 
 namespace dualdamp::identify {
 
@@ -44,6 +45,9 @@ struct LawStart {
                                                  const ChannelNoise& noise, const LawStart& start,
                                                  NearbyOrbits& near);
 
+/// Gives the fit number `of` derivatives interpolated between those of its neighbours, and the covariance of these.
+void share_slopes(SeverityScale scale, std::size_t of, std::vector<SeverityFit>& fits);
+
 /// The fit that one Gauss-Newton step from `unknowns` makes, with the residuals and the derivatives of the readings
 /// there, in the units of the readings. Nothing if the readings do not determine the unknowns.
 [[nodiscard]] std::optional<SeverityFit> stepped_fit(const ReadingModel& model, double severity,
@@ -66,10 +70,11 @@ struct PlainFit {
 /// nothing.
 [[nodiscard]] std::optional<PlainFit> with_law_error(const ReadingModel& model, PlainFit plain, double share);
 
-/// Fits over the severities of one departure, the mildest first; `plain` is the fit at severity zero. Ends early
-/// once a severity fits so much worse than a milder one that no region reaches it. Negative `largest`: severities
-/// of the other sign. If the law fits best at `largest`, and far better than plain friction, it is followed on to
-/// `furthest`, of the same sign; zero: it is not followed on.
+/// Fits over the severities of one departure, the mildest first: a few over the whole range, and further ones where
+/// the curve through them is not yet known (severity_refinement.hpp); `plain` is the fit at severity zero. Ends
+/// early once a severity fits so much worse than a milder one that no region reaches it. Negative `largest`:
+/// severities of the other sign. If the law fits best at `largest`, and far better than plain friction, it is
+/// followed on to `furthest`, of the same sign; zero: it is not followed on.
 [[nodiscard]] std::vector<SeverityFit> law_profile(const ReadingModel& model, const rigs::Rig& departure,
                                                    double largest, const ChannelNoise& noise,
                                                    const SeverityFit& plain, double furthest = 0.0);

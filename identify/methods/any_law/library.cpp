@@ -116,9 +116,9 @@ const std::vector<rigs::Rig>& all_laws() {
 
 LawFits fits_of(const ReadingModel& model, const LibraryLaw& law, const PlainFit& plain) {
   LawFits all{law, law_profile(model, *law.departure, law.largest, plain.noise, plain.fit, law.furthest)};
-  if (!law.both_signs) return all;
+  if (law.largest_below == 0.0) return all;
   std::vector<SeverityFit> negative =
-      law_profile(model, *law.departure, -law.largest, plain.noise, plain.fit, law.furthest_below);
+      law_profile(model, *law.departure, law.largest_below, plain.noise, plain.fit, law.furthest_below);
   std::ranges::reverse(negative);
   negative.pop_back();
   all.fits.insert(all.fits.begin(), negative.begin(), negative.end());
@@ -148,13 +148,13 @@ std::vector<LibraryLaw> law_library(const ReadingModel& model, const LawInterval
     if (departure.forced_only && !model.is_driven()) continue;
     LibraryLaw law{.departure = &departure,
                    .largest = std::min(options.largest_severity, departure.largest),
-                   .deviation = options.severity_deviation,
-                   .both_signs = names(two_sided, departure.name)};
+                   .deviation = options.severity_deviation};
     const bool of_spring = is_of_spring(departure);
     // If the readings determine spring and frequency, these are free under every law instead.
     if (of_spring && !model.nuisances().empty()) continue;
     if (departure.name == "detuning") law.largest = 0.01, law.deviation = 0.005;
     if (departure.name == "cubic_spring") law.largest = 0.1, law.deviation = 0.05;
+    if (names(two_sided, departure.name)) law.largest_below = std::max(-law.largest, furthest_below(departure));
     // A larger error of spring or frequency is found by the ledger.
     if (options.further && !of_spring) {
       law.furthest = departure.largest;

@@ -23,10 +23,10 @@ struct LawIntervalOptions {
 struct LibraryLaw {
   const rigs::Rig* departure = nullptr;  ///< nullptr: Coulomb + viscous friction
   double largest = 0.0;                  ///< severity up to which it is fitted
+  double largest_below = 0.0;            ///< the same for negative severities, negative; zero: of one sign
   double furthest = 0.0;                 ///< severity to which it is followed on if it fits best at `largest`
   double furthest_below = 0.0;           ///< the same for negative severities, negative; zero: not followed on
   double deviation = 0.0;                ///< of the prior of its severity
-  bool both_signs = false;
 
   [[nodiscard]] std::string name() const {
     return departure == nullptr ? "coulomb_viscous" : std::string(departure->name);

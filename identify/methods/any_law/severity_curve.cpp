@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <boost/math/interpolators/makima.hpp>
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <memory>
 #include <utility>
@@ -13,10 +12,29 @@ namespace dualdamp::identify {
 
 namespace {
 
-using Curve = std::function<double(double)>;
+SeverityPoint severity_point(const ReadingModel& model, const SeverityFit& fit) {
+  constexpr double least = std::numeric_limits<double>::min();
+  return {fit.severity,
+          fit.chi2,
+          fit.unknowns[0] * model.F0_unit(),
+          fit.unknowns[1] * model.c_unit(),
+          std::sqrt(fit.covariance(0, 0)) * model.F0_unit(),
+          std::sqrt(fit.covariance(1, 1)) * model.c_unit(),
+          0.5 * std::log(std::max(fit.covariance.determinant(), least))};
+}
 
-/// Curve through values at increasing severities.
-Curve through(std::vector<double> at, std::vector<double> values) {
+/// Points between two fits: at least `fewest`, and so many that the readings move by a fraction of their deviation
+/// from one to the next. Otherwise the best severity might lie between two points.
+int parts_between(const SeverityFit& left, const SeverityFit& right) {
+  constexpr double fewest = 24.0;
+  constexpr double most = 480.0;
+  constexpr double per_deviation = 3.0;
+  return static_cast<int>(std::clamp(per_deviation * (right.residuals - left.residuals).norm(), fewest, most));
+}
+
+}  // namespace
+
+Curve curve_through(std::vector<double> at, std::vector<double> values) {
   constexpr std::size_t fewest = 4;
   if (at.size() >= fewest) {
     using Makima = boost::math::interpolators::makima<std::vector<double>>;
@@ -30,31 +48,19 @@ Curve through(std::vector<double> at, std::vector<double> values) {
   };
 }
 
-SeverityPoint severity_point(const ReadingModel& model, const SeverityFit& fit) {
-  constexpr double least = std::numeric_limits<double>::min();
-  return {fit.severity,
-          fit.chi2,
-          fit.unknowns[0] * model.F0_unit(),
-          fit.unknowns[1] * model.c_unit(),
-          std::sqrt(fit.covariance(0, 0)) * model.F0_unit(),
-          std::sqrt(fit.covariance(1, 1)) * model.c_unit(),
-          0.5 * std::log(std::max(fit.covariance.determinant(), least))};
-}
-
-}  // namespace
-
-std::vector<SeverityPoint> severity_curve(const ReadingModel& model, const std::vector<SeverityFit>& fits) {
+std::vector<SeverityPoint> severity_curve(const ReadingModel& model, SeverityScale scale,
+                                          const std::vector<SeverityFit>& fits) {
   if (fits.size() < 2) return {severity_point(model, fits.front())};
   std::vector<double> at;
   std::vector<SeverityPoint> known;
   for (const SeverityFit& fit : fits) {
-    at.push_back(fit.severity);
+    at.push_back(scale.of(fit.severity));
     known.push_back(severity_point(model, fit));
   }
   const auto curve = [&](const auto& value_of) {
     std::vector<double> values;
     for (std::size_t i = 0; i < fits.size(); ++i) values.push_back(value_of(i));
-    return through(at, values);
+    return curve_through(at, values);
   };
   const auto member = [&](double SeverityPoint::* one) {
     return curve([&](std::size_t i) { return known[i].*one; });
@@ -69,13 +75,13 @@ std::vector<SeverityPoint> severity_curve(const ReadingModel& model, const std::
   for (Eigen::Index row = 0; row < fits.front().residuals.size(); ++row)
     residuals.push_back(curve([&](std::size_t i) { return fits[i].residuals[row]; }));
   std::vector<SeverityPoint> all;
-  constexpr int parts = 24;
   for (std::size_t i = 0; i + 1 < at.size(); ++i) {
+    const int parts = parts_between(fits[i], fits[i + 1]);
     for (int j = 0; j < parts; ++j) {
-      const double s = std::lerp(at[i], at[i + 1], static_cast<double>(j) / parts);
+      const double u = std::lerp(at[i], at[i + 1], static_cast<double>(j) / parts);
       double chi2 = 0.0;
-      for (const Curve& residual : residuals) chi2 += std::pow(residual(s), 2);
-      all.push_back({s, chi2, F0(s), c(s), F0_deviation(s), c_deviation(s), log_volume(s)});
+      for (const Curve& residual : residuals) chi2 += std::pow(residual(u), 2);
+      all.push_back({scale.severity(u), chi2, F0(u), c(u), F0_deviation(u), c_deviation(u), log_volume(u)});
     }
   }
   all.push_back(known.back());

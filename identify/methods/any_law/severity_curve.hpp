@@ -2,13 +2,21 @@
 /// c and F0 under one law, over its severity: fits at some severities, interpolated between them, and the region
 /// that they span.
 
+#include <functional>
 #include <vector>
 
 #include "identify/estimate.hpp"
 #include "identify/methods/any_law/law_profile.hpp"
 #include "identify/methods/any_law/reading_model.hpp"
+#include "identify/methods/any_law/severity_scale.hpp"
 
 namespace dualdamp::identify {
+
+/// Curve over one coordinate.
+using Curve = std::function<double(double)>;
+
+/// Curve through values at increasing coordinates: makima from four values on, else linear.
+[[nodiscard]] Curve curve_through(std::vector<double> at, std::vector<double> values);
 
 /// The fit at one severity, as far as regions need it.
 struct SeverityPoint {
@@ -21,10 +29,9 @@ struct SeverityPoint {
   double log_volume = 0.0;  ///< half the logarithm of the determinant of the unknowns' covariance
 };
 
-/// The points of the fits, in the order of increasing severity, and points interpolated between them (makima from
-/// four fits on, else linear). chi2 follows from interpolated residuals, so that it is a sum of squares between the
-/// fits, too.
-[[nodiscard]] std::vector<SeverityPoint> severity_curve(const ReadingModel& model,
+/// The points of the fits, in the order of increasing severity, and points interpolated between them. chi2 follows
+/// from interpolated residuals, so that it is a sum of squares between the fits, too.
+[[nodiscard]] std::vector<SeverityPoint> severity_curve(const ReadingModel& model, SeverityScale scale,
                                                         const std::vector<SeverityFit>& fits);
 
 /// The point of least chi2.

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "identify/rigs/rigs.hpp"
@@ -104,13 +105,33 @@ TEST_CASE("design: no measurement is expected to widen the ranges, however diffe
   REQUIRE(std::holds_alternative<Design>(found));
   const Design& design = std::get<Design>(found);
   constexpr double rounding = 1.01;
+  // Several frequencies free the spring, and a release has the error of the laws: any_law itself, on readings made
+  // under `iwan` or `lugre`, then finds ranges of F0 that are 1.4 to 2 times as wide.
+  constexpr double free_spring = 1.15;
   for (const MeasurementAdvice& advice : design.advice) {
     INFO(advice.candidate.name);
     CHECK(advice.hull.zeta < rounding);
-    CHECK(advice.hull.F0 < rounding);
+    CHECK(advice.hull.F0 < free_spring);
   }
   // any_law frees the spring as soon as there are phases, and adds the error of the laws that they show.
   CHECK(named(design, "record the phase of the same states").hull.zeta < 0.5);
+}
+
+TEST_CASE("design: after a contact that yields little the ranges become as wide as the advice promised") {
+  // The severities of these contacts lie far below the second one that any_law tries at first.
+  for (const auto& [seed, severity] : {std::pair{502000U, 0.0005}, {502001U, 0.0023}}) {
+    const LawRig rig = law_rig(LawRecord::phases, seed);
+    const auto followed = followed_advice(rig, *identify::rigs::find_departure("contact_compliance"), severity,
+                                          seed, {.without = slow_laws}, LawRecord::phases);
+    REQUIRE(followed);
+    INFO(seed << ": " << followed->advice << ", promised " << followed->promised[0] << " / "
+              << followed->promised[1] << ", found " << followed->found[0] << " / " << followed->found[1]);
+    for (std::size_t i = 0; i < 2; ++i) {
+      CHECK(followed->found[i] < 2.0 * followed->promised[i]);
+      CHECK(followed->found[i] > 0.5 * followed->promised[i]);
+      CHECK(followed->held.at(i));
+    }
+  }
 }
 
 TEST_CASE("design: the ranges after the advised measurement are as wide as the advice promised") {

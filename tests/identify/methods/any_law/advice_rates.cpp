@@ -47,8 +47,8 @@ bool rejects_plain(const LawIntervals& laws) {
 }  // namespace
 
 std::optional<Followed> followed_advice(const LawRig& rig, const identify::rigs::Rig& departure, double severity,
-                                        std::uint64_t seed, const LawIntervalOptions& options) {
-  const Record first = law_record(LawRecord::amplitudes, rig, &departure, severity, seed);
+                                        std::uint64_t seed, const LawIntervalOptions& options, LawRecord kind) {
+  const Record first = law_record(kind, rig, &departure, severity, seed);
   if (!first.pairs) return std::nullopt;
   const auto found = design_after(first, rig.constants, {}, options);
   const auto* design = std::get_if<Design>(&found);
@@ -60,7 +60,7 @@ std::optional<Followed> followed_advice(const LawRig& rig, const identify::rigs:
   if (best == design->advice.end()) return std::nullopt;
   const auto& states = std::get<std::vector<PlannedState>>(best->candidate.plan);
   Record advised = states_record(rig, &departure, severity, states, best->candidate.phases, seed + 1);
-  const Record equal = law_record(LawRecord::amplitudes, rig, &departure, severity, seed + 1);
+  const Record equal = law_record(kind, rig, &departure, severity, seed + 1);
   if (!advised.pairs || !equal.pairs) return std::nullopt;
   const auto after_advice = answer_of(rig, continued(first, advised, best->candidate), options);
   const auto after_equal = answer_of(rig, together(first, equal), options);

@@ -1,6 +1,6 @@
 #pragma once
-/// The value of the advice of `design` on a random rig: a record of eight levels of amplitudes is continued by
-/// eight more states, either those advised or eight equally spaced levels again.
+/// The value of the advice of `design` on a random rig: a record of eight levels is continued by eight more states,
+/// either those advised or eight equally spaced levels again.
 
 #include <array>
 #include <cstdint>
@@ -25,9 +25,10 @@ struct Followed {
   std::array<bool, 2> held{};
 };
 
-/// Nothing if one of the records has no answer.
+/// `kind`: amplitudes alone or with phases. Nothing if one of the records has no answer.
 [[nodiscard]] std::optional<Followed> followed_advice(const LawRig& rig, const identify::rigs::Rig& departure,
                                                       double severity, std::uint64_t seed,
-                                                      const LawIntervalOptions& options = {});
+                                                      const LawIntervalOptions& options = {},
+                                                      LawRecord kind = LawRecord::amplitudes);
 
 }  // namespace dualdamp::identify::testing

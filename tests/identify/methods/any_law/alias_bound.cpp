@@ -63,7 +63,8 @@ std::optional<Interval> alias_bound(LawRecord kind, const LawRig& rig) {
   if (!fit) return std::nullopt;
   plain.fit = *fit;
   Curves curves;
-  for (const LawFits& law : fit_library(**model, {}, plain)) curves.push_back(severity_curve(**model, law.fits));
+  for (const LawFits& law : fit_library(**model, {}, plain))
+    curves.push_back(severity_curve(**model, SeverityScale(law.law.departure), law.fits));
   const double critical = 2.0 * std::sqrt(rig.constants.mass * rig.constants.stiffness);
   return std::array{0.5 * least_length(curves, &SeverityPoint::c, &SeverityPoint::c_deviation) / critical,
                     0.5 * least_length(curves, &SeverityPoint::F0, &SeverityPoint::F0_deviation)};
