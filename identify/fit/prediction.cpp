@@ -226,6 +226,20 @@ Loads loads_of_both(const Fit& held, const Fit& alone, const Experiments& experi
   return loads;
 }
 
+/// The parameters that belong to no record, each stated as the rig has it.
+std::vector<FitParameter> at_values_of(const Rig& rig, const std::vector<FitParameter>& parameters) {
+  std::vector<FitParameter> list;
+  const std::vector<FitParameter> now = parameters_of(rig);
+  for (const FitParameter& parameter : parameters) {
+    if (parameter.owner == Owner::record) continue;
+    std::string fault;
+    const std::vector<FitParameter> same = named(now, parameter.name, fault);
+    list.push_back(parameter);
+    if (same.size() == 1) list.back().stated = same.front().stated;
+  }
+  return list;
+}
+
 void describe_held(const Rig& rig, const std::vector<FitParameter>& parameters, const SharedUncertainty& known,
                    const Experiments& experiments, Prediction& found) {
   found.error = error_of(found.fit);
@@ -259,16 +273,8 @@ Prediction predict_records(const Rig& rig, const std::vector<FitParameter>& para
     return found;
   }
   describe_held(rig, parameters, known, experiments, found);
-  std::vector<FitParameter> all;
-  const std::vector<FitParameter> now = parameters_of(rig);
-  for (const FitParameter& parameter : parameters) {
-    if (parameter.owner == Owner::record) continue;
-    std::string fault;
-    const std::vector<FitParameter> same = named(now, parameter.name, fault);
-    all.push_back(parameter);
-    if (same.size() == 1) all.back().stated = same.front().stated;
-  }
-  const std::vector<FitParameter> shared = all;
+  const std::vector<FitParameter> shared = at_values_of(rig, parameters);
+  std::vector<FitParameter> all = shared;
   std::ranges::move(own_parameters(rig, experiments), std::back_inserter(all));
   Fit attainable = fit_rig(rig, all, experiments, quick);
   if (!attainable.outcome.ok()) {
