@@ -1,6 +1,7 @@
 #pragma once
 /// `fit`: laws and constants of a rig fitted to measured records.
 
+#include <utility>
 #include <vector>
 
 #include "scenarios/analyses/shared/fit_setup.hpp"
@@ -21,7 +22,7 @@ class FitQuestion final : public Question {
       : candidates_(std::move(candidates)),
         data_(std::move(data)),
         validation_(std::move(validation)),
-        options_(options),
+        options_(std::move(options)),
         excitation_(std::move(excitation)),
         excitations_(std::move(excitations)),
         warnings_(std::move(warnings)) {}
