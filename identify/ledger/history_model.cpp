@@ -430,7 +430,7 @@ std::variant<JointModel, std::string> history_model(const Record& record, const 
   JointModel model = histories->fitted({});
   const double scatter = histories->scatter();
   const auto freedom = static_cast<double>(sigma_x > 0.0 ? model.residuals.size() : 0);
-  const int contradicts = contradicts_stated(scatter, freedom);
+  const int contradicts = contradiction(scatter, freedom);
   if (contradicts > 0) {
     histories->forget_stated();
     model = histories->fitted({});
