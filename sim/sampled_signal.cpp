@@ -96,6 +96,26 @@ PolynomialPiece SampledSignal::piece(long n) const {
   return hermite_piece(width(i), values_[i], slopes_[i], values_[i + 1], slopes_[i + 1]);
 }
 
+Overshoot SampledSignal::largest_overshoot() const {
+  Overshoot largest;
+  if (interpolation_ != Interpolation::cubic) return largest;
+  const auto [least, most] = std::ranges::minmax(values_);
+  for (std::size_t i = 0; i < pieces(); ++i) {
+    const PolynomialPiece cubic = piece(static_cast<long>(i));
+    const auto& [y, slope, second, third] = cubic.derivatives;
+    // Where the slope is zero: the roots of a parabola, in the form in which no digits cancel.
+    const double root = std::sqrt(std::max(0.0, second * second - 2.0 * third * slope));
+    const double sum = -(second + std::copysign(root, second));
+    for (const double s : {2.0 * slope / sum, sum / third}) {
+      if (!(s > 0.0 && s < cubic.duration)) continue;
+      const double value = y + s * (slope + s * (second / 2.0 + s * third / 6.0));
+      const double size = std::max(value - most, least - value);
+      if (size > largest.size) largest = {times_[i] + s, size};
+    }
+  }
+  return largest;
+}
+
 SampledSignal SampledSignal::scaled(double factor) const {
   SampledSignal result = *this;
   for (std::vector<double>* column : {&result.values_, &result.slopes_}) {

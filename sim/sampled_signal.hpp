@@ -27,6 +27,12 @@ struct PolynomialPiece {
 [[nodiscard]] PolynomialPiece hermite_piece(double duration, double value, double slope, double end_value,
                                             double end_slope);
 
+/// A place between two nodes, and by how much the signal there lies above or below all nodes.
+struct Overshoot {
+  double t = 0.0;     ///< s
+  double size = 0.0;  ///< in the unit of the signal; 0: nowhere
+};
+
 enum class Interpolation { step, linear, cubic };
 
 class SampledSignal {
@@ -51,6 +57,10 @@ class SampledSignal {
   [[nodiscard]] double gap() const { return values_.front() - values_.back(); }
   /// Whether y itself jumps somewhere.
   [[nodiscard]] bool jumps() const { return interpolation_ == Interpolation::step || (repeats_ && gap() != 0.0); }
+
+  /// The largest one. A cubic spline swings far beyond its nodes where two of them are much closer to each other
+  /// than the others.
+  [[nodiscard]] Overshoot largest_overshoot() const;
 
   /// The same signal times a factor.
   [[nodiscard]] SampledSignal scaled(double factor) const;

@@ -25,7 +25,7 @@ ResultFields steady_state_fields() {
                  {"sticks[].duration", "s", "its duration"},
                  {"sticks[].position", "m", "its position"},
                  {"multipliers[][]", "1", "Floquet multipliers over one period, [re, im]"},
-                 {"stable", "", "all Floquet multipliers inside the unit circle"},
+                 {"stable", "", "no Floquet multiplier lies outside the unit circle"},
                  {"others[].peak", "m", "max x of another steady state, if one is known"},
                  {"others[].trough", "m", "its min x"},
                  {"others[].period_ratio", "1", "forcing periods in its period"}},

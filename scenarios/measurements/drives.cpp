@@ -132,6 +132,20 @@ void check_jumps(CheckedFile& file, const sim::SampledSignal& drive, bool is_bas
   }
 }
 
+/// Warns of a spline that leaves its samples: one doubled or jittered time is enough.
+void check_overshoot(CheckedFile& file, const sim::SampledSignal& drive, bool is_base) {
+  constexpr double large = 1.0;  // of the range of the samples
+  const sim::Overshoot overshoot = drive.largest_overshoot();
+  const auto [least, most] = std::ranges::minmax(drive.values());
+  if (!(overshoot.size > large * (most - least))) return;
+  const std::string unit = is_base ? "m" : "N";
+  file.warnings.push_back("the cubic drive leaves the range of its samples, " + with_unit(file, least, unit) +
+                          " to " + with_unit(file, most, unit) + ", by " + with_unit(file, overshoot.size, unit) +
+                          " at t = " + with_unit(file, overshoot.t, "s") +
+                          ": some samples are much closer to each other in time than others; with "
+                          "'interpolation: linear' the drive stays within its samples");
+}
+
 double pieces_within(const sim::SampledSignal& drive, double duration) {
   const auto count = static_cast<double>(drive.times().size() - 1);
   return drive.repeats() ? count * std::max(1.0, duration / drive.length()) : count;
@@ -198,6 +212,7 @@ void read_drive(CheckedFile& file) {
       std::make_shared<const sim::SampledSignal>(std::move(samples->times), std::move(samples->values),
                                                  interpolation_of(section), section.at("repeat").get<bool>());
   check_jumps(file, *file.drive, is_base);
+  check_overshoot(file, *file.drive, is_base);
 }
 
 void check_drive(CheckedFile& file, double duration) {

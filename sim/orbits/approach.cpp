@@ -95,6 +95,7 @@ std::optional<Orbit> Approach::find(SteadyState& result) {
 std::optional<Orbit> Approach::look(const ForcingPeriod& period, SteadyState& result) {
   std::optional<Orbit> orbit = closed(period.end);
   if (!orbit && has_arrived(period.end)) orbit = at_start(*candidate_);
+  if (orbit && !has_past_) orbit = solver_.with_shortest_period(*std::move(orbit));
   if (orbit) {
     const double radius = has_past_ || !period.moves ? 0.0 : orbit->period.radius();
     if (radius > 1.0 + neutral_margin) {

@@ -113,7 +113,8 @@ std::vector<Orbit> other_orbits(const Model& model, const Orbit& orbit, std::vec
     if (std::optional<Orbit> found = solver.near_motion_from(guess)) met.push_back(std::move(*found));
   }
   std::vector<Orbit> others;
-  for (Orbit& candidate : met) {
+  for (Orbit& found : met) {
+    Orbit candidate = solver.with_shortest_period(std::move(found));
     const auto is_it = [&](const Orbit& known) { return solver.coincide(known, candidate); };
     if (!is_it(orbit) && std::ranges::none_of(others, is_it)) others.push_back(std::move(candidate));
   }

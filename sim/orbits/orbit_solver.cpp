@@ -1,5 +1,7 @@
 #include "sim/orbits/orbit_solver.hpp"
 
+#include <utility>
+
 #include "sim/orbits/steady_state.hpp"
 
 namespace dualdamp::sim {
@@ -53,6 +55,16 @@ std::optional<Orbit> OrbitSolver::near(const State& state, int periods) {
     const ForcingPeriod shorter = map_over(divisor).from(orbit->period.begin, Monodromy::without);
     if (shorter.closure(options_.omega) > same_orbit) continue;
     if (std::optional<Orbit> shortest = attracting(orbit->period.begin, divisor)) return shortest;
+  }
+  return orbit;
+}
+
+Orbit OrbitSolver::with_shortest_period(Orbit orbit) {
+  const int periods = orbit.period_ratio;
+  for (int divisor = 1; divisor < periods; ++divisor) {
+    if (periods % divisor != 0) continue;
+    ForcingPeriod shorter = patient_map_over(divisor).from(orbit.period.begin, Monodromy::with);
+    if (shorter.closure(options_.omega) <= options_.rounding) return {std::move(shorter), divisor};
   }
   return orbit;
 }

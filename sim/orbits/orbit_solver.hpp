@@ -25,8 +25,12 @@ class OrbitSolver {
   /// `tolerance`, `rounding`: as in NewtonOptions.
   OrbitSolver(const Model& model, double tolerance, double rounding);
 
-  /// An orbit near the state that attracts, with its shortest period, which divides `periods`.
+  /// An orbit near the state that attracts. Its period is the shortest one that attracts by its own multipliers,
+  /// which divides `periods`.
   [[nodiscard]] std::optional<Orbit> near(const State& state, int periods);
+  /// The same orbit with its shortest period. Beside a continuum a period may hardly attract, so that Newton's
+  /// method finds the orbit only as one of several periods.
+  [[nodiscard]] Orbit with_shortest_period(Orbit orbit);
   /// An orbit of one forcing period on which the mass moves, near the state or near the motion from it some periods
   /// later: Newton's method from a distant state may end at a rest, or fail.
   [[nodiscard]] std::optional<Orbit> near_motion_from(State state);

@@ -28,8 +28,8 @@ using friction::Direction;
 
 namespace {
 
-/// Rounding of a Floquet multiplier on the unit circle.
-constexpr double on_circle = 1e-9;
+/// Error of a Floquet multiplier on the unit circle, under the smooth engine.
+constexpr double on_circle = 1e-7;
 
 /// Largest relative error of the only orbit with which it is accepted.
 constexpr double known = 1e-6;

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
@@ -9,6 +10,7 @@
 
 using namespace dualdamp;
 using sim::Interpolation;
+using sim::Overshoot;
 using sim::PolynomialPiece;
 using sim::SampledSignal;
 
@@ -82,6 +84,27 @@ TEST_CASE("a signal holds its last value, or repeats", "[samples]") {
   CHECK(steps.jumps());
   CHECK(repeated.scaled(-2.0).piece(1).derivatives[1] == -1.0);
   CHECK(repeated.scaled(-2.0).size() == 10.0);
+}
+
+TEST_CASE("the largest overshoot of a spline is found; other signals have none", "[samples]") {
+  const std::vector<double> t = {0.0, 1.0, 1.001, 2.0, 3.0};
+  const std::vector<double> y = {0.0, 0.1, -0.1, 0.05, 0.0};
+  const SampledSignal spline(t, y, Interpolation::cubic);
+  const Overshoot found = spline.largest_overshoot();
+  double largest = 0.0;
+  for (int i = 0; i < 4; ++i) {
+    const PolynomialPiece piece = spline.piece(i);
+    for (int j = 0; j <= 10000; ++j) {
+      const double value = derivative(piece, 0, 1e-4 * j * piece.duration);
+      largest = std::max({largest, value - 0.1, -0.1 - value});
+    }
+  }
+  CHECK(largest > 10.0);
+  CHECK(found.size == Approx(largest).epsilon(1e-6));
+  CHECK(found.t > 0.0);
+  CHECK(SampledSignal(t, y, Interpolation::linear).largest_overshoot().size == 0.0);
+  CHECK(SampledSignal({0.0, 1.0, 2.0, 3.0}, {0.0, 1.0, 2.0, 3.0}, Interpolation::cubic).largest_overshoot().size <
+        1e-12);
 }
 
 TEST_CASE("nodes that make no signal are refused", "[samples]") {

@@ -80,7 +80,7 @@ ResultFields curve_fields(const ResultFields& own) {
       {{"points[].x", "m", "output amplitude (peak - trough)/2"},
        {"points[].stops", "1", "stops in a period"},
        {"points[].sticks", "1", "sticks in a period"},
-       {"points[].stable", "", "all Floquet multipliers inside the unit circle"},
+       {"points[].stable", "", "no Floquet multiplier lies outside the unit circle"},
        {"points[].direction", "", "with 'continue': the direction in which the point was reached, up or down"},
        {"points[].reason", "", "for a point without numbers: the reason"}});
 }

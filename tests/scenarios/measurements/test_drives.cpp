@@ -165,6 +165,12 @@ TEST_CASE("drives: a table, a chirp", "[scenarios][drives]") {
   CHECK(table.warnings.empty());
   const Scenario chirp = directory.scenario(
       "{type: base_chirp, amplitude: 2 mm, from: 1 Hz, to: 8 Hz, duration: 3 s, spacing: log}", second);
+  const Scenario doubled = directory.scenario(
+      "{type: base_table, times: [0 s, 1 s, 1.000001 s, 2 s], values: [0 mm, 1 mm, -1 mm, 0 mm], interpolation: "
+      "cubic}",
+      second);
+  REQUIRE(doubled.warnings.size() == 1);
+  CHECK(doubled.warnings.front().find("leaves the range of its samples, -0.001 m to 0.001 m") != std::string::npos);
   CHECK(chirp.model.excitation.chirp.law == sim::ChirpLaw::exponential);
   CHECK(chirp.model.excitation.chirp.to == Approx(16.0 * std::acos(-1.0)).epsilon(1e-15));
   CHECK(chirp.model.excitation.amplitude == 2e-3);

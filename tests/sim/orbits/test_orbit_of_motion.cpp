@@ -6,6 +6,7 @@
 #include <cmath>
 #include <complex>
 #include <numbers>
+#include <utility>
 
 #include "friction_models/laws/attached_mass.hpp"
 #include "friction_models/laws/contact_compliance.hpp"
@@ -169,6 +170,31 @@ TEST_CASE("a motion of twelve forcing periods is a steady state of period twelve
   const auto largest = std::ranges::max_element(orbit, {}, &sim::Sample::x);
   CHECK(largest->x == Approx(state.peak).epsilon(1e-4));
   CHECK(state.transient_periods < 3000);
+}
+
+TEST_CASE("a motion of one forcing period beside a continuum is none of seventeen") {
+  // Bristles beside sliders: the mass creeps, and over one period the orbit hardly attracts. The number of periods
+  // had been 16 to 34 over two, from level to level of a smooth branch.
+  for (const double level : {1.70, 1.75}) {
+    CAPTURE(level);
+    sim::Model model;
+    model.oscillator = {.mass = 1.0, .stiffness = 100.0, .damping = 4.0};
+    model.excitation = {.type = sim::ExcitationType::force_harmonic, .amplitude = level, .frequency = 2.0};
+    model.initial = {.position = 0.1};
+    for (friction::Law& law : test::laws_of("lugre", {{"kinetic", 1.1},
+                                                      {"static", 2.2},
+                                                      {"stribeck_velocity", 0.03},
+                                                      {"sigma0", 4000.0},
+                                                      {"sigma1", 28.0}}))
+      model.friction.push_back(std::move(law));
+    model.friction.emplace_back(friction::Coulomb(0.5, 1.5));
+    for (friction::Law& law : test::laws_of("iwan", {{"limit", 2.0}, {"stiffness", 18000.0}, {"count", 3.0}}))
+      model.friction.push_back(std::move(law));
+    const sim::SteadyState state = sim::steady_state(model);
+    REQUIRE(state.outcome.ok());
+    CHECK(state.period_ratio == 1);
+    CHECK(state.stops_per_cycle == 2);
+  }
 }
 
 TEST_CASE("a linear oscillator with damping has exactly one steady state") {
