@@ -13,6 +13,7 @@
 #include "bench/speed/timing.hpp"
 #include "sim/batch/batch.hpp"
 #include "sim/curves/curves.hpp"
+#include "sim/orbits/batch_steady_states.hpp"
 #include "sim/orbits/steady_state.hpp"
 
 namespace dualdamp::bench::speed {

@@ -13,6 +13,7 @@
 #include "python/src/interruptible.hpp"
 #include "python/src/parts.hpp"
 #include "sim/batch/batch.hpp"
+#include "sim/orbits/batch_steady_states.hpp"
 #include "sim/parallel.hpp"
 
 namespace dualdamp::python {

@@ -26,7 +26,9 @@ FOLDERS = {
     "cli": ["core", "friction_models", "sim", "identify", "scenarios", "bench"],
     "python": ["core", "friction_models", "sim", "identify", "scenarios", "bench", "cli"],  # of cli/ the page of results
 }
-# What a room may include of its own folder, beside itself. "." is the folder's own top level.
+# What a room may include of its own folder, beside itself. "." is the folder's own top level. Each room stands below
+# the rooms that name it, so the includes of rooms go one way; only the top level, with its lists of laws, methods and
+# analyses, stands below and above them.
 ROOMS = {
     "core": {
         ".": [],
@@ -44,9 +46,8 @@ ROOMS = {
         "engine": [".", "steppers"],
         "analytic": ["."],
         "motion": [".", "engine"],
-        # A pack that cannot finish an orbit hands it to the search, and the search tries packs first.
-        "orbits": [".", "engine", "motion", "analytic", "batch"],
-        "batch": [".", "engine", "orbits"],
+        "batch": [".", "engine"],
+        "orbits": [".", "engine", "motion", "analytic", "batch"],  # a search tries packs first
         "curves": [".", "engine", "motion", "analytic", "batch", "orbits"],
         "conformance": [".", "engine", "steppers"],
     },
@@ -273,7 +274,19 @@ def type_faults(root):
                 first.setdefault(name, place)
 
 
+def order_faults(rooms_of=ROOMS):
+    """Rooms listed before one that they may include: then two of them could include each other."""
+    for folder, rooms in rooms_of.items():
+        listed = set()
+        for room, allowed in rooms.items():
+            listed.add(room)
+            for below in allowed:
+                if room != "." and below not in listed:
+                    yield f"scripts/checks/layering.py: {folder}/{room}/ may include {below}/, which must be listed before it"
+
+
 def faults(root):
+    yield from order_faults()
     public = public_headers(root)
     for folder in [*FOLDERS, "tests"]:
         for path in source_files(root, folder):

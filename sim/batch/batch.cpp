@@ -8,9 +8,10 @@
 #include <span>
 
 #include "friction_models/laws/coulomb.hpp"
+#include "sim/batch/chunk.hpp"
 #include "sim/batch/kernels.hpp"
 #include "sim/engine/exact_engine.hpp"
-#include "sim/orbits/steady_state.hpp"
+#include "sim/neutral_margin.hpp"
 #include "sim/parallel.hpp"
 #include "sim/validate.hpp"
 
@@ -18,11 +19,10 @@ namespace dualdamp::sim {
 
 namespace {
 
+using batch::chunk;
 using batch::Kernels;
 using core::Complex;
 
-/// Number of oscillators of one task. A multiple of every width, so only the last task is padded.
-constexpr std::size_t chunk = 512;
 static_assert(chunk % batch::widest == 0);
 static_assert(sliding_closure == batch::closure);
 
@@ -39,14 +39,6 @@ const std::vector<const Kernels*>& kernels_here() {
     return list;
   }();
   return kernels;
-}
-
-const Kernels& kernels_of(int width) {
-  const std::vector<const Kernels*>& list = kernels_here();
-  const auto fits = std::find_if(list.begin(), list.end(), [=](const Kernels* k) { return k->width == width; });
-  require(width == 0 || fits != list.end(), "this processor has no packs of that width",
-          "one of batch_widths(), or 0");
-  return fits == list.end() ? *list.back() : **fits;
 }
 
 batch::DriveOn drive_on(ExcitationType type, DamperTo damper_to) {
@@ -109,29 +101,6 @@ class Task {
   batch::DriveOn drive_;
 };
 
-Model model_of(const OscillatorBatch& batch, std::size_t i) {
-  Model model;
-  model.oscillator = {.mass = batch.mass[i],
-                      .stiffness = batch.stiffness[i],
-                      .damping = batch.damping[i],
-                      .damper_to = batch.damper_to};
-  model.excitation = {.type = batch.type, .amplitude = batch.amplitude[i], .frequency = batch.frequency[i]};
-  model.friction.emplace_back(friction::Coulomb(batch.kinetic[i], batch.static_level[i]));
-  return model;
-}
-
-void steady_state_by_engine(const OscillatorBatch& batch, std::size_t i, BatchSteadyStates& result) {
-  const SteadyState state = steady_state(model_of(batch, i));
-  result.engine[i] = 1;
-  result.outcome[i] = state.outcome.kind;
-  result.peak[i] = state.peak;
-  result.trough[i] = state.trough;
-  result.lag[i] = state.phase;
-  result.stops[i] = state.stops_per_cycle;
-  for (const std::complex<double>& value : state.multipliers)
-    result.radius[i] = std::max(result.radius[i], std::abs(value));
-}
-
 /// The output of the kernel: a column for each member of batch::Orbits.
 template <std::size_t length>
 class OrbitColumns {
@@ -162,35 +131,8 @@ class OrbitColumns {
   std::array<double, length> peak_, lag_, turned_re_, turned_im_, radius_, searches_, panels_, splits_, certified_;
 };
 
-/// The orbits of the oscillators from `first` on, at most one chunk.
-void find_orbits(const OscillatorBatch& batch, const Kernels& kernels, std::size_t first,
-                 std::span<std::optional<SlidingOrbit>> orbits) {
-  const Task task(batch, first, orbits.size());
-  OrbitColumns<chunk> columns;
-  kernels.find_orbits(task.oscillators(), columns.all());
-  for (std::size_t lane = 0; lane < orbits.size(); ++lane) orbits[lane] = columns.orbit(lane);
-}
-
-void steady_states_of(const OscillatorBatch& batch, const Kernels& kernels, std::size_t first, std::size_t count,
-                      BatchSteadyStates& result) {
-  std::array<std::optional<SlidingOrbit>, chunk> orbits;
-  find_orbits(batch, kernels, first, std::span(orbits).first(count));
-  for (std::size_t lane = 0; lane < count; ++lane) {
-    const std::size_t i = first + lane;
-    if (!orbits[lane]) {
-      steady_state_by_engine(batch, i, result);
-      continue;
-    }
-    const SlidingOrbit& orbit = *orbits[lane];
-    result.peak[i] = orbit.peak;
-    result.trough[i] = -orbit.peak;
-    result.lag[i] = orbit.lag;
-    result.radius[i] = orbit.radius;
-  }
-}
-
 void pass_periods_by_engine(const OscillatorBatch& batch, int periods, std::size_t i, BatchMotions& motions) {
-  ExactEngine engine(model_of(batch, i));
+  ExactEngine engine(batch::model_of(batch, i));
   engine.start(motions.position[i], motions.velocity[i]);
   double turning = 0.0;
   while (engine.periods_passed() < periods) {
@@ -242,23 +184,6 @@ struct CoulombLimits {
   }
 };
 
-void check(const OscillatorBatch& batch) {
-  require(batch.type == ExcitationType::base_harmonic || batch.type == ExcitationType::force_harmonic,
-          "a batch works with a harmonic excitation only", "base_harmonic, force_harmonic");
-  for (const std::vector<double>* column :
-       {&batch.damping, &batch.stiffness, &batch.kinetic, &batch.static_level, &batch.amplitude, &batch.frequency})
-    require(column->size() == batch.size(), "the columns of a batch differ in length", "one value for each mass");
-  require_in(friction::positive, "system.mass", batch.mass, "kg");
-  require_in(friction::positive, "system.stiffness", batch.stiffness, "N/m");
-  require_in({}, "system.damping", batch.damping, "N.s/m");
-  require_in(friction::not_negative, "system.friction.kinetic", batch.kinetic, "N");
-  for (std::size_t i = 0; i < batch.size(); ++i)
-    require_in({.low = batch.kinetic[i]}, "system.friction.static", batch.static_level[i], "N");
-  require_in(friction::not_negative, "excitation.amplitude", batch.amplitude,
-             batch.type == ExcitationType::base_harmonic ? "m" : "N");
-  require_in(friction::positive, "excitation.frequency", batch.frequency, "rad/s");
-}
-
 /// Whether the form does not depend on the motion.
 bool is_constant(const friction::Affine& form) {
   return form.rate == 0.0 && form.position == 0.0 && form.velocity == 0.0 && form.transient == 0.0;
@@ -293,6 +218,54 @@ std::optional<CoulombLimits> coulomb_limits(const Model& model) {
 }
 
 }  // namespace
+
+namespace batch {
+
+const Kernels& kernels_of(int width) {
+  const std::vector<const Kernels*>& list = kernels_here();
+  const auto fits = std::find_if(list.begin(), list.end(), [=](const Kernels* k) { return k->width == width; });
+  require(width == 0 || fits != list.end(), "this processor has no packs of that width",
+          "one of batch_widths(), or 0");
+  return fits == list.end() ? *list.back() : **fits;
+}
+
+void require_valid(const OscillatorBatch& batch) {
+  require(batch.type == ExcitationType::base_harmonic || batch.type == ExcitationType::force_harmonic,
+          "a batch works with a harmonic excitation only", "base_harmonic, force_harmonic");
+  for (const std::vector<double>* column :
+       {&batch.damping, &batch.stiffness, &batch.kinetic, &batch.static_level, &batch.amplitude, &batch.frequency})
+    require(column->size() == batch.size(), "the columns of a batch differ in length", "one value for each mass");
+  require_in(friction::positive, "system.mass", batch.mass, "kg");
+  require_in(friction::positive, "system.stiffness", batch.stiffness, "N/m");
+  require_in({}, "system.damping", batch.damping, "N.s/m");
+  require_in(friction::not_negative, "system.friction.kinetic", batch.kinetic, "N");
+  for (std::size_t i = 0; i < batch.size(); ++i)
+    require_in({.low = batch.kinetic[i]}, "system.friction.static", batch.static_level[i], "N");
+  require_in(friction::not_negative, "excitation.amplitude", batch.amplitude,
+             batch.type == ExcitationType::base_harmonic ? "m" : "N");
+  require_in(friction::positive, "excitation.frequency", batch.frequency, "rad/s");
+}
+
+Model model_of(const OscillatorBatch& batch, std::size_t i) {
+  Model model;
+  model.oscillator = {.mass = batch.mass[i],
+                      .stiffness = batch.stiffness[i],
+                      .damping = batch.damping[i],
+                      .damper_to = batch.damper_to};
+  model.excitation = {.type = batch.type, .amplitude = batch.amplitude[i], .frequency = batch.frequency[i]};
+  model.friction.emplace_back(friction::Coulomb(batch.kinetic[i], batch.static_level[i]));
+  return model;
+}
+
+void find_orbits(const OscillatorBatch& batch, const Kernels& kernels, std::size_t first,
+                 std::span<std::optional<SlidingOrbit>> orbits) {
+  const Task task(batch, first, orbits.size());
+  OrbitColumns<chunk> columns;
+  kernels.find_orbits(task.oscillators(), columns.all());
+  for (std::size_t lane = 0; lane < orbits.size(); ++lane) orbits[lane] = columns.orbit(lane);
+}
+
+}  // namespace batch
 
 std::optional<OscillatorBatch> batch_of(const Model& model, std::size_t size) {
   const std::optional<CoulombLimits> levels = coulomb_limits(model);
@@ -354,11 +327,12 @@ std::vector<int> batch_widths() {
 }
 
 std::vector<std::optional<SlidingOrbit>> sliding_orbits(const OscillatorBatch& batch, int width) {
-  check(batch);
+  batch::require_valid(batch);
   std::vector<std::optional<SlidingOrbit>> orbits(batch.size());
-  const Kernels& kernels = kernels_of(width);
+  const Kernels& kernels = batch::kernels_of(width);
   for (std::size_t first = 0; first < orbits.size(); first += chunk)
-    find_orbits(batch, kernels, first, std::span(orbits).subspan(first, std::min(chunk, orbits.size() - first)));
+    batch::find_orbits(batch, kernels, first,
+                       std::span(orbits).subspan(first, std::min(chunk, orbits.size() - first)));
   return orbits;
 }
 
@@ -380,22 +354,8 @@ std::optional<SlidingOrbit> sliding_orbit(const Model& model) {
   return column.orbit(0);
 }
 
-BatchSteadyStates steady_states(const OscillatorBatch& batch, const BatchOptions& options) {
-  check(batch);
-  BatchSteadyStates result;
-  result.outcome.resize(batch.size(), core::OutcomeKind::done);
-  for (std::vector<double>* column : {&result.peak, &result.trough, &result.lag, &result.radius})
-    column->resize(batch.size(), 0.0);
-  result.stops.resize(batch.size(), 0);
-  result.engine.resize(batch.size(), 0);
-  const Kernels& kernels = kernels_of(options.width);
-  in_parts(batch.size(), chunk, options.threads,
-           [&](std::size_t first, std::size_t count) { steady_states_of(batch, kernels, first, count, result); });
-  return result;
-}
-
 void pass_periods(const OscillatorBatch& batch, int periods, BatchMotions& motions, const BatchOptions& options) {
-  check(batch);
+  batch::require_valid(batch);
   require(motions.position.size() == batch.size() && motions.velocity.size() == batch.size(),
           "a motion of a batch needs a position and a velocity for each oscillator",
           std::to_string(batch.size()) + " of each");
@@ -404,7 +364,7 @@ void pass_periods(const OscillatorBatch& batch, int periods, BatchMotions& motio
   motions.amplitude.assign(batch.size(), 0.0);
   motions.reversals.assign(batch.size(), 0);
   motions.engine.assign(batch.size(), 0);
-  const Kernels& kernels = kernels_of(options.width);
+  const Kernels& kernels = batch::kernels_of(options.width);
   in_parts(batch.size(), chunk, options.threads, [&](std::size_t first, std::size_t count) {
     pass_periods_of_some(batch, kernels, periods, first, count, motions);
   });

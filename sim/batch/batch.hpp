@@ -8,7 +8,8 @@
 /// A pack has 8, 4, 2 or 1 oscillators, as many as the processor allows. Packs compute the motion in closed form
 /// from reversal to reversal, with the certificate of `core/crossing/first_crossing.hpp`. The exact engine computes
 /// what packs cannot certify (sticking, grazing, a static limit met within 1e-9, critical damping, undamped
-/// resonance), one oscillator at a time, in the same call.
+/// resonance), one oscillator at a time, in the same call. Steady states of a batch of either kind:
+/// `sim/orbits/batch_steady_states.hpp`.
 ///
 /// Results are the same to the last bit for every width and number of threads: each lane depends only on its own
 /// numbers, and exp, sin, cos and atan2 are SLEEF's reproducible variants (shibata2020). They agree with the exact
@@ -23,7 +24,6 @@
 #include <vector>
 
 #include "core/crossing/search_result.hpp"
-#include "core/outcome.hpp"
 #include "sim/engine/state.hpp"
 #include "sim/excitation.hpp"
 #include "sim/model.hpp"
@@ -80,20 +80,6 @@ inline constexpr double sliding_closure = 1e-14;
 
 /// The state of the orbit of this model at t = 0; nothing if its velocity is zero there.
 [[nodiscard]] std::optional<State> start_of(const SlidingOrbit& orbit, const Model& model);
-
-/// Steady states, one entry for each oscillator; if its outcome is not `done`, its numbers mean nothing.
-struct BatchSteadyStates {
-  std::vector<core::OutcomeKind> outcome;
-  std::vector<double> peak;           ///< max x [m]
-  std::vector<double> trough;         ///< min x [m]
-  std::vector<double> lag;            ///< of x's fundamental behind the drive [rad], in [0, 2 pi)
-  std::vector<double> radius;         ///< largest modulus of a Floquet multiplier of the full period
-  std::vector<int> stops;             ///< stops in a period
-  std::vector<unsigned char> engine;  ///< 1: found by the exact engine, 0: in a pack
-};
-
-/// The steady states approached from rest at x = 0 (`sim/orbits/steady_state.hpp`). Packs find those that slide.
-[[nodiscard]] BatchSteadyStates steady_states(const OscillatorBatch& batch, const BatchOptions& options = {});
 
 /// States of motions: the caller fills in the start, pass_periods() replaces it by the end.
 struct BatchMotions {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/numbers.hpp"
+#include "sim/neutral_margin.hpp"
 #include "sim/orbits/orbit_account.hpp"
 
 namespace dualdamp::sim {

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "sim/neutral_margin.hpp"
 #include "sim/orbits/steady_state.hpp"
 
 namespace dualdamp::sim {

@@ -11,6 +11,7 @@
 #include "sim/engine/drive.hpp"
 #include "sim/engine/engine.hpp"
 #include "sim/motion/observers.hpp"
+#include "sim/neutral_margin.hpp"
 #include "sim/orbits/approach.hpp"
 #include "sim/orbits/coexistence.hpp"
 #include "sim/orbits/growth.hpp"

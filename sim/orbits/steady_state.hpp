@@ -63,11 +63,6 @@ struct SteadyState {
   [[nodiscard]] bool stable() const;
 };
 
-/// An orbit with a Floquet multiplier this close to the unit circle attracts too slowly for any test in a
-/// laboratory. Such orbits also appear at the end of a continuum, a double root that Newton's method finds to half
-/// the digits.
-inline constexpr double neutral_margin = 1e-6;
-
 struct SteadyStateOptions {
   double tolerance = 1e-14;  ///< closure of the orbit relative to its size
   int max_periods = 20'000;  ///< of transient integrated before giving up

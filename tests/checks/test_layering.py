@@ -1,9 +1,13 @@
 #!/usr/bin/env python3
 """The layering check passes a sound tree and names each planted fault."""
 
+import sys
 import unittest
 
-from planted import Planted
+from planted import CHECKS, Planted
+
+sys.path.insert(0, str(CHECKS))
+import layering
 
 SOUND = {
     "core/units.hpp": "#pragma once\n#include <Eigen/Core>\n#include <string>\n",
@@ -12,6 +16,7 @@ SOUND = {
     "sim/smooth.hpp": '#pragma once\n#include "friction_models/laws/coulomb.hpp"\n',
     "sim/smooth.cpp": '#include "sim/smooth.hpp"\n#include <boost/numeric/odeint/stepper/runge_kutta_dopri5.hpp>\n',
     "sim/engine/state.hpp": '#pragma once\n#include "sim/smooth.hpp"\n',
+    "sim/orbits/search.hpp": "#pragma once\n",
     "identify/fit.cpp": '#include <ceres/ceres.h>\n#include "sim/smooth.hpp"\n',
     "identify/readers/isolated.cpp": "#include <poll.h>\n#include <unistd.h>\n",
     "scenarios/reader.cpp": "#include <yaml-cpp/yaml.h>\n#include <nlohmann/json.hpp>\n",
@@ -45,6 +50,7 @@ FAULTS = {
     "Ceres outside identify": ("sim/bad.cpp", "#include <ceres/ceres.h>\n", ["Ceres may appear only in identify/"]),
     "json below scenarios": ("sim/bad.cpp", "#include <nlohmann/json.hpp>\n", ["nlohmann-json may appear only in"]),
     "a room from below": ("sim/smooth.cpp", '#include "sim/engine/state.hpp"\n', ["sim/ may include of sim/ only itself"]),
+    "packs that search": ("sim/batch/x.cpp", '#include "sim/orbits/search.hpp"\n', ["sim/batch/ may include of sim/ only ., engine"]),
     "a room that is not listed": ("sim/attic/x.cpp", '#include "sim/smooth.hpp"\n', ["sim/attic/ is no room listed"]),
     "a sibling room of bench": ("bench/crosscheck/x.cpp", '#include "bench/speed/main.cpp"\n',
                                 ["bench/crosscheck/ may include of bench/ only itself"]),
@@ -70,6 +76,12 @@ class Layering(Planted, unittest.TestCase):
     check = "layering"
     sound = SOUND
     faults = FAULTS
+
+    def test_rooms_that_include_each_other_are_named(self):
+        self.assertEqual(list(layering.order_faults()), [])
+        both = {"sim": {".": ["orbits"], "batch": [".", "orbits"], "orbits": [".", "batch"]}}
+        (fault,) = layering.order_faults(both)
+        self.assertIn("sim/batch/ may include orbits/", fault)
 
 
 if __name__ == "__main__":

@@ -16,6 +16,7 @@
 #include "sim/engine/engine.hpp"
 #include "sim/engine/exact_engine.hpp"
 #include "sim/motion/simulate.hpp"
+#include "sim/orbits/batch_steady_states.hpp"
 #include "sim/orbits/steady_state.hpp"
 #include "sim/parallel.hpp"
 

@@ -14,6 +14,7 @@
 #include "sim/analytic/den_hartog.hpp"
 #include "sim/batch/batch.hpp"
 #include "sim/engine/exact_engine.hpp"
+#include "sim/orbits/batch_steady_states.hpp"
 #include "sim/orbits/steady_state.hpp"
 #include "tests/support/random.hpp"
 
