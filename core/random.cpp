@@ -4,7 +4,8 @@
 
 #include <array>
 #include <cmath>
-#include <numbers>
+
+#include "core/constants.hpp"
 
 namespace dualdamp::core {
 
@@ -29,7 +30,7 @@ double RandomStream::uniform(std::uint64_t n) const { return pair(*this, n)[0]; 
 
 double RandomStream::normal(std::uint64_t n) const {
   const auto [first, second] = pair(*this, n);
-  return std::sqrt(-2.0 * std::log1p(-first)) * std::cos(2.0 * std::numbers::pi * second);
+  return std::sqrt(-2.0 * std::log1p(-first)) * std::cos(two_pi * second);
 }
 
 }  // namespace dualdamp::core

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/constants.hpp"
 #include "core/dimensions.hpp"
 #include "core/numbers.hpp"
 #include "core/unit_conversion.hpp"
@@ -32,8 +33,8 @@ std::optional<Factor> angle_factor(std::string_view unit) {
 
 std::optional<Factor> frequency_factor(std::string_view unit) {
   if (unit == "rad/s") return Factor{};
-  if (unit == "Hz") return Factor{2.0 * pi, 1.0};
-  if (unit == "mHz") return Factor{2.0 * pi, 1000.0};
+  if (unit == "Hz") return Factor{two_pi, 1.0};
+  if (unit == "mHz") return Factor{two_pi, 1000.0};
   if (unit == "kHz") return Factor{2000.0 * pi, 1.0};
   if (unit == "rpm") return Factor{pi, 30.0};
   return std::nullopt;

@@ -15,7 +15,6 @@
 
 #include <array>
 #include <map>
-#include <numbers>
 #include <span>
 #include <string>
 #include <string_view>
@@ -25,6 +24,7 @@
 #include <variant>
 #include <vector>
 
+#include "core/constants.hpp"
 #include "core/diagnostics.hpp"
 #include "friction_models/parameters.hpp"
 
@@ -127,7 +127,7 @@ inline constexpr Option cutoffs_option{
     .unit = "rad/s",
     .range = friction::positive,
     .most_items = 16,
-    .per_unit = 2.0 * std::numbers::pi,
+    .per_unit = core::two_pi,
     .otherwise = "from the sample rate and the motion",
     .meaning =
         "cut-off frequencies of the filter that histories are differentiated with; the estimate uses the first; "

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 #include <memory>
-#include <numbers>
 #include <utility>
 
 #include "core/constants.hpp"
@@ -147,7 +146,7 @@ void warn_of_short(const Request& request, Fit& result) {
     const bool is_driven = drive.is_harmonic() && drive.frequency > 0.0;
     const double omega = is_driven ? drive.frequency : std::sqrt(o.stiffness / o.mass);
     const std::vector<double>& at = experiment->signals.front().at;
-    const double period = 2.0 * std::numbers::pi / omega;
+    const double period = core::two_pi / omega;
     if (!std::isfinite(period) || !(at.back() - at.front() < period)) continue;
     result.warnings.push_back(experiment->label + ": the record lasts " +
                               core::format_number(at.back() - at.front(), 3) + " s, less than one period of " +

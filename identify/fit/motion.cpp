@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
+#include "core/constants.hpp"
 #include "core/numbers.hpp"
 #include "identify/fit/drive_values.hpp"
 #include "identify/fit/experiment.hpp"
@@ -47,7 +47,7 @@ std::vector<double> integral_of(const std::vector<double>& of_rate, double rate)
 
 /// Swings of a signal about its mean.
 double swings_of(const std::vector<double>& signal) {
-  constexpr double of_crossing = 1.0 / (2.0 * std::numbers::pi);
+  constexpr double of_crossing = 1.0 / core::two_pi;
   return of_crossing * crossing_frequency(signal, 1.0);
 }
 
@@ -199,7 +199,7 @@ class MeasuredMotion final : public Experiment {
 
   [[nodiscard]] std::unique_ptr<Experiment> thinned() const override {
     constexpr double of_swing = 60.0;
-    const double apart = 2.0 * std::numbers::pi * rate_ / (crossing_frequency(signals.front()) * of_swing);
+    const double apart = core::two_pi * rate_ / (crossing_frequency(signals.front()) * of_swing);
     const std::size_t stride = std::min(static_cast<std::size_t>(apart), samples_ / least_samples);
     if (stride < 2) return nullptr;
     auto thin = std::make_unique<MeasuredMotion>(*this);

@@ -2,6 +2,7 @@
 #include <numbers>
 #include <utility>
 
+#include "core/constants.hpp"
 #include "friction_models/law_fault.hpp"
 #include "identify/fit/experiment.hpp"
 #include "sim/orbits/steady_state_near.hpp"
@@ -120,7 +121,7 @@ class SteadyStates final : public Experiment {
       const double measured = signals[1].measured[phases];
       const double lag = state.amplitude > 0.0 ? state.phase : lag_at_rest(model, levels_[i]);
       outputs[static_cast<Eigen::Index>(levels_.size() + phases)] =
-          measured + std::remainder(lag - measured, 2.0 * std::numbers::pi);
+          measured + std::remainder(lag - measured, core::two_pi);
       ++phases;
     }
     return true;

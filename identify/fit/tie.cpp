@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <numbers>
 #include <utility>
 
+#include "core/constants.hpp"
 #include "identify/fit/drive_values.hpp"
 #include "identify/records/signals.hpp"
 #include "identify/statistics/decompositions.hpp"
@@ -47,7 +47,7 @@ Tie::Tie(const MeasuredSamples& samples, double frequency, double strength)
   const std::vector<double> velocity = begins_with_v_ ? running_integral(samples.a, samples.rate) : samples.v;
   const std::size_t count = std::max({samples.x.size(), velocity.size()});
   constexpr double nodes_of_swing = 24.0;
-  const double apart = 2.0 * std::numbers::pi * samples.rate / (frequency * nodes_of_swing);
+  const double apart = core::two_pi * samples.rate / (frequency * nodes_of_swing);
   const std::size_t stride =
       std::clamp<std::size_t>(static_cast<std::size_t>(apart), 1, std::max<std::size_t>(1, count / 4));
   const std::size_t reach = std::max<std::size_t>(2, stride);

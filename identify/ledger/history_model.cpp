@@ -4,11 +4,11 @@
 #include <cmath>
 #include <map>
 #include <memory>
-#include <numbers>
 #include <numeric>
 #include <optional>
 #include <vector>
 
+#include "core/constants.hpp"
 #include "identify/ledger/freed_constants.hpp"
 #include "identify/ledger/history_rows.hpp"
 #include "identify/ledger/history_ways.hpp"
@@ -289,7 +289,7 @@ class Histories {
     if (shake) rows.append(noisier);
     const History& history = *test.history;
     const double rate = history.sample_rate;
-    const auto width = std::max<Eigen::Index>(1, std::lround(rate * 2.0 * std::numbers::pi / natural_ / 24.0));
+    const auto width = std::max<Eigen::Index>(1, std::lround(rate * core::two_pi / natural_ / 24.0));
     if (!history.a.empty()) leave_out_reversals(motion.v, rows.a);
     make_innovations(motion.derivatives.steps, noise_[t], force, rows);
     // The same rows in every step of a fit.

@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "core/constants.hpp"
 #include "core/numbers.hpp"
 #include "identify/records/phase_checks.hpp"
 #include "identify/records/sensor_agreement.hpp"
@@ -122,7 +123,7 @@ class Check {
     return history.force;
   }
 
-  static std::string in_hertz(double omega) { return shown(omega / (2.0 * std::numbers::pi)) + " Hz"; }
+  static std::string in_hertz(double omega) { return shown(omega / core::two_pi) + " Hz"; }
 
   /// Refuses a frequency that is off by the factor of a unit of time. `always`: by any gross factor. Otherwise
   /// other factors are allowed, because a beat or noise may change the measured frequency of a motion.
@@ -179,9 +180,8 @@ class Check {
     const std::string unit = constants_.unit("m");
     const std::string usual = is_angle ? "deg" : "mm";
     refuse("no unit is stated for " + std::string(name) + "; in " + (is_angle ? "radians" : "metres") +
-               " it would reach " + shown(amplitude) + " " + unit + " at " +
-               shown(omega / (2.0 * std::numbers::pi)) + " Hz, " + shown(speed) + " " + unit + "/s and " +
-               shown(omega * speed) + " " + unit + "/s^2",
+               " it would reach " + shown(amplitude) + " " + unit + " at " + shown(omega / core::two_pi) + " Hz, " +
+               shown(speed) + " " + unit + "/s and " + shown(omega * speed) + " " + unit + "/s^2",
            "the unit in the file, '" + std::string(name) + " [" + usual + "]', or " + in_unit(name, usual));
   }
 
@@ -208,8 +208,8 @@ class Check {
       for (std::size_t k = i + 1; k < motions.size(); ++k) {
         const double ratio = motions[k].second / motions[i].second;
         if (!is_gross(ratio)) continue;
-        refuse(std::string("at ") + shown(omega / (2.0 * std::numbers::pi)) + " Hz column " + motions[k].first +
-                   " is " + times_off(ratio) + " for column " + motions[i].first,
+        refuse(std::string("at ") + shown(omega / core::two_pi) + " Hz column " + motions[k].first + " is " +
+                   times_off(ratio) + " for column " + motions[i].first,
                "both in their units: " + in_units(motions[k].first, motions[i].first));
         return;
       }
@@ -288,8 +288,8 @@ class Check {
     const std::string where = " at " + in_hertz(omega) + ", where the natural frequency is " +
                               in_hertz(constants_.natural_frequency()) +
                               ": spring and inertia of the motion x need more force than the base gives, k Y";
-    constexpr double turn = 2.0 * std::numbers::pi;
-    for (const auto& [factor, unit] : {std::pair{turn, "Hz, not rad/s"}, {1.0 / turn, "rad/s, not Hz"}}) {
+    for (const auto& [factor, unit] :
+         {std::pair{core::two_pi, "Hz, not rad/s"}, {1.0 / core::two_pi, "rad/s, not Hz"}}) {
       std::vector<Pair> turned = pairs;
       for (Pair& pair : turned) pair.omega = factor * frequency_of(pair, constants_);
       if (balance_of(turned, constants_).too_much > 0) continue;
@@ -386,7 +386,7 @@ std::vector<std::string> odd_readings(const Record& record, const KnownConstants
   for (const History& history : record.histories)
     if (!history.x.empty())
       largest = std::max(largest, 0.5 * (std::ranges::max(history.x) - std::ranges::min(history.x)));
-  constexpr double two_turns = 4.0 * std::numbers::pi;
+  constexpr double two_turns = 2.0 * core::two_pi;
   if (constants.coordinate == core::Coordinate::angle && largest > two_turns)
     return {"x swings by " + shown(largest) + " rad to each side, " + shown(0.5 * largest / std::numbers::pi) +
             " turns: if these are degrees, forces are 57 times too large"};

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <string_view>
 
+#include "core/constants.hpp"
 #include "core/diagnostics.hpp"
 #include "core/numbers.hpp"
 #include "identify/statistics/statistics.hpp"
@@ -37,7 +38,7 @@ double mean_frequency(const History& history) {
   for (std::size_t i = 0; i < history.x.size(); i += step) thinned.push_back(history.x[i]);
   const double rate = history.sample_rate / static_cast<double>(step);
   const double motion = mean_square(thinned);
-  return motion > 0.0 ? std::sqrt(mean_square(central_difference(thinned, rate)) / motion) / (2.0 * pi) : 0.0;
+  return motion > 0.0 ? std::sqrt(mean_square(central_difference(thinned, rate)) / motion) / core::two_pi : 0.0;
 }
 
 }  // namespace

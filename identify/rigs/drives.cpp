@@ -2,6 +2,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/constants.hpp"
 #include "identify/rigs/groups.hpp"
 
 namespace dualdamp::identify::rigs {
@@ -14,7 +15,7 @@ std::array<double, 8> clipped_cosine(double a) {
   constexpr int points = 256;
   std::array<double, 8> coefficients{};
   for (int i = 0; i < points; ++i) {
-    const double angle = 2.0 * std::numbers::pi * i / points;
+    const double angle = core::two_pi * i / points;
     const double y = std::tanh(a * std::cos(angle)) / std::tanh(a);
     for (std::size_t j = 0; j < coefficients.size(); ++j)
       coefficients[j] += 2.0 / points * y * std::cos(static_cast<double>(2 * j + 1) * angle);

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <iterator>
-#include <numbers>
 #include <stdexcept>
 #include <string>
 
+#include "core/constants.hpp"
 #include "identify/rigs/groups.hpp"
 
 namespace dualdamp::identify::rigs {
@@ -72,7 +72,7 @@ const Rig* find_mechanism(std::string_view name) { return find(mechanisms(), nam
 sim::Model undisturbed(const Truth& truth) { return with_coulomb({.model = truth.model, .F0 = truth.F0}); }
 
 sim::Model departed(const Rig& departure, const Truth& truth, const ReferenceMotion& reference, double s) {
-  const double period = 2.0 * std::numbers::pi / reference.frequency;
+  const double period = core::two_pi / reference.frequency;
   const RigBase base{.model = truth.model,
                      .F0 = truth.F0,
                      .reference = reference,

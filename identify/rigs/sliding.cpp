@@ -1,5 +1,6 @@
 #include <numbers>
 
+#include "core/constants.hpp"
 #include "identify/rigs/groups.hpp"
 
 namespace dualdamp::identify::rigs {
@@ -223,7 +224,7 @@ std::vector<Rig> by_warmth() {
        .largest = 10.0,
        .values_at =
            [](const RigBase& base, double s) {
-             const double period = 2.0 * std::numbers::pi / base.reference.frequency;
+             const double period = core::two_pi / base.reference.frequency;
              return std::vector{4.0 * base.F0 * base.reference.amplitude / period / s};
            },
        .has_F0 = false},

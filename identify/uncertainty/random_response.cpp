@@ -5,6 +5,7 @@
 #include <numbers>
 #include <utility>
 
+#include "core/constants.hpp"
 #include "core/random.hpp"
 #include "identify/models/sampled_oscillator.hpp"
 #include "identify/records/sensors.hpp"
@@ -20,7 +21,7 @@ constexpr std::uint32_t stretch_stream = 100;  // beside those of the sensors
 constexpr std::uint32_t kick_stream = 101;
 
 double samples_of(const RandomResponse& response, double periods) {
-  return periods * 2.0 * std::numbers::pi / response.law.natural_frequency() * response.measured.sample_rate;
+  return periods * core::two_pi / response.law.natural_frequency() * response.measured.sample_rate;
 }
 
 std::size_t length_of(const RandomResponse& response) {

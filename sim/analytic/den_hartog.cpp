@@ -222,8 +222,8 @@ std::vector<double> half_cycle_grid(const DenHartog& d) {
 }
 
 double positive_angle(double angle) {
-  const double reduced = std::fmod(angle, 2.0 * pi);
-  return reduced < 0.0 ? reduced + 2.0 * pi : reduced;
+  const double reduced = std::fmod(angle, core::two_pi);
+  return reduced < 0.0 ? reduced + core::two_pi : reduced;
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <span>
 
+#include "core/constants.hpp"
 #include "friction_models/laws/coulomb.hpp"
 #include "sim/batch/chunk.hpp"
 #include "sim/batch/kernels.hpp"
@@ -287,10 +288,9 @@ std::optional<State> start_of(const SlidingOrbit& orbit, const Model& model) {
   const Oscillator& o = model.oscillator;
   const Excitation& drive = model.excitation;
   const double omega = drive.frequency;
-  const double turn = 2.0 * std::numbers::pi;
   const double angle = drive.phase - std::arg(orbit.drive_at_peak);
   // The half period after the trough is the mirror image of the half period after the peak.
-  const double after_peak = angle - turn * std::floor(angle / turn);
+  const double after_peak = angle - core::two_pi * std::floor(angle / core::two_pi);
   const double mirror = after_peak < std::numbers::pi ? 1.0 : -1.0;
   const double s = (after_peak - (mirror > 0.0 ? 0.0 : std::numbers::pi)) / omega;
 

@@ -13,6 +13,7 @@
 /// that never falls with speed (static = kinetic) two motions never move apart, so an orbit that attracts is the
 /// only one.
 
+#include "core/constants.hpp"
 #include "sim/batch/reversal_search.hpp"
 
 namespace dualdamp::sim::batch {
@@ -116,7 +117,7 @@ void OrbitCandidate<P>::apply_map(const Oscillation<P>& o) {
   const Vector pull = (o.drive * turned).re - peak;
   alive = alive & (peak > 0.0) & (-pull > o.hold + clearly * (peak + o.hold));
   const Interval<P> interval(o, peak, splat<P>(0.0), splat<P>(-1.0), turned);
-  const ReversalSearch<P> search(o, interval, 2.0 * pi / o.r, alive, alive);
+  const ReversalSearch<P> search(o, interval, core::two_pi / o.r, alive, alive);
   searches = searches + flag<P>(alive);
   panels = panels + search.panels();
   splits = splits + search.halvings();
@@ -169,7 +170,7 @@ typename P::Vector fundamental_lag(const Oscillation<P>& o, const OrbitCandidate
   force.im = force.im - (4.0 / pi) * o.slip;
   const Complex lag = orbit.turned * (Complex{1.0 - o.r * o.r, 2.0 * o.zeta * o.r} / force);
   const typename P::Vector angle = P::atan2(lag.im, lag.re);
-  return P::choose(angle < 0.0, angle + 2.0 * pi, angle);
+  return P::choose(angle < 0.0, angle + core::two_pi, angle);
 }
 
 template <Pack P>

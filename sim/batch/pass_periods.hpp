@@ -1,6 +1,7 @@
 #pragma once
 /// Motions from a given state, reversal by reversal, over whole forcing periods.
 
+#include "core/constants.hpp"
 #include "sim/batch/find_orbits.hpp"
 
 namespace dualdamp::sim::batch {
@@ -44,7 +45,7 @@ struct Traveller {
 template <Pack P>
 void Traveller<P>::pass_interval(const Oscillation<P>& o) {
   const Interval<P> interval(o, x, v, side, angle, turned);
-  const Vector remaining = (left * (2.0 * pi) - angle) / o.r;
+  const Vector remaining = (left * core::two_pi - angle) / o.r;
   const ReversalSearch<P> search(o, interval, remaining, running, running & (v == 0.0));
 
   const Mask reverses = search.found() & (search.time() < remaining);
@@ -68,8 +69,8 @@ void Traveller<P>::pass_interval(const Oscillation<P>& o) {
   side = -side;
   turned = search.turn();
   update<P>(angle, moves, angle + o.r * search.time());
-  const Mask wraps = angle >= 2.0 * pi;
-  update<P>(angle, wraps, angle - 2.0 * pi);
+  const Mask wraps = angle >= core::two_pi;
+  update<P>(angle, wraps, angle - core::two_pi);
   update<P>(left, wraps, left - 1.0);
 }
 

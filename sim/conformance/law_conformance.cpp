@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
 
+#include "core/constants.hpp"
 #include "core/random.hpp"
 #include "friction_models/registry.hpp"
 #include "friction_models/state_sizes.hpp"
@@ -278,8 +278,8 @@ struct Stroke {
   double duration = 1.0;
 
   Instant operator()(double t) const {
-    const double angle = 2.0 * std::numbers::pi * (t - begin.t) / duration;
-    return {t, begin.x + length * (angle - std::sin(angle)) / (2.0 * std::numbers::pi),
+    const double angle = core::two_pi * (t - begin.t) / duration;
+    return {t, begin.x + length * (angle - std::sin(angle)) / core::two_pi,
             length / duration * (1.0 - std::cos(angle))};
   }
 };

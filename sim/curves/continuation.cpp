@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <numbers>
 #include <optional>
 #include <utility>
 
+#include "core/constants.hpp"
 #include "core/numbers.hpp"
 #include "sim/curves/continuation_steps.hpp"
 #include "sim/orbits/orbit_account.hpp"
@@ -47,7 +47,7 @@ BranchPoint Continuation::describe(const Node& node) {
   const Model model = at(node.parameter);
   CountedMap map(model, ratio_, effort_);
   point.state.period_ratio = ratio_;
-  point.state.period = ratio_ * 2.0 * std::numbers::pi / model.excitation.frequency;
+  point.state.period = ratio_ * core::two_pi / model.excitation.frequency;
   point.state.start = node.period.begin;
   point.state.multipliers = node.period.multipliers();
   account_for_orbit(model, map, {.full = false}, point.state);

@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
+
+#include "core/constants.hpp"
 
 namespace dualdamp::sim {
 
@@ -43,7 +44,7 @@ Drive::Drive(const Oscillator& oscillator, const Excitation& excitation)
     };
     add(1, excitation.amplitude, excitation.phase);
     for (const Harmonic& harmonic : excitation.harmonics) add(harmonic.order, harmonic.amplitude, harmonic.phase);
-    period_ = 2.0 * std::numbers::pi / excitation.frequency;
+    period_ = core::two_pi / excitation.frequency;
     if (!base_) polynomial_[0] = excitation.offset;
   }
   turns_.assign(frequencies_.size(), 1.0);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <string>
 
 #include "core/constants.hpp"
@@ -173,7 +172,7 @@ bool SmoothEngine::has_run_away() const {
 double SmoothEngine::shortest_period() const {
   double fastest = natural_frequency(model_.oscillator);
   for (const double frequency : drive_.frequencies()) fastest = std::max(fastest, frequency);
-  return 2.0 * std::numbers::pi / fastest;
+  return core::two_pi / fastest;
 }
 
 /// As far as implicit steps see it: an overdamped oscillator has no period of its own, and they pass over the fast
@@ -185,7 +184,7 @@ double SmoothEngine::shortest_seen() const {
   if (!is_implicit_ || !(ratio > 1.0)) return shortest_period();
   double fastest = own / (ratio + std::sqrt(ratio * ratio - 1.0));
   for (const double frequency : drive_.frequencies()) fastest = std::max(fastest, frequency);
-  return 2.0 * std::numbers::pi / fastest;
+  return core::two_pi / fastest;
 }
 
 double SmoothEngine::longest_step() const {

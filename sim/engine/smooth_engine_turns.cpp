@@ -4,9 +4,9 @@
 #include <array>
 #include <cmath>
 #include <complex>
-#include <numbers>
 #include <string>
 
+#include "core/constants.hpp"
 #include "core/numbers.hpp"
 #include "sim/engine/eigenvalues.hpp"
 #include "sim/engine/smooth_engine.hpp"
@@ -106,7 +106,7 @@ std::string SmoothEngine::fast_vibration() const {
   for (const std::complex<double>& value : eigenvalues_of(Eigen::Map<const Eigen::MatrixXd>(columns.data(), n, n)))
     if (std::abs(value.imag()) > fastest.imag()) fastest = {value.real(), std::abs(value.imag())};
   const double rate = std::abs(fastest);
-  const double swings = rate * shortest_period() / (2.0 * std::numbers::pi);
+  const double swings = rate * shortest_period() / core::two_pi;
   const bool is_damped = !(std::abs(fastest.real()) < soon_gone * rate);
   if (is_damped || !(swings > many_swings) || !std::isfinite(rate)) return {};
   const double slower = swings / many_swings;

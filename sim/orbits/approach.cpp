@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <numbers>
 #include <numeric>
 #include <utility>
 #include <vector>
 
+#include "core/constants.hpp"
 #include "core/numbers.hpp"
 #include "sim/neutral_margin.hpp"
 #include "sim/orbits/orbit_account.hpp"
@@ -218,7 +218,7 @@ void Approach::try_candidate(const State& state) {
 
 /// Whether the mass only makes slips below rounding: these are no subharmonic motion (orbit_account.cpp).
 bool Approach::is_at_rest(const Orbit& orbit) {
-  SteadyState seen{.period = 2.0 * std::numbers::pi / omega_ * orbit.period_ratio,
+  SteadyState seen{.period = core::two_pi / omega_ * orbit.period_ratio,
                    .period_ratio = orbit.period_ratio,
                    .start = orbit.period.begin};
   PeriodMap map(model_, orbit.period_ratio);

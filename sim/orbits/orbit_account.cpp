@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
+
+#include "core/constants.hpp"
 
 namespace dualdamp::sim {
 
@@ -23,7 +24,7 @@ OrbitAccount::OrbitAccount(const Model& model, AccountParts parts)
       fundamental_(model.excitation.frequency),
       judges_speed_(parts.judge_rests && !model.friction.empty() &&
                     std::ranges::none_of(model.friction, &friction::Law::holds_mass)),
-      spacing_(2.0 * std::numbers::pi / model.excitation.frequency / samples) {}
+      spacing_(core::two_pi / model.excitation.frequency / samples) {}
 
 void OrbitAccount::begin(const State& start) {
   peak_ = trough_ = start.x;
@@ -128,8 +129,7 @@ void OrbitAccount::write(SteadyState& result) {
   result.mean_square_speed = energy_.square_speed() / result.period;
   result.fundamental = std::abs(fundamental_.coefficient()) / result.period_ratio;
   const double lag = drive_phase_ - std::arg(fundamental_.coefficient());
-  constexpr double turn = 2.0 * std::numbers::pi;
-  result.phase = result.amplitude > 0.0 ? lag - turn * std::floor(lag / turn) : 0.0;
+  result.phase = result.amplitude > 0.0 ? lag - core::two_pi * std::floor(lag / core::two_pi) : 0.0;
 }
 
 void account_for_orbit(const Model& model, PeriodMap& map, AccountParts parts, SteadyState& result) {

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <optional>
 #include <utility>
 
+#include "core/constants.hpp"
 #include "sim/batch/batch.hpp"
 #include "sim/engine/drive.hpp"
 #include "sim/engine/engine.hpp"
@@ -162,7 +162,7 @@ void OrbitFinder::describe(SteadyState& result) {
 
 /// An orbit as a steady state of which only the extremes are known.
 SteadyState OrbitFinder::with_extremes(const Orbit& orbit) {
-  SteadyState state{.period = 2.0 * std::numbers::pi / model_.excitation.frequency * orbit.period_ratio,
+  SteadyState state{.period = core::two_pi / model_.excitation.frequency * orbit.period_ratio,
                     .period_ratio = orbit.period_ratio,
                     .start = orbit.period.begin};
   PeriodMap map(model_, orbit.period_ratio);
@@ -247,7 +247,7 @@ SteadyState steady_state(const Model& model, const SteadyStateOptions& options) 
   valid_harmonic(model, "steady_state");
   if (model.oscillator.loss_factor != 0.0) return steady_state(with_viscous_equivalent(model), options);
   SteadyState result;
-  result.period = 2.0 * std::numbers::pi / model.excitation.frequency;
+  result.period = core::two_pi / model.excitation.frequency;
   for (const friction::Law& law : model.friction) {
     if (law.aperiodic().empty()) continue;
     result.outcome = {core::OutcomeKind::no_steady_state, "no steady state: " + std::string(law.aperiodic())};

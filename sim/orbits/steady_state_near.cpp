@@ -1,9 +1,9 @@
 #include "sim/orbits/steady_state_near.hpp"
 
 #include <algorithm>
-#include <numbers>
 #include <utility>
 
+#include "core/constants.hpp"
 #include "sim/orbits/orbit_account.hpp"
 #include "sim/orbits/period_map.hpp"
 #include "sim/validate.hpp"
@@ -56,7 +56,7 @@ SteadyState steady_state_near(const KnownOrbit& near, const Model& model, const 
   require(near.start.memories.size() == model.friction.size(), "a known orbit needs a memory for each law",
           "one of a model with the same laws");
   SteadyState result;
-  result.period = 2.0 * std::numbers::pi / model.excitation.frequency;
+  result.period = core::two_pi / model.excitation.frequency;
   PeriodMap map(model);
   if (near.monodromy.size() == 0 || !correct(map, near, model, options, result))
     return steady_state(model, options);

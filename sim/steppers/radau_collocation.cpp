@@ -4,6 +4,7 @@
 #include <numbers>
 #include <utility>
 
+#include "core/constants.hpp"
 #include "sim/steppers/lu_factors.hpp"
 
 namespace dualdamp::sim {
@@ -51,7 +52,7 @@ ComplexRow poles() {
     coefficients[k + 1] = -coefficients[k] * (2.0 * s - j) * j / (s - j + 1.0);
   }
   ComplexRow zeros{};
-  const Complex turn = std::polar(1.0, 0.4 + 2.0 * std::numbers::pi / static_cast<double>(radau_stages));
+  const Complex turn = std::polar(1.0, 0.4 + core::two_pi / static_cast<double>(radau_stages));
   zeros[0] = Complex(static_cast<double>(radau_stages));
   for (std::size_t k = 1; k < radau_stages; ++k) zeros[k] = zeros[k - 1] * turn;
   for (int iteration = 0; iteration < 100; ++iteration) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/constants.hpp"
 #include "identify/methods/amplitudes/steady_states.hpp"
 #include "identify/models/force_parameters.hpp"
 #include "identify/records/history_energy.hpp"
@@ -17,7 +18,7 @@ using std::numbers::pi;
 
 EnergyTerms energy_of(const Pair& pair, double stiffness) {
   const double fundamental = std::isnan(pair.fundamental) ? pair.x : pair.fundamental;
-  const double period = 2.0 * pi / pair.omega;
+  const double period = core::two_pi / pair.omega;
   const double speed = pair.omega * fundamental;
   return {
       .work = pi * stiffness * pair.Y * fundamental * std::sin(pair.phase),

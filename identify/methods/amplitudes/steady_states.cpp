@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "core/constants.hpp"
 #include "core/numbers.hpp"
 #include "identify/models/force_parameters.hpp"
 #include "identify/statistics/distributions.hpp"
@@ -107,7 +108,7 @@ std::vector<Pair> exact_states(const std::vector<Pair>& states, const ParameterS
     if (!std::isnan(pair.mean_square_speed)) {
       // The work of the base in a period less that of friction is the work of the damper.
       const double work = pi * constants.stiffness * pair.Y * state->fundamental * std::sin(state->phase);
-      pair.mean_square_speed = (work - 4.0 * value.F0 * pair.x) / value.c * pair.omega / (2.0 * pi);
+      pair.mean_square_speed = (work - 4.0 * value.F0 * pair.x) / value.c * pair.omega / core::two_pi;
     }
     exact.push_back(std::move(pair));
   }

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <numbers>
 #include <utility>
 
+#include "core/constants.hpp"
 #include "identify/methods/amplitudes/den_hartog_fit.hpp"
 #include "identify/methods/amplitudes/harmonic_balance.hpp"
 #include "identify/methods/amplitudes/steady_states.hpp"
@@ -52,7 +52,7 @@ double phase_of(const sim::Model& model, const sim::SteadyState& state) {
   std::complex<double> sum = 0.0;
   // The sample at the end of the period equals that at its beginning.
   for (std::size_t i = 0; i < std::min(samples.size(), static_cast<std::size_t>(count * state.period_ratio)); ++i)
-    sum += samples[i].x * std::polar(1.0, -2.0 * std::numbers::pi * static_cast<double>(i) / count);
+    sum += samples[i].x * std::polar(1.0, -core::two_pi * static_cast<double>(i) / count);
   return model.excitation.phase - std::arg(sum);
 }
 

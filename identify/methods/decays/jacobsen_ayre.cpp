@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/constants.hpp"
 #include "identify/methods/decays/extremes.hpp"
 #include "identify/statistics/distributions.hpp"
 #include "identify/statistics/statistics.hpp"
@@ -22,7 +23,7 @@ struct Friction {
 /// X: magnitudes, at least three.
 Friction rule_of_thumb(const std::vector<double>& X) {
   const std::size_t n = X.size();
-  return {std::log(X[0] / X[2]) / (2.0 * pi), (X[n - 3] - X[n - 1]) / 4.0};
+  return {std::log(X[0] / X[2]) / core::two_pi, (X[n - 3] - X[n - 1]) / 4.0};
 }
 
 /// The numbers without the bias that each makes in the other; nothing when the large swings are not larger than the
@@ -41,8 +42,8 @@ std::optional<Friction> corrected(const Friction& crude, const std::vector<doubl
 Eigen::Matrix2d covariance(const std::vector<double>& X, double deviation) {
   const auto n = static_cast<Eigen::Index>(X.size());
   Eigen::Matrix2Xd jacobian = Eigen::Matrix2Xd::Zero(2, n);
-  jacobian(0, 0) = 1.0 / (2.0 * pi * X[0]);
-  jacobian(0, 2) = -1.0 / (2.0 * pi * X[2]);
+  jacobian(0, 0) = 1.0 / (core::two_pi * X[0]);
+  jacobian(0, 2) = -1.0 / (core::two_pi * X[2]);
   jacobian(1, n - 3) = 0.25;
   jacobian(1, n - 1) = -0.25;
   return deviation * deviation * jacobian * jacobian.transpose();

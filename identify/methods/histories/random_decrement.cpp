@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "core/constants.hpp"
 #include "core/numbers.hpp"
 #include "identify/models/force_parameters.hpp"
 #include "identify/statistics/statistics.hpp"
@@ -98,7 +99,7 @@ Estimate random_decrement(const Record& record, const KnownConstants& constants)
   if (!longest) return estimate;
   const auto& [number, history] = *longest;
   const double W = constants.natural_frequency();
-  const auto period = static_cast<std::size_t>(std::lround(2.0 * std::numbers::pi / W * history->sample_rate));
+  const auto period = static_cast<std::size_t>(std::lround(core::two_pi / W * history->sample_rate));
   std::vector<Start> starts;
   if (period >= 12) starts = starts_of(history->x, period);
   constexpr std::size_t fewest = 100;  // stretches in a band: the random part of the mean is then a tenth

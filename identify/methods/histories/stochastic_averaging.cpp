@@ -7,6 +7,7 @@
 #include <numbers>
 #include <optional>
 
+#include "core/constants.hpp"
 #include "core/numbers.hpp"
 #include "identify/models/force_parameters.hpp"
 #include "identify/statistics/distributions.hpp"
@@ -245,8 +246,7 @@ Estimate stochastic_averaging(const Record& record, const KnownConstants& consta
   if (!longest) return estimate;
   const auto& [number, history] = *longest;
   const double W = constants.natural_frequency();
-  const double periods =
-      static_cast<double>(history->x.size()) / history->sample_rate * W / (2.0 * std::numbers::pi);
+  const double periods = static_cast<double>(history->x.size()) / history->sample_rate * W / core::two_pi;
   constexpr double fewest = 400.0;
   if (periods < fewest) {
     refuse(estimate, "a random response of at least 400 natural periods is needed, and there are " +
