@@ -56,12 +56,12 @@ std::string first_warning(const scenarios::MotionRecord& curve,
 
 /// The law that makes a record is taken out of the library of a method that fits a library of laws, so that the
 /// method is scored by laws that it does not know.
-identify::OptionValues options_for(const identify::MethodEntry& method, const Departure& departure) {
+identify::OptionValues options_for(const identify::MethodEntry& method, const CaseDeparture& departure) {
   if (!method.has(identify::without_option)) return {};
   std::vector<std::string> unknown;
   for (const std::string& name : identify::library_names())
-    for (const Rig* rig : {departure.rig, departure.beside})
-      if (rig != nullptr && rig->name == name) unknown.push_back(name);
+    for (const Departure* one : {departure.first, departure.beside})
+      if (one != nullptr && one->name == name) unknown.push_back(name);
   if (unknown.empty()) return {};
   return {{std::string(identify::without_option.name), unknown}};
 }

@@ -43,7 +43,7 @@ struct Consequence {
 
 /// A departure, its severity and the reference motion.
 struct DepartedRig {
-  Departure departure{};
+  CaseDeparture departure{};
   double severity = 0.0;
   ReferenceMotion reference{};
 };

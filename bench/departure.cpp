@@ -4,53 +4,55 @@
 
 namespace dualdamp::bench {
 
-std::string Departure::name() const {
+std::string CaseDeparture::name() const {
   if (is_truth()) return truth_name;
-  return std::string(rig->name) + (beside == nullptr ? "" : " + " + std::string(beside->name));
+  return std::string(first->name) + (beside == nullptr ? "" : " + " + std::string(beside->name));
 }
 
-Family Departure::family() const {
+Family CaseDeparture::family() const {
   if (is_truth()) return Family::none;
-  return beside == nullptr ? rig->family : Family::pairs;
+  return beside == nullptr ? first->family : Family::pairs;
 }
 
-std::string Departure::severity() const {
+std::string CaseDeparture::severity() const {
   if (is_truth()) return "";
-  return std::string(rig->severity) + (beside == nullptr ? "" : "; " + std::string(beside->severity));
+  return std::string(first->severity) + (beside == nullptr ? "" : "; " + std::string(beside->severity));
 }
 
-double Departure::largest() const {
-  return beside == nullptr ? rig->largest : std::min(rig->largest, beside->largest);
+double CaseDeparture::largest() const {
+  return beside == nullptr ? first->largest : std::min(first->largest, beside->largest);
 }
 
-bool Departure::has_zeta() const {
-  return is_truth() || (rig->has_zeta && (beside == nullptr || beside->has_zeta));
+bool CaseDeparture::has_zeta() const {
+  return is_truth() || (first->has_zeta && (beside == nullptr || beside->has_zeta));
 }
 
-bool Departure::has_F0() const { return is_truth() || (rig->has_F0 && (beside == nullptr || beside->has_F0)); }
-
-bool Departure::needs_sweeps() const {
-  return (rig != nullptr && rig->needs_sweeps) || (beside != nullptr && beside->needs_sweeps);
+bool CaseDeparture::has_F0() const {
+  return is_truth() || (first->has_F0 && (beside == nullptr || beside->has_F0));
 }
 
-sim::Model Departure::model(const Truth& truth, const ReferenceMotion& reference, double s) const {
+bool CaseDeparture::needs_sweeps() const {
+  return (first != nullptr && first->needs_sweeps) || (beside != nullptr && beside->needs_sweeps);
+}
+
+sim::Model CaseDeparture::model(const Truth& truth, const ReferenceMotion& reference, double s) const {
   if (is_truth()) return undisturbed(truth);
-  if (beside == nullptr) return departed(*rig, truth, reference, s);
-  // The second rig changes oscillator and drive; friction is that of the first rig. The last law of the second rig
-  // is the Coulomb friction of the truth, which is removed; the laws before it are part of the structure.
+  if (beside == nullptr) return departed(*first, truth, reference, s);
+  // The second departure changes oscillator and drive; friction is that of the first. The last law of the second is
+  // the Coulomb friction of the truth, which is removed; the laws before it are part of the structure.
   Truth changed = truth;
   changed.model = departed(*beside, truth, reference, s);
   changed.model.friction.pop_back();
-  return departed(*rig, changed, reference, s);
+  return departed(*first, changed, reference, s);
 }
 
-void Departure::mislead(Laboratory& laboratory, const ReferenceMotion& reference, double s) const {
-  for (const Rig* one : {rig, beside})
+void CaseDeparture::mislead(Laboratory& laboratory, const ReferenceMotion& reference, double s) const {
+  for (const Departure* one : {first, beside})
     if (one != nullptr && one->mislead != nullptr) one->mislead(laboratory, reference, s);
 }
 
-bool leaves_friction_alone(const Rig& rig) {
-  switch (rig.family) {
+bool leaves_friction_alone(const Departure& departure) {
+  switch (departure.family) {
     case Family::spring:
     case Family::sensors:
     case Family::constants:

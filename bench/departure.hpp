@@ -1,5 +1,6 @@
 #pragma once
-/// The departure of a case of the stress test: none, one rig of the table, or two rigs at the same severity.
+/// The departure of a case of the stress test: none, one of the table, or two of
+/// them at the same severity.
 
 #include <string>
 
@@ -10,11 +11,11 @@ namespace dualdamp::bench {
 /// Name of the truth among the names of departures.
 inline constexpr const char* truth_name = "coulomb_viscous";
 
-struct Departure {
-  const Rig* rig = nullptr;     ///< nullptr: friction is Coulomb + viscous and all is as assumed
-  const Rig* beside = nullptr;  ///< a second rig, for which `leaves_friction_alone`; or nullptr
+struct CaseDeparture {
+  const Departure* first = nullptr;   ///< nullptr: friction is Coulomb + viscous and all is as assumed
+  const Departure* beside = nullptr;  ///< a second one, for which `leaves_friction_alone`; or nullptr
 
-  [[nodiscard]] bool is_truth() const { return rig == nullptr; }
+  [[nodiscard]] bool is_truth() const { return first == nullptr; }
   /// "lugre", "lugre + base_gain", "coulomb_viscous"
   [[nodiscard]] std::string name() const;
   [[nodiscard]] Family family() const;
@@ -33,11 +34,11 @@ struct Departure {
   /// Changes what the laboratory believes or reads.
   void mislead(Laboratory& laboratory, const ReferenceMotion& reference, double s) const;
 
-  friend bool operator==(const Departure&, const Departure&) = default;
+  friend bool operator==(const CaseDeparture&, const CaseDeparture&) = default;
 };
 
-/// Whether a rig has the Coulomb friction of the truth, as its last law: it departs in spring, sensors, constants
-/// or drive.
-[[nodiscard]] bool leaves_friction_alone(const Rig& rig);
+/// Whether the friction of the truth stays, as the last law: the departure is in spring, sensors, constants or
+/// drive.
+[[nodiscard]] bool leaves_friction_alone(const Departure& departure);
 
 }  // namespace dualdamp::bench

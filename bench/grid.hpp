@@ -28,7 +28,7 @@ class Grid {
     std::size_t rig = 0;
     std::size_t range = 0;
     std::size_t place = 0;  ///< among the motions of a rig and range
-    Departure departure{};
+    CaseDeparture departure{};
     double severity = 0.0;
   };
   [[nodiscard]] Motion motion(std::size_t number) const;

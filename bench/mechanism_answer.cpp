@@ -14,11 +14,11 @@ namespace {
 using scenarios::Json;
 using scenarios::Table;
 
-Json parameters_json(const Rig& mechanism, const std::vector<double>& values,
+Json parameters_json(const Departure& mechanism, const std::vector<double>& values,
                      const std::vector<bool>& at_bound = {}) {
   Json list = Json::array();
   for (std::size_t i = 0; i < values.size(); ++i) {
-    const RigParameter& parameter = mechanism.parameters[i];
+    const DepartureParameter& parameter = mechanism.parameters[i];
     list.push_back({{"name", parameter.name}, {"unit", parameter.unit}, {"value", values[i]}});
     if (!at_bound.empty()) list.back()["at_bound"] = static_cast<bool>(at_bound[i]);
   }
@@ -89,7 +89,7 @@ scenarios::Column values_column(std::vector<std::vector<scenarios::Quantity>> ro
   return column;
 }
 
-std::vector<scenarios::Quantity> quantities(const Rig& mechanism, const std::vector<double>& values) {
+std::vector<scenarios::Quantity> quantities(const Departure& mechanism, const std::vector<double>& values) {
   std::vector<scenarios::Quantity> list;
   for (std::size_t i = 0; i < values.size(); ++i)
     list.push_back(

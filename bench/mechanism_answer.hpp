@@ -21,7 +21,7 @@ struct DecayReading {
 
 /// One mechanism, fitted to the estimates.
 struct Explanation {
-  const Rig* mechanism = nullptr;
+  const Departure* mechanism = nullptr;
   std::size_t unknowns = 0;
   MechanismFit fit;
   double misfit = scenarios::none;   ///< largest relative deviation of a number

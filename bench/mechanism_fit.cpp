@@ -93,21 +93,21 @@ double usual_intercept(const MechanismStudy& study, double stiffness) {
   return 4.0 * std::numbers::inv_pi * sum / static_cast<double>(study.estimates.size()) / stiffness;
 }
 
-bool goes_by_ratios(const RigParameter& parameter) { return parameter.low > 0.0; }
+bool goes_by_ratios(const DepartureParameter& parameter) { return parameter.low > 0.0; }
 
 /// The unknown of a parameter, given in units of its scale.
-double to_unknown(const RigParameter& parameter, double value) {
+double to_unknown(const DepartureParameter& parameter, double value) {
   return goes_by_ratios(parameter) ? std::log(value) : value;
 }
 
-sim::Model test_model(const Rig& mechanism, const Apparatus& apparatus, const RigFriction& friction,
+sim::Model test_model(const Departure& mechanism, const Apparatus& apparatus, const RigFriction& friction,
                       std::span<const double> values, double Y) {
   sim::Model model = driven(mechanism, apparatus, friction, values, Y);
   model.solver.tolerance = accuracy;
   return model;
 }
 
-/// Starts of a search, as ratios to `RigParameter::start`.
+/// Starts of a search, as ratios to `DepartureParameter::start`.
 constexpr std::array<double, 3> ratios = {1.0, 0.3, 3.0};
 
 }  // namespace
@@ -179,9 +179,9 @@ std::optional<Levels> reconstruct(const MechanismStudy& study, const identify::K
   return best;
 }
 
-std::optional<Response> response(const Rig& mechanism, const Apparatus& apparatus, const RigFriction& friction,
-                                 std::span<const double> values, const std::vector<double>& Y,
-                                 const std::vector<sim::KnownOrbit>& near) {
+std::optional<Response> response(const Departure& mechanism, const Apparatus& apparatus,
+                                 const RigFriction& friction, std::span<const double> values,
+                                 const std::vector<double>& Y, const std::vector<sim::KnownOrbit>& near) {
   const sim::SteadyStateOptions options{.tolerance = accuracy, .max_periods = patience, .full_account = false};
   Response result;
   for (std::size_t i = 0; i < Y.size(); ++i) {
@@ -196,8 +196,8 @@ std::optional<Response> response(const Rig& mechanism, const Apparatus& apparatu
   return result;
 }
 
-MechanismSearch::MechanismSearch(const Rig& mechanism, const MechanismStudy& study, const Apparatus& apparatus,
-                                 Levels near)
+MechanismSearch::MechanismSearch(const Departure& mechanism, const MechanismStudy& study,
+                                 const Apparatus& apparatus, Levels near)
     : mechanism_(mechanism), study_(study), apparatus_(apparatus), near_(std::move(near)) {}
 
 std::size_t MechanismSearch::starts() const {
@@ -211,7 +211,7 @@ MechanismSearch::Point MechanismSearch::point(const VectorXd& p) const {
   point.Y =
       levels_are_free() ? spaced(p[2] * near_.Y[0], p[3] * (near_.Y[1] - near_.Y[0]), near_.Y.size()) : near_.Y;
   for (std::size_t i = 0; i < parameters(); ++i) {
-    const RigParameter& parameter = mechanism_.parameters[i];
+    const DepartureParameter& parameter = mechanism_.parameters[i];
     const double u = p[first_parameter() + static_cast<Index>(i)];
     point.values.push_back(natural_scale(apparatus_, parameter.unit) *
                            (goes_by_ratios(parameter) ? std::exp(u) : u));
@@ -246,7 +246,7 @@ VectorXd MechanismSearch::bounds(bool high) const {
     p[3] = high ? 3.0 : 0.1;
   }
   for (std::size_t i = 0; i < parameters(); ++i) {
-    const RigParameter& parameter = mechanism_.parameters[i];
+    const DepartureParameter& parameter = mechanism_.parameters[i];
     p[first_parameter() + static_cast<Index>(i)] = to_unknown(parameter, high ? parameter.high : parameter.low);
   }
   return p;
@@ -262,7 +262,7 @@ VectorXd MechanismSearch::start(std::size_t number) const {
   p[0] = below * estimate.F0 / study_.friction.F0;
   p[1] = below * c / study_.friction.c;
   for (std::size_t i = 0; i < parameters(); ++i) {
-    const RigParameter& parameter = mechanism_.parameters[i];
+    const DepartureParameter& parameter = mechanism_.parameters[i];
     double value = parameter.start;
     // The first parameter is the main one of a mechanism: its search has several starts.
     if (i == 0) value *= goes_by_ratios(parameter) ? ratios.at(number) : number == 0 ? 1.0 : -1.0;

@@ -58,7 +58,7 @@ struct Response {
   bool sticks = false;    ///< at one of them at least
   std::vector<sim::SteadyState> orbits;
 };
-[[nodiscard]] std::optional<Response> response(const Rig& mechanism, const Apparatus& apparatus,
+[[nodiscard]] std::optional<Response> response(const Departure& mechanism, const Apparatus& apparatus,
                                                const RigFriction& friction, std::span<const double> values,
                                                const std::vector<double>& Y,
                                                const std::vector<sim::KnownOrbit>& near = {});
@@ -78,7 +78,7 @@ struct MechanismFit {
 class MechanismSearch {
  public:
   /// `near`: levels at which searches begin, or the known levels.
-  MechanismSearch(const Rig& mechanism, const MechanismStudy& study, const Apparatus& apparatus, Levels near);
+  MechanismSearch(const Departure& mechanism, const MechanismStudy& study, const Apparatus& apparatus, Levels near);
 
   /// Number of starts of the search for the mechanism's parameters.
   [[nodiscard]] std::size_t starts() const;
@@ -118,7 +118,7 @@ class MechanismSearch {
   [[nodiscard]] Eigen::VectorXd pull(const Eigen::VectorXd& p) const;
   [[nodiscard]] MechanismFit fit(const Eigen::VectorXd& start, double tolerance) const;
 
-  const Rig& mechanism_;
+  const Departure& mechanism_;
   const MechanismStudy& study_;
   const Apparatus& apparatus_;
   Levels near_;

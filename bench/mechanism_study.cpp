@@ -23,7 +23,8 @@ class Study {
         levels_(std::move(levels)),
         apparatus_(apparatus_of(model, levels_)),
         constants_{apparatus_.oscillator.mass, apparatus_.oscillator.stiffness, apparatus_.reference.frequency} {
-    for (const Rig* mechanism : study_.mechanisms) searches_.emplace_back(*mechanism, study_, apparatus_, levels_);
+    for (const Departure* mechanism : study_.mechanisms)
+      searches_.emplace_back(*mechanism, study_, apparatus_, levels_);
   }
 
   [[nodiscard]] std::vector<Explanation> explain() const;

@@ -29,17 +29,17 @@ class MechanismsQuestion final : public Question {
 
 std::vector<std::string> mechanism_names() {
   std::vector<std::string> names;
-  for (const Rig& mechanism : mechanisms()) names.emplace_back(mechanism.name);
+  for (const Departure& mechanism : mechanisms()) names.emplace_back(mechanism.name);
   return names;
 }
 
 /// Values of each mechanism's own parameters.
 Field plausible_values() {
   Choice rigs{"mechanism", {}};
-  for (const Rig& mechanism : mechanisms()) {
+  for (const Departure& mechanism : mechanisms()) {
     std::vector<Field> fields = {text("case", "name of these values in the results").with_fallback(""),
                                  text("because", "where they come from").with_fallback("")};
-    for (const RigParameter& parameter : mechanism.parameters) {
+    for (const DepartureParameter& parameter : mechanism.parameters) {
       Field field =
           quantity(std::string(parameter.name), {std::string(parameter.unit)}, std::string(parameter.meaning))
               .required();
@@ -180,7 +180,7 @@ void complete_plausible(CheckedFile& file) {
     // A faulty item has no name.
     const auto is_it = [&](const Json& item) { return item.contains("mechanism") && item.at("mechanism") == name; };
     if (std::any_of(list.begin(), list.begin() + static_cast<std::ptrdiff_t>(given), is_it)) continue;
-    const Rig* mechanism = find_mechanism(name.get<std::string>());
+    const Departure* mechanism = find_mechanism(name.get<std::string>());
     for (const PlausibleValues& plausible : mechanism->plausible) {
       Json item = {{"mechanism", name}, {"case", plausible.name}, {"because", plausible.because}};
       for (std::size_t i = 0; i < plausible.values.size(); ++i)
@@ -197,7 +197,7 @@ void check(CheckedFile& file) {
   if (analysis.contains("estimates")) check_parts(file);
   if (!file.stands_in_file("analysis", "mechanisms")) {
     Json all = Json::array();
-    for (const Rig& mechanism : mechanisms()) all.push_back(mechanism.name);
+    for (const Departure& mechanism : mechanisms()) all.push_back(mechanism.name);
     file.fill_in("mechanisms", std::move(all));
   }
   if (analysis.contains("mechanisms")) complete_plausible(file);
@@ -217,9 +217,9 @@ MechanismStudy study_of(const Json& section, const Json& system) {
   for (const Json& name : section.at("mechanisms"))
     result.mechanisms.push_back(find_mechanism(name.get<std::string>()));
   for (const Json& item : section.at("plausible")) {
-    const Rig* mechanism = find_mechanism(item.at("mechanism").get<std::string>());
+    const Departure* mechanism = find_mechanism(item.at("mechanism").get<std::string>());
     PlausibleRig rig{mechanism, item.at("case").get<std::string>(), {}, item.at("because").get<std::string>()};
-    for (const RigParameter& parameter : mechanism->parameters)
+    for (const DepartureParameter& parameter : mechanism->parameters)
       rig.values.push_back(number(item.at(std::string(parameter.name))));
     result.plausible.push_back(std::move(rig));
   }

@@ -26,7 +26,7 @@ struct PartEstimate {
 
 /// Plausible values of a mechanism.
 struct PlausibleRig {
-  const Rig* mechanism = nullptr;
+  const Departure* mechanism = nullptr;
   std::string name;            ///< which of several; may be empty
   std::vector<double> values;  ///< SI, in the order of the mechanism's parameters
   std::string because;
@@ -49,7 +49,7 @@ struct MechanismStudy {
   std::vector<PartEstimate> estimates;  ///< largest share first
   std::size_t levels = 0;
   std::vector<double> amplitudes;  ///< input levels [m]; empty: equally spaced at unknown places
-  std::vector<const Rig*> mechanisms;
+  std::vector<const Departure*> mechanisms;
   std::vector<PlausibleRig> plausible;
   std::optional<MeasuredDecay> decay;
 };

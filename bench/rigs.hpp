@@ -1,5 +1,5 @@
 #pragma once
-/// The names of the table of rigs in this namespace.
+/// The names of the table of departures in this namespace.
 
 #include "identify/rigs/rigs.hpp"
 
@@ -7,6 +7,8 @@ namespace dualdamp::bench {
 
 using identify::rigs::Apparatus;
 using identify::rigs::departed;
+using identify::rigs::Departure;
+using identify::rigs::DepartureParameter;
 using identify::rigs::departures;
 using identify::rigs::driven;
 using identify::rigs::Family;
@@ -19,9 +21,7 @@ using identify::rigs::natural_scale;
 using identify::rigs::PlausibleValues;
 using identify::rigs::ReferenceMotion;
 using identify::rigs::released;
-using identify::rigs::Rig;
 using identify::rigs::RigFriction;
-using identify::rigs::RigParameter;
 using identify::rigs::Truth;
 using identify::rigs::undisturbed;
 

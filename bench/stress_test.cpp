@@ -41,14 +41,14 @@ class StressTestQuestion final : public Question, public Campaign {
 
 std::vector<std::string> departure_names() {
   std::vector<std::string> names;
-  for (const Rig& departure : departures()) names.emplace_back(departure.name);
+  for (const Departure& departure : departures()) names.emplace_back(departure.name);
   return names;
 }
 
 /// Names of the departures that can be the second of a pair.
 std::vector<std::string> companion_names() {
   std::vector<std::string> names;
-  for (const Rig& departure : departures())
+  for (const Departure& departure : departures())
     if (leaves_friction_alone(departure)) names.emplace_back(departure.name);
   return names;
 }
@@ -118,18 +118,18 @@ Section stress_test_keys() {
 }
 
 /// An item of `pairs`; nothing where the reader has refused a part of it.
-std::optional<Departure> pair_of(const Json& item) {
+std::optional<CaseDeparture> pair_of(const Json& item) {
   if (!item.contains("law") || !item.contains("beside")) return std::nullopt;
-  return Departure{find_departure(item.at("law").get<std::string>()),
-                   find_departure(item.at("beside").get<std::string>())};
+  return CaseDeparture{find_departure(item.at("law").get<std::string>()),
+                       find_departure(item.at("beside").get<std::string>())};
 }
 
 /// The departures in the order of the file: single ones, then the pairs.
-std::vector<Departure> departures_of(const Json& analysis) {
-  std::vector<Departure> list;
+std::vector<CaseDeparture> departures_of(const Json& analysis) {
+  std::vector<CaseDeparture> list;
   for (const Json& name : analysis.at("laws")) list.push_back({find_departure(name.get<std::string>())});
   for (const Json& item : analysis.value("pairs", Json::array()))
-    if (const std::optional<Departure> pair = pair_of(item)) list.push_back(*pair);
+    if (const std::optional<CaseDeparture> pair = pair_of(item)) list.push_back(*pair);
   return list;
 }
 
@@ -141,7 +141,7 @@ void check_severities(CheckedFile& file, const Json& analysis) {
     file.complain("analysis.severities", "'analysis.severities' has a value twice", "each once",
                   core::format_number(*twice, 6));
   const double most = severities.back();
-  for (const Departure& departure : departures_of(analysis)) {
+  for (const CaseDeparture& departure : departures_of(analysis)) {
     if (most > departure.largest())
       file.complain("analysis.severities", "'" + departure.name() + "' has no such severity",
                     "at most " + core::format_number(departure.largest(), 3) + ": " + departure.severity(),
@@ -155,7 +155,7 @@ bool has_sweeps(const Json& analysis) {
 }
 
 void check_sweeps(CheckedFile& file, const Json& analysis) {
-  for (const Departure& departure : departures_of(analysis))
+  for (const CaseDeparture& departure : departures_of(analysis))
     if (departure.needs_sweeps() && !has_sweeps(analysis))
       file.complain("analysis.ranges", "'" + departure.name() + "' has an effect only in records of several sweeps",
                     "a range with 'sweeps' above 1");
@@ -167,11 +167,11 @@ void check_pairs(CheckedFile& file, const Json& analysis) {
   std::vector<std::string> names;
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     const std::string place = "analysis.pairs[" + std::to_string(i) + "]";
-    const std::optional<Departure> both = pair_of(pairs.at(i));
+    const std::optional<CaseDeparture> both = pair_of(pairs.at(i));
     if (!both) continue;
-    if (both->rig->family == both->beside->family)
+    if (both->first->family == both->beside->family)
       file.complain(place + ".beside", "both departures lie in one family",
-                    "a departure that is not of " + std::string(name_of(both->rig->family)),
+                    "a departure that is not of " + std::string(name_of(both->first->family)),
                     std::string(both->beside->name));
     names.push_back(both->name());
     if (std::ranges::count(names, names.back()) > 1)
@@ -297,7 +297,7 @@ void check_stress_test(CheckedFile& file) {
   check_random_response(file);
   if (!file.stands_in_file("analysis", "laws")) {
     Json all = Json::array();
-    for (const Rig& departure : departures())
+    for (const Departure& departure : departures())
       if (!departure.needs_sweeps || has_sweeps(analysis)) all.push_back(departure.name);
     file.fill_in("laws", std::move(all));
   }

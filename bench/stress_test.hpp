@@ -64,7 +64,7 @@ struct TrueRig {
 
 struct StressTest {
   std::vector<TrueRig> rigs;
-  std::vector<Departure> departures;
+  std::vector<CaseDeparture> departures;
   std::vector<double> severities;  ///< ascending, > 0
   std::vector<ExcitationRange> ranges;
   std::vector<SensorSet> sensors;

@@ -70,7 +70,7 @@ std::vector<MetricMeans> group_means(const Plan& plan, const Weights& weights, s
 
 /// The means over the departures of each family. `laws`: of the departures, then perhaps of the truth.
 std::map<Family, Metrics> over_laws(const Plan& plan, const Weights& weights, const std::vector<Metrics>& laws) {
-  const std::vector<Departure>& departures = plan.grid().question().departures;
+  const std::vector<CaseDeparture>& departures = plan.grid().question().departures;
   std::map<Family, MetricMeans> means;
   for (std::size_t law = 0; law < laws.size(); ++law)
     if (weights.laws[law] > 0.0)

@@ -43,7 +43,7 @@ struct Entry {
   std::vector<CaseAnswer> answers;
 };
 
-/// The true parameters of a case; NaN where the departure leaves no single true value (`Rig`).
+/// The true parameters of a case; NaN where the departure leaves no single true value (`Departure`).
 struct TrueParameters {
   double zeta = not_stated;
   double F0 = not_stated;  ///< N

@@ -59,12 +59,12 @@ Columns<FamilyScore> family_columns() {
        {"method", "", "a method or an entry", entrant_of<FamilyScore>}});
 }
 
-Columns<Departure> departure_columns() {
-  return {
-      {"departure", "", "name of the departure", [](const Departure& d, const Grid&) { return d.name(); }},
-      {"family", "", "what it changes, such as friction or the drive",
-       [](const Departure& d, const Grid&) { return std::string(name_of(d.family())); }},
-      {"severity", "", "what its severity means", [](const Departure& d, const Grid&) { return d.severity(); }}};
+Columns<CaseDeparture> departure_columns() {
+  return {{"departure", "", "name of the departure", [](const CaseDeparture& d, const Grid&) { return d.name(); }},
+          {"family", "", "what it changes, such as friction or the drive",
+           [](const CaseDeparture& d, const Grid&) { return std::string(name_of(d.family())); }},
+          {"severity", "", "what its severity means",
+           [](const CaseDeparture& d, const Grid&) { return d.severity(); }}};
 }
 
 Columns<Difference> difference_columns() {

@@ -81,7 +81,7 @@ class Writer {
       : model_(model), tests_(tests), stated_(stated), options_(options), scale_(model, tests.freedom) {}
 
   void write(Ledger& ledger) {
-    for (const Departure& departure : tests_.departures) charge(departure, ledger);
+    for (const FoundDeparture& departure : tests_.departures) charge(departure, ledger);
     for (const RelaxationTest& test : tests_.tests) hold(test, ledger);
     for (LedgerEntry& entry : ledger.entries)
       if (entry.standing == Standing::untested) explain(ledger, entry);
@@ -114,7 +114,7 @@ class Writer {
            std::abs(scale_.F0(test.F0_change)) >= options_.least_change || is_uneven(test);
   }
 
-  void charge(const Departure& departure, Ledger& ledger) const {
+  void charge(const FoundDeparture& departure, Ledger& ledger) const {
     const auto any = [&](auto is) { return std::ranges::any_of(departure.explanations, is); };
     const bool stated = any([&](const RelaxationTest& t) { return is_as_stated(t); });
     const bool harms = !stated && any([&](const RelaxationTest& t) { return matters(t); });
@@ -142,7 +142,7 @@ class Writer {
 
   /// "a stiffness of 1421 N/m instead of 1563 N/m, or a mass of 1.1 kg instead of 1 kg", of the fits that explain
   /// the departure.
-  [[nodiscard]] std::string wanted_constants(const Departure& departure) const {
+  [[nodiscard]] std::string wanted_constants(const FoundDeparture& departure) const {
     std::vector<std::string> texts;
     const auto add = [&](const char* what, double wanted, double stated, const char* unit) {
       constexpr double same = 1e-6;
@@ -181,7 +181,7 @@ class Writer {
     return relaxation.freed == Freed::gain && std::abs(test.coefficient) < allowed;
   }
 
-  [[nodiscard]] std::string alternatives(const Departure& departure, const RelaxationTest& own) const {
+  [[nodiscard]] std::string alternatives(const FoundDeparture& departure, const RelaxationTest& own) const {
     std::string text;
     std::vector<Assumption> said = {assumption_of(own)};
     for (const RelaxationTest& other : departure.explanations) {
@@ -326,7 +326,7 @@ Ledger ledger_of(const Record& record, const KnownConstants& constants, const Le
   if (is_friction || !has_spring || ledger.misfit) return ledger;
   ledger.joint = joint_estimate(model, tests);
   ledger.unseen = unseen_friction(model, tests, *ledger.joint);
-  for (const Departure& departure : tests.departures)
+  for (const FoundDeparture& departure : tests.departures)
     ledger.relaxed.push_back(model.relaxations[departure.explanations.front().index].test);
   note_nearly_seen(model, tests, ledger);
   return ledger;

@@ -47,17 +47,18 @@ struct RelaxationTest {
   double F0_blind = 0.0;
 };
 
-/// A departure: the relaxation taken into the model and those that explain as much, best first.
-struct Departure {
+/// A departure that the tests found: the relaxation taken into the model and those that explain as much, best
+/// first.
+struct FoundDeparture {
   std::vector<RelaxationTest> explanations;
 };
 
 struct RelaxationTests {
   std::vector<RelaxationTest> tests;  ///< beside all departures; those that can be told from the base parameters
   std::vector<std::size_t> alone;     ///< relaxations that cannot be told from the base parameters
-  std::vector<Departure> departures;  ///< in the order found
-  double freedom = 0.0;               ///< degrees of freedom left
-  std::optional<Misfit> misfit;       ///< that is left beside all departures
+  std::vector<FoundDeparture> departures;  ///< in the order found
+  double freedom = 0.0;                    ///< degrees of freedom left
+  std::optional<Misfit> misfit;            ///< that is left beside all departures
   std::optional<JointModel> relaxed;  ///< the model linearised with the departures relaxed, where it has such a fit
 };
 

@@ -20,7 +20,7 @@ double bristle_damping(const RigBase& base, double stiffness) {
   return 0.2 * std::sqrt(stiffness * base.model.oscillator.mass);
 }
 
-sim::Model bouc_wen(const RigBase& base, RigValues p) {
+sim::Model bouc_wen(const RigBase& base, DepartureValues p) {
   return with_law(base.model, "bouc_wen", {{"limit", base.F0}, {"stiffness", p[0]}, {"exponent", 2.0}});
 }
 
@@ -28,19 +28,21 @@ sim::Model behind_spring(sim::Model model, double F0, double stiffness) {
   return with_law(std::move(model), "contact_compliance", {{"kinetic", F0}, {"contact_stiffness", stiffness}});
 }
 
-sim::Model contact_compliance(const RigBase& base, RigValues p) { return behind_spring(base.model, base.F0, p[0]); }
+sim::Model contact_compliance(const RigBase& base, DepartureValues p) {
+  return behind_spring(base.model, base.F0, p[0]);
+}
 
-sim::Model rigid_and_compliant(const RigBase& base, RigValues p) {
+sim::Model rigid_and_compliant(const RigBase& base, DepartureValues p) {
   RigBase rigid = base;
   rigid.F0 = (1.0 - p[1]) * base.F0;
   return behind_spring(with_coulomb(rigid), p[1] * base.F0, p[0]);
 }
 
-sim::Model dahl(const RigBase& base, RigValues p) {
+sim::Model dahl(const RigBase& base, DepartureValues p) {
   return with_law(base.model, "dahl", {{"kinetic", base.F0}, {"sigma0", p[0]}});
 }
 
-sim::Model elasto_plastic(const RigBase& base, RigValues p) {
+sim::Model elasto_plastic(const RigBase& base, DepartureValues p) {
   return with_law(base.model, "elasto_plastic",
                   {{"kinetic", base.F0},
                    {"stribeck_velocity", tenth_of_speed(base)},
@@ -51,7 +53,7 @@ sim::Model elasto_plastic(const RigBase& base, RigValues p) {
 
 /// Four elements with equal shares of the friction. They slip one after the other, the first at half of the mean
 /// deflection.
-sim::Model generalized_maxwell_slip(const RigBase& base, RigValues p) {
+sim::Model generalized_maxwell_slip(const RigBase& base, DepartureValues p) {
   std::vector<ParameterValues> elements;
   for (const double deflection : {0.5, 0.75, 1.25, 1.5})  // over their mean
     elements.push_back({{"stiffness", 0.25 * p[0] / deflection}, {"share", 0.25}});
@@ -64,15 +66,15 @@ sim::Model generalized_maxwell_slip(const RigBase& base, RigValues p) {
                    {"attraction", 100.0 * base.F0 * base.reference.frequency}});
 }
 
-sim::Model free_play(const RigBase& base, RigValues p) {
+sim::Model free_play(const RigBase& base, DepartureValues p) {
   return with_law(base.model, "free_play", {{"kinetic", base.F0}, {"play", p[0]}});
 }
 
-sim::Model iwan(const RigBase& base, RigValues p) {
+sim::Model iwan(const RigBase& base, DepartureValues p) {
   return with_law(base.model, "iwan", {{"limit", base.F0}, {"stiffness", p[0]}, {"count", 20.0}});
 }
 
-sim::Model lugre(const RigBase& base, RigValues p) {
+sim::Model lugre(const RigBase& base, DepartureValues p) {
   return with_law(base.model, "lugre",
                   {{"kinetic", base.F0},
                    {"static", (1.0 + p[1]) * base.F0},
@@ -81,30 +83,30 @@ sim::Model lugre(const RigBase& base, RigValues p) {
                    {"sigma1", bristle_damping(base, p[0])}});
 }
 
-sim::Model reset_integrator(const RigBase& base, RigValues p) {
+sim::Model reset_integrator(const RigBase& base, DepartureValues p) {
   return with_law(base.model, "reset_integrator",
                   {{"kinetic", base.F0}, {"stiffness", p[0]}, {"static_gain", p[1]}});
 }
 
-constexpr RigParameter contact_parameter = {.name = "contact_stiffness",
-                                            .unit = "N/m",
-                                            .meaning = "stiffness of the contact in series with its slider",
-                                            .range = positive,
-                                            .start = 1.0,
-                                            .low = 0.05,
-                                            .high = 300.0};
-constexpr RigParameter bristles_parameter = {.name = "sigma0",
-                                             .unit = "N/m",
-                                             .meaning = "stiffness of the bristles",
-                                             .range = positive,
-                                             .start = 1.0,
-                                             .low = 0.05,
-                                             .high = 100.0};
-constexpr RigParameter stiffness_parameter = {
+constexpr DepartureParameter contact_parameter = {.name = "contact_stiffness",
+                                                  .unit = "N/m",
+                                                  .meaning = "stiffness of the contact in series with its slider",
+                                                  .range = positive,
+                                                  .start = 1.0,
+                                                  .low = 0.05,
+                                                  .high = 300.0};
+constexpr DepartureParameter bristles_parameter = {.name = "sigma0",
+                                                   .unit = "N/m",
+                                                   .meaning = "stiffness of the bristles",
+                                                   .range = positive,
+                                                   .start = 1.0,
+                                                   .low = 0.05,
+                                                   .high = 100.0};
+constexpr DepartureParameter stiffness_parameter = {
     .name = "stiffness", .unit = "N/m", .meaning = "of the contact at small deflections", .range = positive};
 
 /// Contacts in series with a stiffness.
-std::vector<Rig> sliders() {
+std::vector<Departure> sliders() {
   return {
       {.name = "bouc_wen",
        .meaning = "the contact yields gradually, along a smooth loop",
@@ -160,7 +162,7 @@ std::vector<Rig> sliders() {
 }
 
 /// Contacts with an internal deflection.
-std::vector<Rig> bristles() {
+std::vector<Departure> bristles() {
   return {
       {.name = "dahl",
        .meaning = "bristles that yield gradually, independent of speed",
@@ -203,6 +205,8 @@ std::vector<Rig> bristles() {
 
 }  // namespace
 
-std::vector<Rig> contact_rigs() { return of_family(Family::presliding, joined({sliders(), bristles()})); }
+std::vector<Departure> contact_departures() {
+  return of_family(Family::presliding, joined({sliders(), bristles()}));
+}
 
 }  // namespace dualdamp::identify::rigs

@@ -23,7 +23,7 @@ std::array<double, 8> clipped_cosine(double a) {
   return coefficients;
 }
 
-sim::Model base_clipping(const RigBase& base, RigValues p) {
+sim::Model base_clipping(const RigBase& base, DepartureValues p) {
   const double Y = base.model.excitation.amplitude;
   sim::Model model = with_coulomb(base);
   const std::array<double, 8> shares = clipped_cosine(Y / p[0]);
@@ -38,7 +38,7 @@ sim::Model base_clipping(const RigBase& base, RigValues p) {
   return model;
 }
 
-sim::Model base_distortion(const RigBase& base, RigValues p) {
+sim::Model base_distortion(const RigBase& base, DepartureValues p) {
   sim::Model model = with_coulomb(base);
   model.excitation.harmonics = {{.order = 3, .amplitude = p[0], .phase = 0.0}};
   return model;
@@ -52,19 +52,21 @@ sim::Model spring_and_drive(const RigBase& base, double k3, double offset) {
   return model;
 }
 
-sim::Model cubic_spring(const RigBase& base, RigValues p) { return spring_and_drive(base, p[0], 0.0); }
+sim::Model cubic_spring(const RigBase& base, DepartureValues p) { return spring_and_drive(base, p[0], 0.0); }
 
-sim::Model softening_spring(const RigBase& base, RigValues p) { return spring_and_drive(base, -p[0], 0.0); }
+sim::Model softening_spring(const RigBase& base, DepartureValues p) { return spring_and_drive(base, -p[0], 0.0); }
 
-sim::Model hardening_spring_detuned(const RigBase& base, RigValues p) { return spring_and_drive(base, p[0], p[1]); }
+sim::Model hardening_spring_detuned(const RigBase& base, DepartureValues p) {
+  return spring_and_drive(base, p[0], p[1]);
+}
 
-sim::Model detuning(const RigBase& base, RigValues p) {
+sim::Model detuning(const RigBase& base, DepartureValues p) {
   return spring_and_drive(base, base.model.oscillator.cubic_stiffness, p[0]);
 }
 
 /// Part of the mass rides on a spring and a damper of its own. The second mode lies at about four times the natural
 /// frequency, between the odd harmonics of friction: close to one of them, rigs would differ by chance.
-sim::Model second_mode(const RigBase& base, RigValues p) {
+sim::Model second_mode(const RigBase& base, DepartureValues p) {
   constexpr double frequency = 4.0;       // over the natural one
   constexpr double damping_ratio = 0.02;  // of the rider on a base that is held
   const double whole = base.model.oscillator.mass;
@@ -78,22 +80,22 @@ sim::Model second_mode(const RigBase& base, RigValues p) {
   return with_coulomb(parted);
 }
 
-constexpr RigParameter cubic_parameter = {.name = "cubic_stiffness",
-                                          .unit = "N/m^3",
-                                          .meaning = "k3 of the spring, as a positive number",
-                                          .range = positive,
-                                          .start = 0.05,
-                                          .low = 1e-4,
-                                          .high = 0.5};
-constexpr RigParameter offset_parameter = {.name = "offset",
-                                           .unit = "1",
-                                           .meaning = "forcing frequency over the stated one, less 1",
-                                           .range = {.low = -0.5, .high = 1.0},
-                                           .start = 0.02,
-                                           .low = -0.15,
-                                           .high = 0.15};
+constexpr DepartureParameter cubic_parameter = {.name = "cubic_stiffness",
+                                                .unit = "N/m^3",
+                                                .meaning = "k3 of the spring, as a positive number",
+                                                .range = positive,
+                                                .start = 0.05,
+                                                .low = 1e-4,
+                                                .high = 0.5};
+constexpr DepartureParameter offset_parameter = {.name = "offset",
+                                                 .unit = "1",
+                                                 .meaning = "forcing frequency over the stated one, less 1",
+                                                 .range = {.low = -0.5, .high = 1.0},
+                                                 .start = 0.02,
+                                                 .low = -0.15,
+                                                 .high = 0.15};
 
-std::vector<Rig> drives() {
+std::vector<Departure> drives() {
   return {
       {.name = "base_clipping",
        .meaning =
@@ -140,7 +142,7 @@ std::vector<Rig> drives() {
   };
 }
 
-std::vector<Rig> springs() {
+std::vector<Departure> springs() {
   return {
       {.name = "cubic_spring",
        .meaning = "the spring stiffens with its elongation",
@@ -199,7 +201,7 @@ std::vector<Rig> springs() {
 
 }  // namespace
 
-std::vector<Rig> drive_rigs() {
+std::vector<Departure> drive_departures() {
   return joined({of_family(Family::drive, drives()), of_family(Family::spring, springs())});
 }
 

@@ -13,23 +13,23 @@ sim::Model with_film(const RigBase& base, std::string_view law, friction::Parame
   return with_law(std::move(model), law, std::move(values));
 }
 
-sim::Model quadratic_drag(const RigBase& base, RigValues p) {
+sim::Model quadratic_drag(const RigBase& base, DepartureValues p) {
   return with_law(with_coulomb(base), "viscous_power", {{"coefficient", p[0]}, {"exponent", 2.0}});
 }
 
-sim::Model viscous_power(const RigBase& base, RigValues p) {
+sim::Model viscous_power(const RigBase& base, DepartureValues p) {
   const double V = base.reference.speed();
   return with_film(base, "viscous_power",
                    {{"coefficient", base.c() * V}, {"reference_velocity", V}, {"exponent", p[0]}});
 }
 
-sim::Model viscous_saturating(const RigBase& base, RigValues p) {
+sim::Model viscous_saturating(const RigBase& base, DepartureValues p) {
   const double loss = base.found_at_reference ? 1.0 + base.reference.speed() / p[0] : 1.0;
   return with_film(base, "viscous_saturating", {{"coefficient", base.c() * loss}, {"saturation_velocity", p[0]}});
 }
 
 /// The mean heat of a damper is c V^2/2.
-sim::Model warming_film(const RigBase& base, RigValues p) {
+sim::Model warming_film(const RigBase& base, DepartureValues p) {
   const double heat = 0.5 * base.c() * base.reference.speed() * base.reference.speed();
   return with_film(base, "viscous_power",
                    {{"coefficient", when_cold(base, base.c(), heat, p[0])},
@@ -37,17 +37,17 @@ sim::Model warming_film(const RigBase& base, RigValues p) {
                     {"warming", warming(base, p[0])}});
 }
 
-constexpr RigParameter exponent_parameter = {.name = "exponent",
-                                             .unit = "1",
-                                             .meaning = "exponent of the speed",
-                                             .range = positive,
-                                             .start = 0.6,
-                                             .low = 0.1,
-                                             .high = 3.0};
+constexpr DepartureParameter exponent_parameter = {.name = "exponent",
+                                                   .unit = "1",
+                                                   .meaning = "exponent of the speed",
+                                                   .range = positive,
+                                                   .start = 0.6,
+                                                   .low = 0.1,
+                                                   .high = 3.0};
 
 }  // namespace
 
-std::vector<Rig> film_rigs() {
+std::vector<Departure> film_departures() {
   return of_family(
       Family::velocity,
       {

@@ -11,15 +11,15 @@ namespace dualdamp::identify::rigs {
 
 using friction::ParameterValues;
 
-std::vector<Rig> joined(const std::vector<std::vector<Rig>>& groups) {
-  std::vector<Rig> all;
-  for (const std::vector<Rig>& group : groups) all.insert(all.end(), group.begin(), group.end());
+std::vector<Departure> joined(const std::vector<std::vector<Departure>>& groups) {
+  std::vector<Departure> all;
+  for (const std::vector<Departure>& group : groups) all.insert(all.end(), group.begin(), group.end());
   return all;
 }
 
-std::vector<Rig> of_family(Family family, std::vector<Rig> group) {
-  for (Rig& rig : group)
-    if (rig.family == Family::none) rig.family = family;
+std::vector<Departure> of_family(Family family, std::vector<Departure> group) {
+  for (Departure& departure : group)
+    if (departure.family == Family::none) departure.family = family;
   return group;
 }
 
@@ -36,7 +36,7 @@ sim::Model with_coulomb(const RigBase& base, ParameterValues values) {
   return with_law(base.model, "coulomb", std::move(values));
 }
 
-sim::Model coulomb_viscous(const RigBase& base, RigValues) { return with_coulomb(base); }
+sim::Model coulomb_viscous(const RigBase& base, DepartureValues) { return with_coulomb(base); }
 
 std::vector<ParameterValues> warming(const RigBase& base, double power) {
   return {ParameterValues{{"power", power}, {"time_constant", base.warming_time}}};

@@ -1,5 +1,5 @@
 #pragma once
-/// The groups of the table of rigs, and functions that several of them share.
+/// The groups of the table of departures, and functions that several of them share.
 
 #include <span>
 #include <string_view>
@@ -11,24 +11,24 @@
 namespace dualdamp::identify::rigs {
 
 /// Friction that yields before it slips: contacts behind a stiffness, and bristles.
-[[nodiscard]] std::vector<Rig> contact_rigs();
+[[nodiscard]] std::vector<Departure> contact_departures();
 /// Coulomb friction that depends on speed, position, temperature or the load of the contact.
-[[nodiscard]] std::vector<Rig> sliding_rigs();
+[[nodiscard]] std::vector<Departure> sliding_departures();
 /// Viscous friction that is not proportional to speed.
-[[nodiscard]] std::vector<Rig> film_rigs();
+[[nodiscard]] std::vector<Departure> film_departures();
 /// Drives, springs and structures that differ from what the laboratory states.
-[[nodiscard]] std::vector<Rig> drive_rigs();
+[[nodiscard]] std::vector<Departure> drive_departures();
 
 /// Laboratories that state wrong constants or have wrong sensors.
-[[nodiscard]] std::vector<Rig> laboratory_rigs();
+[[nodiscard]] std::vector<Departure> laboratory_departures();
 
-/// Sets the family of those rigs of a group that have none.
-[[nodiscard]] std::vector<Rig> of_family(Family family, std::vector<Rig> group);
+/// Sets the family of those departures of a group that have none.
+[[nodiscard]] std::vector<Departure> of_family(Family family, std::vector<Departure> group);
 
-[[nodiscard]] std::vector<Rig> joined(const std::vector<std::vector<Rig>>& groups);
+[[nodiscard]] std::vector<Departure> joined(const std::vector<std::vector<Departure>>& groups);
 
-/// Values of a rig's parameters, SI.
-using RigValues = std::span<const double>;
+/// Values of a departure's parameters, SI.
+using DepartureValues = std::span<const double>;
 
 /// `model` with the law added; defaults of `values` are filled in. Errors: `std::logic_error` if the law is unknown
 /// or refuses the values, which is a fault of the table.
@@ -37,8 +37,8 @@ using RigValues = std::span<const double>;
 /// The base with Coulomb friction F0; `values` are further parameters of the law.
 [[nodiscard]] sim::Model with_coulomb(const RigBase& base, friction::ParameterValues values = {});
 
-/// `with_coulomb` as the builder of a rig without parameters.
-[[nodiscard]] sim::Model coulomb_viscous(const RigBase& base, RigValues values);
+/// `with_coulomb` as the builder of a departure without parameters.
+[[nodiscard]] sim::Model coulomb_viscous(const RigBase& base, DepartureValues values);
 
 /// Parameters of the modifier `warming` for a heat power at which the force has fallen to 1/e [W].
 [[nodiscard]] std::vector<friction::ParameterValues> warming(const RigBase& base, double power);
@@ -53,22 +53,23 @@ using RigValues = std::span<const double>;
 using friction::not_negative;
 using friction::positive;
 
-/// Parameters that several rigs have.
-inline constexpr RigParameter excess_parameter = {.name = "excess",
-                                                  .unit = "1",
-                                                  .meaning = "excess of static friction over F0, relative to F0",
-                                                  .range = not_negative,
-                                                  .start = 0.3,
-                                                  .low = 1e-4,
-                                                  .high = 3.0};
-inline constexpr RigParameter fall_parameter = {.name = "stribeck_velocity",
-                                                .unit = "m/s",
-                                                .meaning = "speed over which the excess falls",
-                                                .range = positive,
-                                                .start = 0.3,
-                                                .low = 0.01,
-                                                .high = 5.0};
-inline constexpr RigParameter power_parameter = {
+/// Parameters that several departures have.
+inline constexpr DepartureParameter excess_parameter = {
+    .name = "excess",
+    .unit = "1",
+    .meaning = "excess of static friction over F0, relative to F0",
+    .range = not_negative,
+    .start = 0.3,
+    .low = 1e-4,
+    .high = 3.0};
+inline constexpr DepartureParameter fall_parameter = {.name = "stribeck_velocity",
+                                                      .unit = "m/s",
+                                                      .meaning = "speed over which the excess falls",
+                                                      .range = positive,
+                                                      .start = 0.3,
+                                                      .low = 0.01,
+                                                      .high = 5.0};
+inline constexpr DepartureParameter power_parameter = {
     .name = "power",
     .unit = "W",
     .meaning = "power turned to heat at which the force has fallen to 1/e",

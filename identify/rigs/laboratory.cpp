@@ -6,44 +6,44 @@ namespace {
 
 std::vector<double> no_values(const RigBase&, double) { return {}; }
 
-/// A rig without a departure, in a laboratory that states or reads something wrong.
-Rig misled(std::string_view name, std::string_view meaning, std::string_view severity, Family family,
-           void (*mislead)(Laboratory&, const ReferenceMotion&, double)) {
-  Rig rig{.name = name, .meaning = meaning, .parameters = {}, .build = coulomb_viscous};
-  rig.severity = severity;
-  rig.largest = 1.0;
-  rig.values_at = no_values;
-  rig.mislead = mislead;
-  rig.family = family;
-  return rig;
+/// Coulomb + viscous friction, in a laboratory that states or reads something wrong.
+Departure misled(std::string_view name, std::string_view meaning, std::string_view severity, Family family,
+                 void (*mislead)(Laboratory&, const ReferenceMotion&, double)) {
+  Departure departure{.name = name, .meaning = meaning, .parameters = {}, .build = coulomb_viscous};
+  departure.severity = severity;
+  departure.largest = 1.0;
+  departure.values_at = no_values;
+  departure.mislead = mislead;
+  departure.family = family;
+  return departure;
 }
 
 /// The first sweep of friction that grows from (1 - s/2) F0 to (1 + s/2) F0.
-sim::Model grown_by_half(const RigBase& base, RigValues p) {
+sim::Model grown_by_half(const RigBase& base, DepartureValues p) {
   RigBase first = base;
   first.F0 *= 1.0 - 0.5 * p[0];
   return with_coulomb(first);
 }
 
-Rig drifting_friction() {
-  Rig rig = misled("drifting_friction", "friction grows from sweep to sweep",
-                   "growth of friction from the first sweep to the last, over F0, the mean of both", Family::memory,
-                   [](Laboratory& laboratory, const ReferenceMotion&, double s) {
-                     laboratory.friction_growth = s / (1.0 - 0.5 * s);
-                   });
-  rig.parameters = {{.name = "growth",
-                     .unit = "1",
-                     .meaning = "growth of friction over the record, over its mean",
-                     .range = {.low = 0.0, .high = 1.0}}};
-  rig.build = grown_by_half;
-  rig.values_at = [](const RigBase&, double s) { return std::vector{s}; };
-  rig.needs_sweeps = true;
-  return rig;
+Departure drifting_friction() {
+  Departure departure = misled("drifting_friction", "friction grows from sweep to sweep",
+                               "growth of friction from the first sweep to the last, over F0, the mean of both",
+                               Family::memory, [](Laboratory& laboratory, const ReferenceMotion&, double s) {
+                                 laboratory.friction_growth = s / (1.0 - 0.5 * s);
+                               });
+  departure.parameters = {{.name = "growth",
+                           .unit = "1",
+                           .meaning = "growth of friction over the record, over its mean",
+                           .range = {.low = 0.0, .high = 1.0}}};
+  departure.build = grown_by_half;
+  departure.values_at = [](const RigBase&, double s) { return std::vector{s}; };
+  departure.needs_sweeps = true;
+  return departure;
 }
 
 }  // namespace
 
-std::vector<Rig> laboratory_rigs() {
+std::vector<Departure> laboratory_departures() {
   return {
       drifting_friction(),
       misled("base_gain", "the sensor of the base reads too much", "gain of the sensor of y, less 1",

@@ -13,14 +13,14 @@ namespace dualdamp::identify::rigs {
 
 namespace {
 
-std::vector<Rig> those_that(bool (*belongs)(const Rig&)) {
-  std::vector<Rig> list;
-  std::ranges::copy_if(rigs(), std::back_inserter(list), belongs);
+std::vector<Departure> those_that(bool (*belongs)(const Departure&)) {
+  std::vector<Departure> list;
+  std::ranges::copy_if(all_departures(), std::back_inserter(list), belongs);
   return list;
 }
 
-const Rig* find(const std::vector<Rig>& list, std::string_view name) {
-  const auto found = std::ranges::find(list, name, &Rig::name);
+const Departure* find(const std::vector<Departure>& list, std::string_view name) {
+  const auto found = std::ranges::find(list, name, &Departure::name);
   return found == list.end() ? nullptr : &*found;
 }
 
@@ -46,32 +46,35 @@ std::string_view name_of(Family family) {
   return names.at(static_cast<std::size_t>(family));
 }
 
-const std::vector<Rig>& rigs() {
-  static const std::vector<Rig> list = [] {
-    std::vector<Rig> all = joined({contact_rigs(), sliding_rigs(), film_rigs(), drive_rigs(), laboratory_rigs()});
-    std::ranges::sort(all, {}, &Rig::name);
+const std::vector<Departure>& all_departures() {
+  static const std::vector<Departure> list = [] {
+    std::vector<Departure> all = joined({contact_departures(), sliding_departures(), film_departures(),
+                                         drive_departures(), laboratory_departures()});
+    std::ranges::sort(all, {}, &Departure::name);
     return all;
   }();
   return list;
 }
 
-const std::vector<Rig>& departures() {
-  static const std::vector<Rig> list = those_that([](const Rig& rig) { return !rig.severity.empty(); });
+const std::vector<Departure>& departures() {
+  static const std::vector<Departure> list =
+      those_that([](const Departure& departure) { return !departure.severity.empty(); });
   return list;
 }
 
-const std::vector<Rig>& mechanisms() {
-  static const std::vector<Rig> list = those_that([](const Rig& rig) { return !rig.plausible.empty(); });
+const std::vector<Departure>& mechanisms() {
+  static const std::vector<Departure> list =
+      those_that([](const Departure& departure) { return !departure.plausible.empty(); });
   return list;
 }
 
-const Rig* find_departure(std::string_view name) { return find(departures(), name); }
+const Departure* find_departure(std::string_view name) { return find(departures(), name); }
 
-const Rig* find_mechanism(std::string_view name) { return find(mechanisms(), name); }
+const Departure* find_mechanism(std::string_view name) { return find(mechanisms(), name); }
 
 sim::Model undisturbed(const Truth& truth) { return with_coulomb({.model = truth.model, .F0 = truth.F0}); }
 
-sim::Model departed(const Rig& departure, const Truth& truth, const ReferenceMotion& reference, double s) {
+sim::Model departed(const Departure& departure, const Truth& truth, const ReferenceMotion& reference, double s) {
   const double period = core::two_pi / reference.frequency;
   const RigBase base{.model = truth.model,
                      .F0 = truth.F0,
@@ -81,12 +84,12 @@ sim::Model departed(const Rig& departure, const Truth& truth, const ReferenceMot
   return departure.build(base, departure.values_at(base, s));
 }
 
-sim::Model driven(const Rig& mechanism, const Apparatus& apparatus, const RigFriction& friction,
+sim::Model driven(const Departure& mechanism, const Apparatus& apparatus, const RigFriction& friction,
                   std::span<const double> values, double Y) {
   return mechanism.build(base_of(apparatus, friction, Y), values);
 }
 
-sim::Model released(const Rig& mechanism, const Apparatus& apparatus, const RigFriction& friction,
+sim::Model released(const Departure& mechanism, const Apparatus& apparatus, const RigFriction& friction,
                     std::span<const double> values, double stiffness, double displacement) {
   Apparatus other = apparatus;
   other.oscillator.stiffness = stiffness;

@@ -1,18 +1,19 @@
 #pragma once
-/// Rigs: an oscillator with Coulomb + viscous friction and one addition. Each addition is a real law or drive of
+/// Departures of a rig from an oscillator with Coulomb + viscous friction. Each is a real law, drive or spring of
 /// this program, so that its effect on a test is computed from the motion.
 ///
 /// One table serves two purposes.
 ///
-/// * The stress test uses a rig as a *departure*. One pure number, the severity s > 0, sets all parameters of the
-///   rig, so that the harm of different laws to an identification can be compared. The departure tends to
-///   Coulomb + viscous friction as s -> 0. Severities are ratios to the reference motion: amplitude X and peak
+/// * In the stress test one pure number, the severity s > 0, sets all parameters of a departure, so that the harm
+///   of different laws to an identification can be compared. The departure tends to Coulomb + viscous friction as
+///   s -> 0. Severities are ratios to the reference motion: amplitude X and peak
 ///   speed V of Coulomb + viscous friction in the middle of the range of excitation.
-/// * The study of mechanisms uses a rig as a *mechanism*, with parameters in SI units, so that it can be compared
-///   with a laboratory. F0 and c are then what a test in the middle of the range would find: if a mechanism changes
-///   the viscous force itself, c is the damper that gives the same force at the speed V.
+/// * In the study of mechanisms a departure is a *mechanism*, with parameters in SI units, so that it can be
+///   compared with a laboratory. F0 and c are then what a test in the middle of the range would find: if a
+///   mechanism changes the viscous force itself, c is the damper that gives the same force at the speed V.
 ///
-/// A rig is one entry of a group: `contacts.cpp`, `sliding.cpp`, `films.cpp`, `drives.cpp` or `laboratory.cpp`.
+/// A departure is one entry of a group: `contacts.cpp`, `sliding.cpp`, `films.cpp`, `drives.cpp` or
+/// `laboratory.cpp`.
 
 #include <span>
 #include <string_view>
@@ -35,7 +36,7 @@ struct ReferenceMotion {
   [[nodiscard]] double speed() const { return amplitude * frequency; }
 };
 
-/// What a rig is built on.
+/// The rig that a departure is added to.
 struct RigBase {
   sim::Model model{};  ///< oscillator with its damper c, and its drive; without friction laws
   double F0 = 0.0;     ///< Coulomb friction [N]
@@ -74,7 +75,7 @@ struct Laboratory {
   double friction_growth = 0.0;
 };
 
-struct RigParameter {
+struct DepartureParameter {
   std::string_view name;
   std::string_view unit;  ///< SI
   std::string_view meaning;
@@ -93,26 +94,26 @@ struct PlausibleValues {
   std::string_view because;    ///< where they come from
 };
 
-/// One line of the table: "base + values of the parameters -> model".
-struct Rig {
+/// One line of the table: "base + values of the parameters -> model". The line `coulomb_viscous` adds nothing.
+struct Departure {
   std::string_view name;
   std::string_view meaning;  ///< what happens in the rig, one line
-  std::vector<RigParameter> parameters;
+  std::vector<DepartureParameter> parameters;
   /// `values`: SI, in the order of the parameters.
   sim::Model (*build)(const RigBase& base, std::span<const double> values);
 
-  // For departures. A rig without `severity` is not a departure.
+  // For the stress test. Without `severity` it is a mechanism only.
   std::string_view severity{};  ///< what s is, in words: "deflection of the contact F0/K over X"
   double largest = 0.0;         ///< largest s that has a meaning
   /// The parameters at severity s.
   std::vector<double> (*values_at)(const RigBase& base, double s) = nullptr;
 
-  // For mechanisms. A rig without plausible values is not a mechanism.
+  // For the study of mechanisms. Without plausible values it is no mechanism.
   std::vector<PlausibleValues> plausible{};
   bool forced_only = false;  ///< it is in the drive or the spring: a free decay on another spring does not have it
 
   Family family = Family::none;
-  /// Whether the rig has one F0 and one zeta. Only then are the estimates of it scored.
+  /// Whether a rig with it has one F0 and one zeta. Only then are the estimates of it scored.
   bool has_F0 = true;
   bool has_zeta = true;
   /// It is seen only in records of several sweeps.
@@ -121,16 +122,16 @@ struct Rig {
   void (*mislead)(Laboratory& laboratory, const ReferenceMotion& reference, double s) = nullptr;
 };
 
-/// All rigs, sorted by name.
-[[nodiscard]] const std::vector<Rig>& rigs();
+/// The whole table, sorted by name.
+[[nodiscard]] const std::vector<Departure>& all_departures();
 
-/// The rigs that are departures, and those that are mechanisms; sorted by name.
-[[nodiscard]] const std::vector<Rig>& departures();
-[[nodiscard]] const std::vector<Rig>& mechanisms();
+/// Those with a severity, and those that are mechanisms; sorted by name.
+[[nodiscard]] const std::vector<Departure>& departures();
+[[nodiscard]] const std::vector<Departure>& mechanisms();
 
 /// nullptr if there is no such departure, or no such mechanism.
-[[nodiscard]] const Rig* find_departure(std::string_view name);
-[[nodiscard]] const Rig* find_mechanism(std::string_view name);
+[[nodiscard]] const Departure* find_departure(std::string_view name);
+[[nodiscard]] const Departure* find_mechanism(std::string_view name);
 
 /// Coulomb + viscous friction, which the methods assume and are to find.
 struct Truth {
@@ -142,7 +143,7 @@ struct Truth {
 [[nodiscard]] sim::Model undisturbed(const Truth& truth);
 
 /// The truth with a departure of severity s.
-[[nodiscard]] sim::Model departed(const Rig& departure, const Truth& truth, const ReferenceMotion& reference,
+[[nodiscard]] sim::Model departed(const Departure& departure, const Truth& truth, const ReferenceMotion& reference,
                                   double s);
 
 /// A laboratory's rig, and the motion in the middle of its tests.
@@ -161,12 +162,13 @@ struct RigFriction {
 };
 
 /// The rig driven at the laboratory's frequency with the input amplitude Y [m].
-[[nodiscard]] sim::Model driven(const Rig& mechanism, const Apparatus& apparatus, const RigFriction& friction,
+[[nodiscard]] sim::Model driven(const Departure& mechanism, const Apparatus& apparatus, const RigFriction& friction,
                                 std::span<const double> values, double Y);
 
 /// A release from rest at x = displacement [m], on a spring of this stiffness [N/m], without drive.
-[[nodiscard]] sim::Model released(const Rig& mechanism, const Apparatus& apparatus, const RigFriction& friction,
-                                  std::span<const double> values, double stiffness, double displacement);
+[[nodiscard]] sim::Model released(const Departure& mechanism, const Apparatus& apparatus,
+                                  const RigFriction& friction, std::span<const double> values, double stiffness,
+                                  double displacement);
 
 /// The size that a quantity of this unit has in the reference motion: X for m, wX for m/s, k for N/m, k/X^2 for
 /// N/m^3, kY/(wX)^2 for N.s^2/m^2, the drive's power kY wX/2 for W, 1/w for s, 1 for 1. Errors: `std::logic_error`

@@ -10,7 +10,7 @@ namespace {
 using friction::ParameterValues;
 
 /// Coulomb and viscous friction are (1 + p) times their mean forward, v > 0, and (1 - p) times backward.
-sim::Model asymmetry(const RigBase& base, RigValues p) {
+sim::Model asymmetry(const RigBase& base, DepartureValues p) {
   sim::Model model = base.model;
   model.oscillator.damping = (1.0 - p[0]) * base.c();
   return with_law(model, "asymmetric_coulomb",
@@ -20,7 +20,7 @@ sim::Model asymmetry(const RigBase& base, RigValues p) {
                    {"viscous_backward", 0.0}});
 }
 
-sim::Model friction_lag(const RigBase& base, RigValues p) {
+sim::Model friction_lag(const RigBase& base, DepartureValues p) {
   return with_law(
       base.model, "friction_lag",
       {{"kinetic", base.F0}, {"static", (1.0 + p[0]) * base.F0}, {"stribeck_velocity", p[1]}, {"lag", p[2]}});
@@ -31,7 +31,7 @@ constexpr double mu = 0.3;
 double weight_of(const RigBase& base) { return base.F0 / mu; }
 
 /// The rider's normal vibration has ten times the forcing frequency and a damping ratio of 0.1.
-sim::Model normal_vibration(const RigBase& base, RigValues p) {
+sim::Model normal_vibration(const RigBase& base, DepartureValues p) {
   constexpr double approach = 1e-6;
   const double weight = weight_of(base);
   const double fast = 10.0 * base.reference.frequency;
@@ -47,14 +47,14 @@ sim::Model normal_vibration(const RigBase& base, RigValues p) {
 
 sim::Model on_slope(const RigBase& base, double slope) { return with_coulomb(base, {{"position_slope", slope}}); }
 
-sim::Model position_dependence(const RigBase& base, RigValues p) { return on_slope(base, -base.F0 / p[0]); }
+sim::Model position_dependence(const RigBase& base, DepartureValues p) { return on_slope(base, -base.F0 / p[0]); }
 
-sim::Model position_slope(const RigBase& base, RigValues p) { return on_slope(base, p[0]); }
+sim::Model position_slope(const RigBase& base, DepartureValues p) { return on_slope(base, p[0]); }
 
 /// A share of the friction follows rate and state, and the total is F0 in steady sliding at the peak speed of the
 /// reference motion. With the severity this share tends to 0, not a: the smooth engine needs mu0/a of at most
 /// some 40.
-sim::Model rate_state(const RigBase& base, RigValues p) {
+sim::Model rate_state(const RigBase& base, DepartureValues p) {
   constexpr double mu0 = 0.2;
   RigBase rest = base;
   rest.F0 *= 1.0 - p[0];
@@ -68,22 +68,22 @@ sim::Model rate_state(const RigBase& base, RigValues p) {
 }
 
 /// Friction that varies along the way, in the same way at each passage.
-sim::Model rough_way(const RigBase& base, RigValues p) {
+sim::Model rough_way(const RigBase& base, DepartureValues p) {
   const ParameterValues roughness{{"ratio", p[0]}, {"correlation_length", p[1]}, {"seed", 1.0}};
   return with_coulomb(base, {{"fluctuation", std::vector<ParameterValues>{roughness}}});
 }
 
-sim::Model static_friction(const RigBase& base, RigValues p) {
+sim::Model static_friction(const RigBase& base, DepartureValues p) {
   return with_coulomb(base, {{"static", (1.0 + p[0]) * base.F0}});
 }
 
-sim::Model stribeck(const RigBase& base, RigValues p) {
+sim::Model stribeck(const RigBase& base, DepartureValues p) {
   return with_law(base.model, "stribeck",
                   {{"kinetic", base.F0}, {"static", (1.0 + p[0]) * base.F0}, {"stribeck_velocity", p[1]}});
 }
 
 /// Friction of F0 warms the contact by 4 F0 X each period.
-sim::Model warming_contact(const RigBase& base, RigValues p) {
+sim::Model warming_contact(const RigBase& base, DepartureValues p) {
   const double heat = 2.0 / std::numbers::pi * base.F0 * base.reference.speed();
   RigBase cold = base;
   cold.F0 = when_cold(base, base.F0, heat, p[0]);
@@ -91,7 +91,7 @@ sim::Model warming_contact(const RigBase& base, RigValues p) {
 }
 
 /// Friction that differs between the directions.
-std::vector<Rig> by_direction() {
+std::vector<Departure> by_direction() {
   return {
       {.name = "asymmetry",
        .meaning = "Coulomb and viscous friction are larger forward than backward",
@@ -107,7 +107,7 @@ std::vector<Rig> by_direction() {
 }
 
 /// Coulomb friction that falls with speed.
-std::vector<Rig> by_speed() {
+std::vector<Departure> by_speed() {
   return {
       {.name = "friction_lag",
        .meaning = "friction falls with speed, and follows the speed with a lag",
@@ -168,7 +168,7 @@ std::vector<Rig> by_speed() {
 }
 
 /// Coulomb friction that changes with the position.
-std::vector<Rig> by_place() {
+std::vector<Departure> by_place() {
   return {
       {.name = "position_dependence",
        .meaning = "Coulomb friction falls with the distance from the middle: F0 (1 - |x|/length)",
@@ -209,7 +209,7 @@ std::vector<Rig> by_place() {
 }
 
 /// Constant Coulomb friction, and friction that falls as the contact warms.
-std::vector<Rig> by_warmth() {
+std::vector<Departure> by_warmth() {
   return {
       {.name = "coulomb_viscous",
        .meaning = "no mechanism: the friction that the method assumes",
@@ -238,7 +238,7 @@ std::vector<Rig> by_warmth() {
 
 }  // namespace
 
-std::vector<Rig> sliding_rigs() {
+std::vector<Departure> sliding_departures() {
   return joined({of_family(Family::velocity, by_direction()), of_family(Family::velocity, by_speed()),
                  of_family(Family::position, by_place()), of_family(Family::memory, by_warmth())});
 }

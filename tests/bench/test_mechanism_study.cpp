@@ -40,7 +40,7 @@ bench::MechanismStudy paper() {
 }
 
 /// The study of a test that was made with one mechanism.
-bench::MechanismStudy made_by(const bench::Rig& mechanism, const bench::RigFriction& friction,
+bench::MechanismStudy made_by(const bench::Departure& mechanism, const bench::RigFriction& friction,
                               const std::vector<double>& values) {
   bench::MechanismStudy study = paper();
   const auto response = bench::response(mechanism, rig, friction, values, five.Y);
@@ -54,7 +54,7 @@ bench::MechanismStudy made_by(const bench::Rig& mechanism, const bench::RigFrict
   return study;
 }
 
-bench::MechanismFit best_fit(const bench::Rig& mechanism, const bench::MechanismStudy& study,
+bench::MechanismFit best_fit(const bench::Departure& mechanism, const bench::MechanismStudy& study,
                              const bench::Levels& near) {
   const bench::MechanismSearch search(mechanism, study, rig, near);
   bench::MechanismFit best = search.begin(0);
@@ -130,7 +130,7 @@ TEST_CASE("mechanism study: a test made by a mechanism leads back to it") {
   for (const Case& made : {Case{"viscous_saturating", {3.0, 12.0}, {0.5}, 0.05},
                            Case{"contact_compliance", {6.0, 5.0}, {1500.0}, 0.05}}) {
     CAPTURE(made.name);
-    const bench::Rig& mechanism = *bench::find_mechanism(made.name);
+    const bench::Departure& mechanism = *bench::find_mechanism(made.name);
     const bench::MechanismStudy study = made_by(mechanism, made.friction, made.values);
     const bench::MechanismFit fit = best_fit(mechanism, study, five);
     REQUIRE(fit.outcome.ok());

@@ -89,7 +89,7 @@ void reach_over_nearly_seen(const JointModel& model, const RelaxationTests& test
 Estimate joint_estimate(const JointModel& model, const RelaxationTests& tests) {
   Numbers best;
   std::string relaxed;
-  for (const Departure& departure : tests.departures) {
+  for (const FoundDeparture& departure : tests.departures) {
     best.push_back(departure.explanations.front().index);
     relaxed += (relaxed.empty() ? "" : ", ") + model.relaxations[best.back()].test;
   }
@@ -172,7 +172,7 @@ std::optional<UnseenRange> unseen_friction(const JointModel& model, const Relaxa
   if (!estimate.outcome.ok() || !estimate.interval95) return std::nullopt;
   const JointModel& here = tests.relaxed ? *tests.relaxed : model;
   Numbers taken;
-  for (const Departure& departure : tests.departures) taken.push_back(departure.explanations.front().index);
+  for (const FoundDeparture& departure : tests.departures) taken.push_back(departure.explanations.front().index);
   UnseenRange range{.ends = *estimate.interval95};
   const double freedom = static_cast<double>(here.base.rows() - here.base.cols() - 1) - here.spent;
   const double quantile =

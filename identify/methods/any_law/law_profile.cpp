@@ -227,7 +227,7 @@ bool is_open(const std::vector<SeverityFit>& fits, double least) {
 }
 
 /// Adds fits at growing severities until no region reaches further, or up to `furthest`.
-void follow(const ReadingModel& model, const rigs::Rig& departure, const ChannelNoise& noise, double furthest,
+void follow(const ReadingModel& model, const rigs::Departure& departure, const ChannelNoise& noise, double furthest,
             NearbyOrbits& near, std::vector<SeverityFit>& fits) {
   const SeverityScale scale(&departure);
   constexpr double growth = 1.5;
@@ -340,7 +340,7 @@ std::optional<PlainFit> with_law_error(const ReadingModel& model, PlainFit plain
   return plain;
 }
 
-std::vector<SeverityFit> law_profile(const ReadingModel& model, const rigs::Rig& departure, double largest,
+std::vector<SeverityFit> law_profile(const ReadingModel& model, const rigs::Departure& departure, double largest,
                                      const ChannelNoise& noise, const SeverityFit& plain, double furthest) {
   constexpr int count = 5;
   constexpr double out_of_reach = 60.0;

@@ -75,7 +75,7 @@ struct PlainFit {
 /// early once a severity fits so much worse than a milder one that no region reaches it. Negative `largest`:
 /// severities of the other sign. If the law fits best at `largest`, and far better than plain friction, it is
 /// followed on to `furthest`, of the same sign; zero: it is not followed on.
-[[nodiscard]] std::vector<SeverityFit> law_profile(const ReadingModel& model, const rigs::Rig& departure,
+[[nodiscard]] std::vector<SeverityFit> law_profile(const ReadingModel& model, const rigs::Departure& departure,
                                                    double largest, const ChannelNoise& noise,
                                                    const SeverityFit& plain, double furthest = 0.0);
 

@@ -22,7 +22,7 @@ constexpr std::array two_sided = {"cubic_spring", "detuning", "film_beside_dampe
 /// Positive severity: a film takes half of the viscous force and thins with speed. Negative severity: a drag with
 /// the square of speed beside the damper. c is that of low speeds, as under `viscous_saturating`. To the first
 /// order in the severity both give c v (1 - s |v|/V).
-sim::Model film_beside_damper(const rigs::RigBase& base, rigs::RigValues p) {
+sim::Model film_beside_damper(const rigs::RigBase& base, rigs::DepartureValues p) {
   sim::Model model = rigs::with_coulomb(base);
   const double V = base.reference.speed();
   if (p[0] < 0.0)
@@ -35,7 +35,7 @@ sim::Model film_beside_damper(const rigs::RigBase& base, rigs::RigValues p) {
 }
 
 /// Half of the friction acts directly, the other half behind free play.
-sim::Model partial_play(const rigs::RigBase& base, rigs::RigValues p) {
+sim::Model partial_play(const rigs::RigBase& base, rigs::DepartureValues p) {
   constexpr double share = 0.5;
   rigs::RigBase rigid = base;
   rigid.F0 *= 1.0 - share;
@@ -43,7 +43,7 @@ sim::Model partial_play(const rigs::RigBase& base, rigs::RigValues p) {
 }
 
 /// Friction falls from F0 (1 + s) at rest to F0 at the peak speed, and further beyond.
-sim::Model wide_stribeck(const rigs::RigBase& base, rigs::RigValues p) {
+sim::Model wide_stribeck(const rigs::RigBase& base, rigs::DepartureValues p) {
   const double fallen = 1.0 - std::exp(-1.0);
   return rigs::with_law(base.model, "stribeck",
                         {{"kinetic", (1.0 + p[0] - p[0] / fallen) * base.F0},
@@ -52,8 +52,8 @@ sim::Model wide_stribeck(const rigs::RigBase& base, rigs::RigValues p) {
 }
 
 /// Laws of the library that are not in the stress test.
-const std::vector<rigs::Rig>& further_laws() {
-  static const std::vector<rigs::Rig> list = {
+const std::vector<rigs::Departure>& further_laws() {
+  static const std::vector<rigs::Departure> list = {
       {.name = "film_beside_damper",
        .meaning = "a film that thins under shear, or a drag, beside the damper",
        .parameters = {},
@@ -90,7 +90,7 @@ constexpr std::array no_laws = {"rate_state", "rough_way", "second_mode", "warmi
 constexpr std::array twins = {"detuned_below", "quadratic_drag", "softening_spring", "viscous_power_below"};
 
 /// Severity to which a two-sided law may be followed on its negative side.
-double furthest_below(const rigs::Rig& departure) {
+double furthest_below(const rigs::Departure& departure) {
   if (departure.name == "viscous_power") return -rigs::find_departure("viscous_power_below")->largest;
   return -departure.largest;
 }
@@ -101,14 +101,14 @@ bool names(const List& list, std::string_view name) {
 }
 
 /// All laws that the library can hold. Errors of the laboratory (`mislead`) are not laws.
-const std::vector<rigs::Rig>& all_laws() {
-  static const std::vector<rigs::Rig> list = [] {
-    std::vector<rigs::Rig> all = rigs::departures();
+const std::vector<rigs::Departure>& all_laws() {
+  static const std::vector<rigs::Departure> list = [] {
+    std::vector<rigs::Departure> all = rigs::departures();
     all.insert(all.end(), further_laws().begin(), further_laws().end());
-    std::erase_if(all, [](const rigs::Rig& rig) {
-      return names(no_laws, rig.name) || names(twins, rig.name) || rig.mislead != nullptr;
+    std::erase_if(all, [](const rigs::Departure& departure) {
+      return names(no_laws, departure.name) || names(twins, departure.name) || departure.mislead != nullptr;
     });
-    std::ranges::sort(all, {}, &rigs::Rig::name);
+    std::ranges::sort(all, {}, &rigs::Departure::name);
     return all;
   }();
   return list;
@@ -129,7 +129,7 @@ LawFits fits_of(const ReadingModel& model, const LibraryLaw& law, const PlainFit
 
 std::vector<std::string> library_names() {
   std::vector<std::string> list;
-  for (const rigs::Rig& rig : all_laws()) list.emplace_back(rig.name);
+  for (const rigs::Departure& departure : all_laws()) list.emplace_back(departure.name);
   return list;
 }
 
@@ -137,13 +137,13 @@ bool has_free_spring(const ReadingModel& model) {
   return std::ranges::find(model.nuisances(), "stiffness", &Nuisance::name) != model.nuisances().end();
 }
 
-bool is_of_spring(const rigs::Rig& departure) {
+bool is_of_spring(const rigs::Departure& departure) {
   return departure.name == "detuning" || departure.name == "cubic_spring";
 }
 
 std::vector<LibraryLaw> law_library(const ReadingModel& model, const LawIntervalOptions& options) {
   std::vector<LibraryLaw> laws;
-  for (const rigs::Rig& departure : all_laws()) {
+  for (const rigs::Departure& departure : all_laws()) {
     if (names(options.without, departure.name)) continue;
     if (departure.forced_only && !model.is_driven()) continue;
     LibraryLaw law{.departure = &departure,

@@ -21,7 +21,7 @@ namespace dualdamp::identify {
 
 /// A law at a severity; without a departure it is Coulomb + viscous friction.
 struct LawAt {
-  const rigs::Rig* departure = nullptr;
+  const rigs::Departure* departure = nullptr;
   double severity = 0.0;
 };
 

@@ -119,8 +119,8 @@ std::optional<std::size_t> differing(const Fitted& fitted) {
 
 }  // namespace
 
-void refine(const ReadingModel& model, const rigs::Rig& departure, const ChannelNoise& noise, NearbyOrbits& near,
-            std::vector<SeverityFit>& fits) {
+void refine(const ReadingModel& model, const rigs::Departure& departure, const ChannelNoise& noise,
+            NearbyOrbits& near, std::vector<SeverityFit>& fits) {
   if (fits.size() < 2) return;
   const SeverityScale scale(&departure);
   for (std::size_t i = 0; i < most_further_fits; ++i) {

@@ -12,7 +12,7 @@ namespace dualdamp::identify {
 class SeverityScale {
  public:
   /// nullptr: Coulomb + viscous friction.
-  explicit SeverityScale(const rigs::Rig* departure)
+  explicit SeverityScale(const rigs::Departure* departure)
       : root_(departure != nullptr && departure->family == rigs::Family::presliding) {}
 
   /// The coordinate of a severity, of the same sign.

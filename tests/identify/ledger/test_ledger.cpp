@@ -388,7 +388,7 @@ TEST_CASE("Of two departures of a history the one that explains more is charged 
   const RelaxationTests tests = test_relaxations(std::get<JointModel>(model));
   REQUIRE(tests.departures.size() >= 2);
   const auto& relaxations = std::get<JointModel>(model).relaxations;
-  for (const Departure& departure : tests.departures)
+  for (const FoundDeparture& departure : tests.departures)
     for (const RelaxationTest& test : departure.explanations) {
       CAPTURE(relaxations[test.index].test);
       CHECK(relaxations[test.index].assumption != Assumption::constants);

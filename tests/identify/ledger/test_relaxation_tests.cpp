@@ -65,7 +65,7 @@ TEST_CASE("A departure that has but one sign is tested on that side alone") {
     model.relaxations[0].sign = sign;
     const RelaxationTests found = test_relaxations(model);
     REQUIRE_FALSE(found.departures.empty());
-    return std::ranges::any_of(found.departures, [](const Departure& departure) {
+    return std::ranges::any_of(found.departures, [](const FoundDeparture& departure) {
       return std::ranges::any_of(departure.explanations, [](const RelaxationTest& t) { return t.index == 0; });
     });
   };

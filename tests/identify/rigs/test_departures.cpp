@@ -13,7 +13,7 @@ using namespace dualdamp;
 TEST_CASE("departures: sorted, explained, and smaller with a smaller severity") {
   const auto& list = identify::rigs::departures();
   CHECK(list.size() >= 12);
-  CHECK(std::ranges::is_sorted(list, {}, &identify::rigs::Rig::name));
+  CHECK(std::ranges::is_sorted(list, {}, &identify::rigs::Departure::name));
   identify::rigs::Truth truth;
   truth.model.oscillator = {.mass = 1.0, .stiffness = 100.0, .damping = 4.0};
   truth.model.excitation = {.type = sim::ExcitationType::base_harmonic, .amplitude = 0.1, .frequency = 10.0};
@@ -21,7 +21,7 @@ TEST_CASE("departures: sorted, explained, and smaller with a smaller severity") 
   const sim::SteadyState reference = sim::steady_state(identify::rigs::undisturbed(truth));
   REQUIRE(reference.outcome.ok());
   const identify::rigs::ReferenceMotion motion{.amplitude = reference.amplitude, .frequency = 10.0, .Y = 0.1};
-  for (const identify::rigs::Rig& departure : list) {
+  for (const identify::rigs::Departure& departure : list) {
     CAPTURE(departure.name);
     CHECK(identify::rigs::find_departure(departure.name) == &departure);
     CHECK_FALSE(departure.severity.empty());
@@ -62,7 +62,7 @@ TEST_CASE("departures: where friction is left alone it is the last law, that of 
   truth.model.excitation = {.type = sim::ExcitationType::base_harmonic, .amplitude = 0.1, .frequency = 10.0};
   truth.F0 = 2.0;
   const friction::Instant now{.x = 0.03, .v = 0.4};
-  for (const identify::rigs::Rig& departure : identify::rigs::departures()) {
+  for (const identify::rigs::Departure& departure : identify::rigs::departures()) {
     const bool leaves_it_alone = departure.family == Family::spring || departure.family == Family::sensors ||
                                  departure.family == Family::constants || departure.family == Family::drive;
     if (!leaves_it_alone) continue;
@@ -84,7 +84,7 @@ TEST_CASE("departures: second_mode without friction is two linear masses that we
   identify::rigs::Truth truth;
   truth.model.oscillator = {.mass = 2.0, .stiffness = 200.0, .damping = 3.0};
   truth.model.excitation = {.type = sim::ExcitationType::base_harmonic, .amplitude = 0.1, .frequency = 10.0};
-  const identify::rigs::Rig& departure = *identify::rigs::find_departure("second_mode");
+  const identify::rigs::Departure& departure = *identify::rigs::find_departure("second_mode");
   for (const double s : {0.01, 0.1, 0.3}) {
     for (const double w : {8.5, 10.0, 39.0}) {
       CAPTURE(s, w);

@@ -25,7 +25,7 @@ const identify::rigs::Apparatus rig{.oscillator = oscillator,
 const identify::rigs::RigFriction usual{.F0 = 3.7, .c = 11.0};
 
 sim::SteadyState steady(const std::string& name, const std::vector<double>& values) {
-  const identify::rigs::Rig* mechanism = identify::rigs::find_mechanism(name);
+  const identify::rigs::Departure* mechanism = identify::rigs::find_mechanism(name);
   REQUIRE(mechanism != nullptr);
   const sim::SteadyState state =
       sim::steady_state(identify::rigs::driven(*mechanism, rig, usual, values, rig.reference.Y));
@@ -57,13 +57,13 @@ double force_at(const sim::Model& model, double v) {
 TEST_CASE("mechanisms: sorted, explained, with plausible values and searches within their ranges") {
   const auto& list = identify::rigs::mechanisms();
   CHECK(list.size() >= 16);
-  CHECK(std::ranges::is_sorted(list, {}, &identify::rigs::Rig::name));
-  for (const identify::rigs::Rig& mechanism : list) {
+  CHECK(std::ranges::is_sorted(list, {}, &identify::rigs::Departure::name));
+  for (const identify::rigs::Departure& mechanism : list) {
     CAPTURE(mechanism.name);
     CHECK(identify::rigs::find_mechanism(mechanism.name) == &mechanism);
     CHECK_FALSE(mechanism.meaning.empty());
     CHECK_FALSE(mechanism.plausible.empty());
-    for (const identify::rigs::RigParameter& parameter : mechanism.parameters) {
+    for (const identify::rigs::DepartureParameter& parameter : mechanism.parameters) {
       CAPTURE(parameter.name);
       const double scale = identify::rigs::natural_scale(rig, parameter.unit);
       CHECK(scale > 0.0);
@@ -98,7 +98,7 @@ TEST_CASE("mechanisms: each one vanishes into Coulomb + viscous friction, whose 
       {"viscous_power", {1.000001}}, {"viscous_saturating", {4e5}},
       {"warming_contact", {1e6}},    {"warming_film", {1e6}}};
   const double expected = closed_form(usual.c);
-  for (const identify::rigs::Rig& mechanism : identify::rigs::mechanisms()) {
+  for (const identify::rigs::Departure& mechanism : identify::rigs::mechanisms()) {
     const std::string name(mechanism.name);
     CAPTURE(name);
     REQUIRE(vanishing.contains(name));
@@ -164,7 +164,7 @@ TEST_CASE("mechanisms: what lies in drive or spring is not there in a free decay
   const double stiffness = 4365.0;
   const double zeta = usual.c / (2.0 * std::sqrt(oscillator.mass * stiffness));
   const auto expected = sim::analytic::free_decay_extremes(zeta, usual.F0 / stiffness, 14.7e-3, 5);
-  for (const identify::rigs::Rig& mechanism : identify::rigs::mechanisms()) {
+  for (const identify::rigs::Departure& mechanism : identify::rigs::mechanisms()) {
     CAPTURE(mechanism.name);
     const auto& values = mechanism.plausible.front().values;
     const sim::FreeDecay decay =

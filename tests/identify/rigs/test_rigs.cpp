@@ -1,4 +1,5 @@
-// The table of rigs: each rig is explained, serves a question, and its parameters have a meaning at all severities.
+// The table of departures: each one is explained, serves a question, and its parameters have a meaning at all
+// severities.
 
 #include "identify/rigs/rigs.hpp"
 
@@ -21,18 +22,18 @@ identify::rigs::RigBase base() {
 
 }  // namespace
 
-TEST_CASE("rigs: sorted, explained, each of them a departure or a mechanism") {
-  const auto& list = identify::rigs::rigs();
-  CHECK(std::ranges::is_sorted(list, std::ranges::less{}, &identify::rigs::Rig::name));
-  CHECK(std::ranges::adjacent_find(list, {}, &identify::rigs::Rig::name) == list.end());
-  for (const identify::rigs::Rig& rig : list) {
-    CAPTURE(rig.name);
-    CHECK_FALSE(rig.meaning.empty());
-    const bool is_departure = identify::rigs::find_departure(rig.name) != nullptr;
-    CHECK((is_departure || identify::rigs::find_mechanism(rig.name) != nullptr));
-    CHECK(is_departure == (rig.values_at != nullptr));
-    CHECK(is_departure == (rig.largest > 0.0));
-    for (const identify::rigs::RigParameter& parameter : rig.parameters) {
+TEST_CASE("rigs: sorted, explained, each of them with a severity or a mechanism") {
+  const auto& list = identify::rigs::all_departures();
+  CHECK(std::ranges::is_sorted(list, std::ranges::less{}, &identify::rigs::Departure::name));
+  CHECK(std::ranges::adjacent_find(list, {}, &identify::rigs::Departure::name) == list.end());
+  for (const identify::rigs::Departure& departure : list) {
+    CAPTURE(departure.name);
+    CHECK_FALSE(departure.meaning.empty());
+    const bool has_severity = identify::rigs::find_departure(departure.name) != nullptr;
+    CHECK((has_severity || identify::rigs::find_mechanism(departure.name) != nullptr));
+    CHECK(has_severity == (departure.values_at != nullptr));
+    CHECK(has_severity == (departure.largest > 0.0));
+    for (const identify::rigs::DepartureParameter& parameter : departure.parameters) {
       CHECK_FALSE(parameter.unit.empty());
       CHECK_FALSE(parameter.meaning.empty());
     }
@@ -40,14 +41,14 @@ TEST_CASE("rigs: sorted, explained, each of them a departure or a mechanism") {
 }
 
 TEST_CASE("rigs: parameters of a departure lie in their ranges at all severities") {
-  for (const identify::rigs::Rig& rig : identify::rigs::departures()) {
-    CAPTURE(rig.name);
-    for (const double s : {1e-6 * rig.largest, rig.largest}) {
-      const std::vector<double> values = rig.values_at(base(), s);
-      REQUIRE(values.size() == rig.parameters.size());
+  for (const identify::rigs::Departure& departure : identify::rigs::departures()) {
+    CAPTURE(departure.name);
+    for (const double s : {1e-6 * departure.largest, departure.largest}) {
+      const std::vector<double> values = departure.values_at(base(), s);
+      REQUIRE(values.size() == departure.parameters.size());
       for (std::size_t i = 0; i < values.size(); ++i) {
-        CAPTURE(rig.parameters[i].name, values[i]);
-        CHECK(rig.parameters[i].range.contains(values[i]));
+        CAPTURE(departure.parameters[i].name, values[i]);
+        CHECK(departure.parameters[i].range.contains(values[i]));
       }
     }
   }
@@ -62,10 +63,10 @@ TEST_CASE("rigs: one that serves both questions is the same model in both") {
   const identify::rigs::Apparatus apparatus{.oscillator = common.model.oscillator, .reference = common.reference};
   for (const char* name : {"contact_compliance", "dahl", "detuning", "friction_lag", "stribeck", "viscous_power"}) {
     CAPTURE(name);
-    const identify::rigs::Rig& rig = *identify::rigs::find_departure(name);
+    const identify::rigs::Departure& departure = *identify::rigs::find_departure(name);
     const double s = 0.2;
-    const std::vector<double> values = rig.values_at(common, s);
-    const sim::Model departed = identify::rigs::departed(rig, truth, common.reference, s);
+    const std::vector<double> values = departure.values_at(common, s);
+    const sim::Model departed = identify::rigs::departed(departure, truth, common.reference, s);
     const sim::Model driven = identify::rigs::driven(*identify::rigs::find_mechanism(name), apparatus,
                                                      {common.F0, common.c()}, values, common.reference.Y);
     CHECK(departed.oscillator.damping == driven.oscillator.damping);

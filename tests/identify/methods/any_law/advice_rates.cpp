@@ -46,8 +46,9 @@ bool rejects_plain(const LawIntervals& laws) {
 
 }  // namespace
 
-std::optional<Followed> followed_advice(const LawRig& rig, const identify::rigs::Rig& departure, double severity,
-                                        std::uint64_t seed, const LawIntervalOptions& options, LawRecord kind) {
+std::optional<Followed> followed_advice(const LawRig& rig, const identify::rigs::Departure& departure,
+                                        double severity, std::uint64_t seed, const LawIntervalOptions& options,
+                                        LawRecord kind) {
   const Record first = law_record(kind, rig, &departure, severity, seed);
   if (!first.pairs) return std::nullopt;
   const auto found = design_after(first, rig.constants, {}, options);

@@ -21,7 +21,8 @@ namespace {
 /// Severity. Beyond it, contacts hardly slide, and a drag hides all other friction.
 constexpr double strong = 1.0;
 
-Record three_sweeps(const LawRig& rig, const identify::rigs::Rig& departure, double severity, std::uint64_t seed) {
+Record three_sweeps(const LawRig& rig, const identify::rigs::Departure& departure, double severity,
+                    std::uint64_t seed) {
   constexpr int levels = 8;
   constexpr int sweeps = 3;
   std::vector<PlannedState> states;
@@ -57,7 +58,7 @@ double missed(const Interval& interval, double truth) {
 
 }  // namespace
 
-void print_answers(const identify::rigs::Rig& departure, int records, std::uint64_t first) {
+void print_answers(const identify::rigs::Departure& departure, int records, std::uint64_t first) {
   const double severity = std::min(strong, departure.largest);
   int played = 0;
   std::array<int, 2> held{};

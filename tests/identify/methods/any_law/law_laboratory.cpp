@@ -25,8 +25,8 @@ double natural_frequency(const identify::rigs::Truth& truth) {
   return std::sqrt(truth.model.oscillator.stiffness / truth.model.oscillator.mass);
 }
 
-sim::Model model_of(const LawRig& rig, const identify::rigs::Truth& truth, const identify::rigs::Rig* departure,
-                    double severity) {
+sim::Model model_of(const LawRig& rig, const identify::rigs::Truth& truth,
+                    const identify::rigs::Departure* departure, double severity) {
   sim::Model model = departure == nullptr ? identify::rigs::undisturbed(truth)
                                           : identify::rigs::departed(*departure, truth, rig.reference, severity);
   model.solver.tolerance = accuracy;
@@ -38,8 +38,8 @@ double level_for(const LawRig& rig, double x) {
   return 2.0 * rig.zeta * x + 4.0 / pi * rig.truth.F0 / rig.truth.model.oscillator.stiffness;
 }
 
-std::optional<Pair> state_of(const LawRig& rig, const identify::rigs::Rig* departure, double severity, double Y,
-                             double omega) {
+std::optional<Pair> state_of(const LawRig& rig, const identify::rigs::Departure* departure, double severity,
+                             double Y, double omega) {
   identify::rigs::Truth truth = rig.truth;
   truth.model.excitation = {.type = sim::ExcitationType::base_harmonic, .amplitude = Y, .frequency = omega};
   const sim::SteadyState state =
@@ -82,7 +82,8 @@ class Readings {
   bool complete_ = true;
 };
 
-Record response(const LawRig& rig, const identify::rigs::Rig* departure, double severity, std::uint64_t seed) {
+Record response(const LawRig& rig, const identify::rigs::Departure* departure, double severity,
+                std::uint64_t seed) {
   constexpr int count = 21;
   Readings readings(rig, seed);
   for (int i = 0; i < count; ++i) {
@@ -92,13 +93,14 @@ Record response(const LawRig& rig, const identify::rigs::Rig* departure, double 
   return readings.record();
 }
 
-sim::Model released(const LawRig& rig, const identify::rigs::Rig* departure, double severity) {
+sim::Model released(const LawRig& rig, const identify::rigs::Departure* departure, double severity) {
   identify::rigs::Truth truth = rig.truth;
   truth.model.initial.position = 2.0 * rig.reference.amplitude;
   return model_of(rig, truth, departure, severity);
 }
 
-Record extremes(const LawRig& rig, const identify::rigs::Rig* departure, double severity, std::uint64_t seed) {
+Record extremes(const LawRig& rig, const identify::rigs::Departure* departure, double severity,
+                std::uint64_t seed) {
   constexpr int most = 24;
   const sim::FreeDecay decay = sim::free_decay(released(rig, departure, severity), most);
   Record record;
@@ -110,7 +112,7 @@ Record extremes(const LawRig& rig, const identify::rigs::Rig* departure, double 
   return record;
 }
 
-Record history(const LawRig& rig, const identify::rigs::Rig* departure, double severity, std::uint64_t seed) {
+Record history(const LawRig& rig, const identify::rigs::Departure* departure, double severity, std::uint64_t seed) {
   const double period = 2.0 * pi / rig.reference.frequency;
   constexpr double periods = 12.0;
   constexpr double samples = 100.0;  // in a period
@@ -160,7 +162,7 @@ LawRig law_rig(LawRecord kind, std::uint64_t seed) {
   return rig;
 }
 
-Record states_record(const LawRig& rig, const identify::rigs::Rig* departure, double severity,
+Record states_record(const LawRig& rig, const identify::rigs::Departure* departure, double severity,
                      const std::vector<PlannedState>& states, bool phases, std::uint64_t seed) {
   Readings readings(rig, seed);
   for (const PlannedState& state : states)
@@ -168,7 +170,7 @@ Record states_record(const LawRig& rig, const identify::rigs::Rig* departure, do
   return readings.record();
 }
 
-Record law_record(LawRecord kind, const LawRig& rig, const identify::rigs::Rig* departure, double severity,
+Record law_record(LawRecord kind, const LawRig& rig, const identify::rigs::Departure* departure, double severity,
                   std::uint64_t seed) {
   switch (kind) {
     case LawRecord::response:

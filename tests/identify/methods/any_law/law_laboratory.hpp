@@ -39,11 +39,11 @@ struct LawRig {
 
 /// A record of the rig under a departure of this severity; nullptr: under plain friction. The same seed gives the
 /// same noise under every law. Empty if a state was not found.
-[[nodiscard]] Record law_record(LawRecord kind, const LawRig& rig, const identify::rigs::Rig* departure,
+[[nodiscard]] Record law_record(LawRecord kind, const LawRig& rig, const identify::rigs::Departure* departure,
                                 double severity, std::uint64_t seed);
 
 /// The same for given states.
-[[nodiscard]] Record states_record(const LawRig& rig, const identify::rigs::Rig* departure, double severity,
+[[nodiscard]] Record states_record(const LawRig& rig, const identify::rigs::Departure* departure, double severity,
                                    const std::vector<PlannedState>& states, bool phases, std::uint64_t seed);
 
 inline bool holds(const Interval& interval, double value) { return interval[0] <= value && value <= interval[1]; }

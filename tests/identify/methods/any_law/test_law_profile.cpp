@@ -64,7 +64,7 @@ TEST_CASE("any_law: predictions err by less than a thirtieth of the noise") {
   for (const char* law : {"bouc_wen", "contact_compliance", "dahl", "elasto_plastic", "friction_lag", "iwan",
                           "lugre", "stribeck", "viscous_saturating"}) {
     INFO(law);
-    const identify::rigs::Rig& departure = *identify::rigs::find_departure(law);
+    const identify::rigs::Departure& departure = *identify::rigs::find_departure(law);
     const auto near = model.no_orbits(noise);
     Eigen::VectorXd unknowns = one.plain.fit.unknowns;
     unknowns.tail(2).setZero();
@@ -96,7 +96,7 @@ TEST_CASE("any_law: predictions err by less than a thirtieth of the noise") {
 TEST_CASE("any_law: fits that share derivatives are those that take their own") {
   const Case one = case_of("contact_compliance", 0.15);
   for (const char* law : {"contact_compliance", "dahl", "stribeck"}) {
-    const identify::rigs::Rig& departure = *identify::rigs::find_departure(law);
+    const identify::rigs::Departure& departure = *identify::rigs::find_departure(law);
     constexpr double largest = 0.3;
     const std::vector<SeverityFit> fits =
         law_profile(*one.model, departure, largest, one.plain.noise, one.plain.fit);
