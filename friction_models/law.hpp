@@ -63,15 +63,15 @@ class Law {
   /// The memory holds the way of the mass: a slow motion loads it, as it does a contact spring.
   [[nodiscard]] bool remembers_way() const { return abilities_.remembers_way; }
   /// False: the law remembers nothing; start, guards, jump and advance do nothing and need not be called.
-  [[nodiscard]] bool is_modal() const { return abilities_.modal != nullptr; }
+  [[nodiscard]] bool has_memory() const { return abilities_.memory != nullptr; }
   [[nodiscard]] Memory start(const Instant& now) const {
-    return abilities_.modal != nullptr ? abilities_.modal->start(now) : Memory{};
+    return abilities_.memory != nullptr ? abilities_.memory->start(now) : Memory{};
   }
   void guards(const Memory& memory, const Instant& now, Direction direction, std::vector<double>& values) const {
-    if (abilities_.modal != nullptr) abilities_.modal->guards(memory, now, direction, values);
+    if (abilities_.memory != nullptr) abilities_.memory->guards(memory, now, direction, values);
   }
   void jump(Memory& memory, Trigger trigger, const Instant& now, Direction direction) const {
-    if (abilities_.modal != nullptr) abilities_.modal->jump(memory, trigger, now, direction);
+    if (abilities_.memory != nullptr) abilities_.memory->jump(memory, trigger, now, direction);
   }
 
   /// Whether the law can make the mass stick.

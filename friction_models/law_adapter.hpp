@@ -27,7 +27,7 @@ template <class L, class Part>
 }
 
 template <class L>
-class Modal : public ModalAbility {
+class Remembering : public MemoryAbility {
  public:
   Memory start(const Instant& now) const final { return law_of<L>(*this).start(now); }
   void guards(const Memory& memory, const Instant& now, Direction direction,
@@ -137,7 +137,7 @@ using If = std::conditional_t<has, Base, Without<Base>>;
 
 template <FrictionLaw L>
 class LawAdapter final : public LawModel,
-                         public adapters::If<ModalLaw<L>, adapters::Modal<L>>,
+                         public adapters::If<LawWithMemory<L>, adapters::Remembering<L>>,
                          public adapters::If<HoldsMass<L>, adapters::Sticking<L>>,
                          public adapters::If<AffineLaw<L>, adapters::AllAffine<L>>,
                          public adapters::If<StateLaw<L> || RespondingLaw<L>, adapters::States<L>>,
@@ -163,7 +163,7 @@ class LawAdapter final : public LawModel,
   }
 
   Abilities abilities() const override {
-    return {.modal = as<ModalAbility>(),
+    return {.memory = as<MemoryAbility>(),
             .sticking = as<StickingAbility>(),
             .affine = as<AffineAbility>(),
             .states = as<StateAbility>(),

@@ -47,7 +47,7 @@ concept FrictionLaw = std::copyable<L> && (AffineForce<L> || OwnForce<L> || Resp
 
 /// Has a memory of modes or states. Returns the memory at the start.
 template <class L>
-concept ModalLaw = requires(const L& law, const Instant& now) {
+concept LawWithMemory = requires(const L& law, const Instant& now) {
   { law.start(now) } -> std::same_as<Memory>;
 };
 
@@ -104,7 +104,7 @@ concept ScaledLaw = requires(const L& law, const Memory& memory, std::span<doubl
 /// Has a memory that a slow motion loads: of the way the mass has moved, as a contact spring has, not of times or
 /// speeds.
 template <class L>
-concept WayMemory = ModalLaw<L> && requires { requires L::remembers_way; };
+concept WayMemory = LawWithMemory<L> && requires { requires L::remembers_way; };
 
 /// Depends on the velocity a fixed time ago. Returns this time [s], > 0.
 template <class L>

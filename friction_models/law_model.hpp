@@ -22,7 +22,7 @@ class Ability {
 };
 
 /// The law has a memory: modes or states.
-class ModalAbility : public Ability {
+class MemoryAbility : public Ability {
  public:
   [[nodiscard]] virtual Memory start(const Instant& now) const = 0;
   /// Appends values that are > 0 while the mode holds.
@@ -97,7 +97,7 @@ class AperiodicAbility : public Ability {
 /// The abilities of a law beside its force; a null pointer where the law lacks one. The pointers live as long as
 /// the law that returned them.
 struct Abilities {
-  const ModalAbility* modal = nullptr;
+  const MemoryAbility* memory = nullptr;
   const StickingAbility* sticking = nullptr;
   const AffineAbility* affine = nullptr;
   const StateAbility* states = nullptr;

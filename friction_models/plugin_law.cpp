@@ -57,7 +57,7 @@ struct Destroyer {
 
 /// One law of the library with its parameters. It has the abilities whose functions the table has.
 class PluginLaw final : public LawModel,
-                        public ModalAbility,
+                        public MemoryAbility,
                         public StickingAbility,
                         public StateAbility,
                         public DissipationAbility {
@@ -65,7 +65,7 @@ class PluginLaw final : public LawModel,
   PluginLaw(const Table& table, void* law) : table_(table), owned_(law, Destroyer{table.destroy}) {}
 
   [[nodiscard]] Abilities abilities() const override {
-    return {.modal = table_.states > 0 || table_.jump != nullptr ? this : nullptr,
+    return {.memory = table_.states > 0 || table_.jump != nullptr ? this : nullptr,
             .sticking = table_.static_limit != nullptr ? this : nullptr,
             .states = table_.states > 0 ? this : nullptr,
             .dissipation = table_.dissipation != nullptr ? this : nullptr};

@@ -47,7 +47,7 @@ struct OpenParts {
 };
 
 class ModifiedLaw final : public LawModel,
-                          public ModalAbility,
+                          public MemoryAbility,
                           public StickingAbility,
                           public AffineAbility,
                           public StateAbility,
@@ -154,7 +154,7 @@ class ModifiedLaw final : public LawModel,
 
 Abilities ModifiedLaw::abilities() const {
   const bool is_affine = law_.is_affine() && limits_.settings().are_affine();
-  return {.modal = this,
+  return {.memory = this,
           .sticking = law_.holds_mass() ? this : nullptr,
           .affine = is_affine ? this : nullptr,
           .states = law_.has_rates() || warms() ? this : nullptr,

@@ -89,7 +89,7 @@ class FrictionLoop final : public Experiment {
   /// Says if the mass sticks under forces that the friction does not hold.
   [[nodiscard]] std::vector<std::string> objections(const sim::Model& model, const OwnValues& own) const override {
     if (!std::ranges::any_of(model.friction, &friction::Law::holds_mass) ||
-        std::ranges::any_of(model.friction, has_memory))
+        std::ranges::any_of(model.friction, depends_on_past))
       return {};
     const double offset = own[static_cast<std::size_t>(Own::offset)];
     constexpr double rare = 4.0;
@@ -124,8 +124,8 @@ class FrictionLoop final : public Experiment {
   }
 
  private:
-  [[nodiscard]] static bool has_memory(const friction::Law& law) {
-    return law.is_modal() || law.has_rates() || law.delay() > 0.0 || law.advances();
+  [[nodiscard]] static bool depends_on_past(const friction::Law& law) {
+    return law.has_memory() || law.has_rates() || law.delay() > 0.0 || law.advances();
   }
 
   /// Differentiates or integrates the signals that were not measured. If one is a derivative, all forces are
@@ -210,7 +210,7 @@ class FrictionLoop final : public Experiment {
 
   /// Adds the force of a law. A law without memory needs no path between the samples.
   [[nodiscard]] bool add(const friction::Law& law, double offset, double travel, std::vector<double>& force) const {
-    if (!has_memory(law)) {
+    if (!depends_on_past(law)) {
       for (std::size_t i = 0; i < force.size(); ++i)
         force[i] += law.force({}, instant(i, offset), direction_of(law_v_[i]));
       return true;

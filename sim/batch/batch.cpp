@@ -193,7 +193,7 @@ bool is_constant(const friction::Affine& form) {
 /// The limits of a law if it acts as Coulomb friction: no memory, a force that depends only on the direction of
 /// slip, and a constant limit not below the force.
 std::optional<CoulombLimits> coulomb_limits(const friction::Law& law) {
-  if (!law.is_affine() || law.is_modal() || !law.aperiodic().empty()) return std::nullopt;
+  if (!law.is_affine() || law.has_memory() || !law.aperiodic().empty()) return std::nullopt;
   const friction::Affine forward = law.affine_force({}, {}, friction::Direction::forward);
   const friction::Affine backward = law.affine_force({}, {}, friction::Direction::backward);
   const friction::Affine resting = law.affine_force({}, {}, friction::Direction::none);

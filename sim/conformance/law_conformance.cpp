@@ -62,7 +62,7 @@ std::vector<Affine> forms(const LawHost& host, const Memory& memory) {
   const Law& law = host.law();
   std::vector<Affine> list = {law.affine_force(memory, host.now(), host.direction()),
                               law.affine_limit(memory, host.now())};
-  if (law.is_modal()) law.affine_guards(memory, host.now(), host.direction(), list);
+  if (law.has_memory()) law.affine_guards(memory, host.now(), host.direction(), list);
   return list;
 }
 
@@ -267,7 +267,7 @@ void examine(const LawHost& host, const Path& path, double end, const LawCase& c
     if (!(std::abs(halves.memory().state[i] - whole.memory().state[i]) <= 1e-9 * size))
       faults.add("advance in halves differs");
   }
-  if (law.is_modal()) examine_displaced(host, !c.random, random, faults);
+  if (law.has_memory()) examine_displaced(host, !c.random, random, faults);
   if (law.advances()) examine_rates(host, path, end - host.now().t, faults);
 }
 

@@ -100,14 +100,14 @@ Path LawHost::with_past(const Path& way) {
 
 std::vector<double> LawHost::guards() const {
   std::vector<double> values;
-  if (law_.is_modal()) law_.guards(memory_, now_, direction_, values);
+  if (law_.has_memory()) law_.guards(memory_, now_, direction_, values);
   return values;
 }
 
 void LawHost::change_direction(Direction direction) {
   for (const Direction next : {Direction::none, direction}) {
     direction_ = next;
-    if (law_.is_modal()) law_.jump(memory_, {}, now_, direction_);
+    if (law_.has_memory()) law_.jump(memory_, {}, now_, direction_);
     settle();
   }
 }
@@ -146,7 +146,7 @@ void LawHost::move_to(double x) {
 /// The first time at which a guard is below zero, or `end`. A guard that is above zero at `end` counts as above
 /// zero until then.
 double LawHost::time_of_violation(double end, const Path& path) {
-  if (!law_.is_modal()) return end;
+  if (!law_.has_memory()) return end;
   const auto violated = [&](double t) {
     LawHost trial = *this;
     trial.go(t, path);

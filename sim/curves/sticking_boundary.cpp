@@ -37,7 +37,7 @@ struct ForceLimits {
 };
 
 bool is_coulomb(const friction::Law& law, const friction::Memory& memory) {
-  if (law.is_modal()) return false;
+  if (law.has_memory()) return false;
   const double kinetic = law.force(memory, {}, Direction::forward);
   return law.force(memory, {.x = 1.0, .v = 1.0}, Direction::forward) == kinetic &&
          law.force(memory, {.v = -1.0}, Direction::backward) == -kinetic &&

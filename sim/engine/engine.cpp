@@ -61,9 +61,9 @@ Engine::Engine(const Model& model) : model_(valid(model)), drive_(model.oscillat
           "steady_state, xy_curve, frequency_response, regime_map");
   for (const friction::Law& law : model_.friction) {
     holds_mass_.push_back(law.holds_mass());
-    modal_.push_back(law.is_modal());
+    has_memory_.push_back(law.has_memory());
     can_stick_ = can_stick_ || law.holds_mass();
-    some_modal_ = some_modal_ || law.is_modal();
+    some_memory_ = some_memory_ || law.has_memory();
     const friction::Memory memory = law.start({.x = model.initial.position, .v = model.initial.velocity});
     scheduled_ = scheduled_ || std::isfinite(law.next_change(memory));
   }
@@ -175,7 +175,7 @@ void Engine::pass_period() {
 void Engine::change_direction(Direction direction) {
   direction_ = direction;
   for (std::size_t i = 0; i < model_.friction.size(); ++i) {
-    if (modal_[i]) jump(i, {});
+    if (has_memory_[i]) jump(i, {});
   }
 }
 

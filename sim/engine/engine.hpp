@@ -136,8 +136,8 @@ class Engine {
   Model model_;
   Drive drive_;
   std::vector<char> holds_mass_;  ///< of each law
-  std::vector<char> modal_;       ///< of each law
-  bool some_modal_ = false;
+  std::vector<char> has_memory_;  ///< of each law
+  bool some_memory_ = false;
   bool scheduled_ = false;  ///< some law changes its mode at a known time
   bool can_stick_ = false;  ///< some law has a static limit
   double x_ = 0.0;

@@ -226,7 +226,7 @@ void ExactEngine::keep_time_rounding(double error, double slope, double curvatur
 /// Ends the interval after s: advances position, velocity, drive and the laws' states.
 void ExactEngine::advance(double s, bool to_period_end) {
   const core::ExponentialBasis& basis = mode_->basis();
-  if (some_modal_ && s > 0.0) keep_rounding(s);
+  if (some_memory_ && s > 0.0) keep_rounding(s);
   const friction::Instant before = now();
   if (direction_ != Direction::none && s > 0.0) {
     x_ = core::evaluate(basis, motion_, crossing_.values);
@@ -246,7 +246,7 @@ void ExactEngine::advance(double s, bool to_period_end) {
     drive_.pass(s);
   }
   for (std::size_t i = 0; i < model_.friction.size(); ++i) {
-    if (modal_[i]) model_.friction[i].advance(memories_[i], before, now(), s, direction_);
+    if (has_memory_[i]) model_.friction[i].advance(memories_[i], before, now(), s, direction_);
   }
 }
 
@@ -288,7 +288,7 @@ void ExactEngine::track_motion(const friction::Instant& begin, double s) {
 void ExactEngine::track_states(const friction::Instant& begin, double s, bool event) {
   for (std::size_t i = 0; i < model_.friction.size() && sensitivity_.has_states(); ++i) {
     const friction::Law& law = model_.friction[i];
-    if (modal_[i] && law.advances())
+    if (has_memory_[i] && law.advances())
       sensitivity_.advance(law, i, memories_before_[i], memories_[i], begin, now(), s, direction_);
   }
   if (!event || sensitivity_.at_crossing()) return;

@@ -20,7 +20,7 @@ void ExactEngine::collect(bool with_guards) {
   total_ = &totals_[static_cast<std::size_t>(index)];
   // Laws without modes have the same force in every interval of one direction.
   if (total_->lasting) return;
-  total_->lasting = !some_modal_;
+  total_->lasting = !some_memory_;
   const friction::Instant at = now();
   const bool sticks = direction_ == Direction::none;
   total_->force = total_->limit = {};
@@ -32,7 +32,7 @@ void ExactEngine::collect(bool with_guards) {
     const friction::Law& law = model_.friction[i];
     if (sticks && holds_mass_[i]) add_limit(law.affine_limit(memories_[i], at));
     add_force(law.affine_force(memories_[i], at, direction_));
-    if (!with_guards || !modal_[i]) continue;
+    if (!with_guards || !has_memory_[i]) continue;
     const std::size_t before = law_guards_.size();
     law.affine_guards(memories_[i], at, direction_, law_guards_);
     law_guard_counts_[i] = law_guards_.size() - before;

@@ -17,7 +17,7 @@ Eigen::Index at(std::size_t i) { return static_cast<Eigen::Index>(i); }
 
 }  // namespace
 
-void Sensitivity::begin(const Memories& memories, bool modal) {
+void Sensitivity::begin(const Memories& memories, bool with_memory) {
   std::size_t columns = 2;
   for (const Memory& memory : memories) columns += memory.state.size();
   motion_.assign(columns, Eigen::Vector2d::Zero());
@@ -32,7 +32,7 @@ void Sensitivity::begin(const Memories& memories, bool modal) {
   }
   guard_.assign(columns, 0.0);
   shift_.assign(columns, 0.0);
-  with_states_ = modal;
+  with_states_ = with_memory;
   crossing_ = false;
 }
 

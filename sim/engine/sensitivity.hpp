@@ -34,9 +34,9 @@ class Sensitivity {
     double acceleration = 0.0;
   };
 
-  /// Sets the derivative to identity for a motion that begins with these memories. `modal`: some law may have
+  /// Sets the derivative to identity for a motion that begins with these memories. `with_memory`: some law may have
   /// states now or later.
-  void begin(const Memories& memories, bool modal);
+  void begin(const Memories& memories, bool with_memory);
 
   /// Computes the forces that perturbed states exert in the interval that begins now. `decays`: of the transients.
   void lay(Laws laws, const Memories& memories, const friction::Instant& now, friction::Direction direction,

@@ -41,7 +41,7 @@ void SmoothEngine::lay_watches() {
       watches_.push_back({.ending = StickEnd{release}, .scale = scale});
   }
   for (std::size_t i = 0; i < model_.friction.size(); ++i) {
-    if (!modal_[i]) continue;
+    if (!has_memory_[i]) continue;
     guard_values_.clear();
     flow_.guards(i, X_, local_time_, guard_values_);
     for (std::size_t j = 0; j < guard_values_.size(); ++j) {
@@ -55,7 +55,7 @@ void SmoothEngine::lay_watches() {
 /// cancels in it now.
 void SmoothEngine::size_up_guards() {
   constexpr double part = 1e-3;
-  if (!some_modal_) return;
+  if (!some_memory_) return;
   std::vector<double> here;
   evaluate_guards(X_, local_time_, here);
   const auto add = [&](const std::vector<double>& values, double factor, double present) {
@@ -89,7 +89,7 @@ void SmoothEngine::evaluate_guards(std::span<const double> X, double t, std::vec
     values.push_back(limit + pull);
   }
   for (std::size_t i = 0; i < model_.friction.size(); ++i) {
-    if (modal_[i]) flow_.guards(i, X, t, values);
+    if (has_memory_[i]) flow_.guards(i, X, t, values);
   }
 }
 

@@ -33,7 +33,7 @@ class HarmonicBalance {
     force_ = model.excitation.moves_base() ? (o_.mass * omega_ * omega_ - damper) * base_ : drive.phasor(0);
     for (const friction::Law& law : model.friction) {
       const friction::Memory memory = law.start({});
-      if (law.is_modal()) continue;
+      if (law.has_memory()) continue;
       friction_ += 0.5 * (law.force(memory, {.v = 1e-3}, Direction::forward) -
                           law.force(memory, {.v = -1e-3}, Direction::backward));
     }

@@ -40,7 +40,7 @@ bool rises_with_speed(const Law& law, double t, Direction direction) {
 }
 
 bool is_monotone(const Law& law) {
-  if (law.is_modal() || law.delay() > 0.0) return false;
+  if (law.has_memory() || law.delay() > 0.0) return false;
   const auto same_at = [&](double x, Direction direction) {
     const Instant at{.t = 0.3, .x = x, .v = sign(direction)};
     return law.force({}, at, direction) == law.force({}, {.t = 0.3, .v = sign(direction)}, direction);

@@ -28,7 +28,7 @@ using friction::Memory;
 std::vector<std::string> names_of(const Law& law) {
   const friction::Abilities& a = law.abilities();
   std::vector<std::string> names;
-  if (a.modal != nullptr) names.emplace_back("modal");
+  if (a.memory != nullptr) names.emplace_back("memory");
   if (a.sticking != nullptr) names.emplace_back("sticking");
   if (a.affine != nullptr) names.emplace_back("affine");
   if (a.states != nullptr) names.emplace_back("states");
@@ -54,19 +54,19 @@ TEST_CASE("a law has the abilities that its class states", "[friction][law]") {
   const friction::StribeckCurve curve(2.0, 3.0, 0.05);
   CHECK(names_of(Law(friction::Coulomb(2.0, 3.0))) == Names{"sticking", "affine"});
   CHECK(names_of(Law(friction::ContactCompliance(2.0, 3.0, 1e4, 10.0))) ==
-        Names{"modal", "affine", "states", "advance", "dissipation"});
-  CHECK(names_of(Law(friction::Lugre(curve, {1e4, 20.0, 0.0}))) == Names{"modal", "states", "dissipation"});
+        Names{"memory", "affine", "states", "advance", "dissipation"});
+  CHECK(names_of(Law(friction::Lugre(curve, {1e4, 20.0, 0.0}))) == Names{"memory", "states", "dissipation"});
   CHECK(names_of(Law(friction::DelayedFriction(curve, 0.02))) == Names{"sticking", "delay"});
-  CHECK(names_of(Law(friction::Bristle(500.0, 2e-3, 3, 1))) == Names{"modal", "affine", "aperiodic"});
+  CHECK(names_of(Law(friction::Bristle(500.0, 2e-3, 3, 1))) == Names{"memory", "affine", "aperiodic"});
 }
 
 TEST_CASE("a modified law keeps the abilities of its law that the modifiers leave it", "[friction][law]") {
   const Law coulomb(friction::Coulomb(2.0, 3.0));
   CHECK(names_of(friction::modified(coulomb, {{"drift", 0.1}})) ==
-        Names{"modal", "sticking", "affine", "dissipation", "schedule", "aperiodic"});
+        Names{"memory", "sticking", "affine", "dissipation", "schedule", "aperiodic"});
   const friction::ParameterValues warming{{"power", 3.0}, {"time_constant", 1.0}};
   CHECK(names_of(friction::modified(coulomb, {{"warming", std::vector{warming}}})) ==
-        Names{"modal", "sticking", "states", "dissipation", "schedule", "aperiodic"});
+        Names{"memory", "sticking", "states", "dissipation", "schedule", "aperiodic"});
   const Law delayed(friction::DelayedFriction(friction::StribeckCurve(2.0, 3.0, 0.05), 0.02));
   CHECK(friction::modified(delayed, {{"drift", 0.1}}).delay() == 0.02);
 }

@@ -31,7 +31,7 @@ TEST_CASE("coulomb has the abilities it claims and no others", "[friction][coulo
   const friction::Law law(Coulomb(2.0, 2.0));
   CHECK(law.is_affine());
   CHECK(law.holds_mass());
-  CHECK_FALSE(law.is_modal());
+  CHECK_FALSE(law.has_memory());
   CHECK_FALSE(law.has_rates());
 }
 

@@ -107,7 +107,7 @@ TEST_CASE("modifiers that do nothing leave the law as it is", "[friction][modifi
   zero.set("drift", 0.0);
   zero.set("position_slope", 0.0);
   const Law law = coulomb_with(2.0, 3.0, zero);
-  CHECK_FALSE(law.is_modal());
+  CHECK_FALSE(law.has_memory());
   CHECK(law.aperiodic().empty());
   CHECK(coulomb_with(2.0, 3.0, {{"position_slope", 1.0}}).aperiodic().empty());
   CHECK(coulomb_with(2.0, 3.0, {{"drift", 1.0}}).aperiodic() == "its force limits drift");

@@ -71,7 +71,7 @@ TEST_CASE("departures: where friction is left alone it is the last law, that of 
         identify::rigs::departed(departure, truth, {.amplitude = 0.12, .frequency = 10.0, .Y = 0.1}, 0.1);
     REQUIRE_FALSE(model.friction.empty());
     const friction::Law& last = model.friction.back();
-    CHECK_FALSE(last.is_modal());
+    CHECK_FALSE(last.has_memory());
     CHECK(last.static_limit({}, now) == 2.0);
     CHECK(last.force({}, now, friction::Direction::forward) == 2.0);
     CHECK(last.force({}, now, friction::Direction::backward) == -2.0);
