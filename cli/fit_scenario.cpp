@@ -8,6 +8,7 @@
 
 #include "cli/option_text.hpp"
 #include "core/diagnostics.hpp"
+#include "scenarios/format/excitations.hpp"
 #include "scenarios/format/json_text.hpp"
 #include "scenarios/format/tree.hpp"
 #include "scenarios/results/files.hpp"
@@ -100,7 +101,7 @@ bool has_harmonic_base(const std::string& rig, const std::string& name) {
   const scenarios::Document document(name, rig);
   const scenarios::Entry* section = document.root().find("excitation");
   const scenarios::Entry* type = section == nullptr ? nullptr : section->value.find("type");
-  return type != nullptr && type->value.text == "base_harmonic";
+  return type != nullptr && scenarios::excitation_type(type->value.text) == sim::ExcitationType::base_harmonic;
 }
 
 }  // namespace

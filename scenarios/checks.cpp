@@ -217,7 +217,7 @@ void check_loss_factor(CheckedFile& file, const Analysis& analysis, const Analys
 void check_load_modulation(CheckedFile& file) {
   const Json& values = file.values();
   if (!values.contains("system") || !values.at("system").contains("friction")) return;
-  if (file.text_at("excitation", "type").ends_with("_harmonic")) return;
+  if (excitation_named(file.text_at("excitation", "type")).is_harmonic()) return;
   const Json& friction = values.at("system").at("friction");
   const Json list = friction.is_array() ? friction : Json::array({friction});
   for (const Json& law : list)

@@ -9,6 +9,7 @@
 #include "friction_models/registry.hpp"
 #include "identify/record.hpp"
 #include "scenarios/checks.hpp"
+#include "scenarios/format/excitations.hpp"
 #include "scenarios/format/law_values.hpp"
 #include "scenarios/format/reader.hpp"
 #include "scenarios/format/values.hpp"
@@ -81,23 +82,7 @@ sim::Oscillator oscillator(const Json& system) {
 }
 
 sim::Excitation excitation(const Json& section) {
-  static const std::vector<std::pair<std::string, sim::ExcitationType>> types = {
-      {"none", sim::ExcitationType::none},
-      {"base_harmonic", sim::ExcitationType::base_harmonic},
-      {"force_harmonic", sim::ExcitationType::force_harmonic},
-      {"base_ramp", sim::ExcitationType::base_ramp},
-      {"force_ramp", sim::ExcitationType::force_ramp},
-      {"base_noise", sim::ExcitationType::base_noise},
-      {"force_noise", sim::ExcitationType::force_noise},
-      {"base_chirp", sim::ExcitationType::base_chirp},
-      {"force_chirp", sim::ExcitationType::force_chirp},
-      {"base_table", sim::ExcitationType::base_samples},
-      {"force_table", sim::ExcitationType::force_samples},
-      {"measured_base", sim::ExcitationType::base_samples},
-      {"measured_force", sim::ExcitationType::force_samples}};
-  sim::Excitation result;
-  result.type =
-      std::ranges::find(types, section.at("type").get<std::string>(), &decltype(types)::value_type::first)->second;
+  sim::Excitation result = excitation_named(section.at("type").get<std::string>());
   result.amplitude = number_or(section, "amplitude", 0.0);
   result.frequency = number_or(section, "frequency", 0.0);
   result.phase = number_or(section, "phase", 0.0);

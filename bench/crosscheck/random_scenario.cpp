@@ -35,11 +35,12 @@ Json harmonics(Draws& draws, double amplitude) {
   return list;
 }
 
-Json harmonic(Draws& draws, const Sizes& sizes, const char* type) {
-  const bool moves_base = std::string_view(type) == "base_harmonic";
+Json harmonic(Draws& draws, const Sizes& sizes, bool moves_base) {
   const double ratio = sizes.wide ? draws.logarithmic(1e-3, 1e3) : draws.logarithmic(0.05, 20.0);
   const double amplitude = moves_base ? sizes.length() : sizes.force;
-  Json drive = {{"type", type}, {"amplitude", amplitude}, {"frequency", frequency(ratio * sizes.natural)}};
+  Json drive = {{"type", moves_base ? "base_harmonic" : "force_harmonic"},
+                {"amplitude", amplitude},
+                {"frequency", frequency(ratio * sizes.natural)}};
   if (draws.chance(0.6)) drive["phase"] = draws.angle();
   if (draws.chance(0.2)) drive["harmonics"] = harmonics(draws, amplitude);
   if (!moves_base && draws.chance(0.3)) drive["offset"] = draws.sign() * sizes.force * draws.logarithmic(1e-2, 1.0);
@@ -47,11 +48,11 @@ Json harmonic(Draws& draws, const Sizes& sizes, const char* type) {
 }
 
 /// A ramp that reaches the force of the drive within 0.1 to 100 natural periods, so that the friction gives way.
-Json ramp(Draws& draws, const Sizes& sizes, const char* type) {
+Json ramp(Draws& draws, const Sizes& sizes, bool moves_base) {
   const double time = draws.logarithmic(0.1, 100.0) * core::two_pi / sizes.natural;
   const double sign = draws.sign();
-  if (std::string_view(type) == "base_ramp") return {{"type", type}, {"velocity", sign * sizes.length() / time}};
-  return {{"type", type}, {"rate", sign * sizes.force / time}};
+  if (moves_base) return {{"type", "base_ramp"}, {"velocity", sign * sizes.length() / time}};
+  return {{"type", "force_ramp"}, {"rate", sign * sizes.force / time}};
 }
 
 Json noise(Draws& draws, const Sizes& sizes) {
@@ -102,10 +103,10 @@ Json chirp(Draws& draws, const Sizes& sizes) {
 
 Json excitation(Draws& draws, const Sizes& sizes, bool may_jump) {
   const int kind = draws.pick(20);
-  if (kind < 10) return harmonic(draws, sizes, "base_harmonic");
-  if (kind < 14) return harmonic(draws, sizes, "force_harmonic");
-  if (kind < 16) return ramp(draws, sizes, "base_ramp");
-  if (kind < 17) return ramp(draws, sizes, "force_ramp");
+  if (kind < 10) return harmonic(draws, sizes, true);
+  if (kind < 14) return harmonic(draws, sizes, false);
+  if (kind < 16) return ramp(draws, sizes, true);
+  if (kind < 17) return ramp(draws, sizes, false);
   if (kind < 18) return noise(draws, sizes);
   if (kind < 19) return draws.chance(0.7) ? table(draws, sizes, may_jump) : chirp(draws, sizes);
   return {{"type", "none"}};

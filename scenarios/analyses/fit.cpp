@@ -92,13 +92,10 @@ sim::Model outlined_model(const CheckedFile& file) {
   model.oscillator.mass = file.number_at("system", "mass").value_or(identify::unknown);
   model.oscillator.stiffness = file.number_at("system", "stiffness").value_or(identify::unknown);
   model.oscillator.coordinate = file.coordinate();
-  const std::string type = file.text_at("excitation", "type");
-  if (type == "base_harmonic") model.excitation.type = sim::ExcitationType::base_harmonic;
-  if (type == "force_harmonic") model.excitation.type = sim::ExcitationType::force_harmonic;
-  const bool other = model.excitation.type == sim::ExcitationType::none && !type.empty() && type != "none";
-  if (other)
+  model.excitation = excitation_named(file.text_at("excitation", "type"));
+  if (!model.excitation.is_harmonic() && model.excitation.type != sim::ExcitationType::none)
     model.excitation.type =
-        moves_base(type) ? sim::ExcitationType::base_samples : sim::ExcitationType::force_samples;
+        model.excitation.moves_base() ? sim::ExcitationType::base_samples : sim::ExcitationType::force_samples;
   model.excitation.amplitude = file.number_at("excitation", "amplitude").value_or(0.0);
   if (file.text_at("excitation", "frequency").ends_with("rad/s"))
     model.excitation.frequency = *file.number_at("excitation", "frequency");

@@ -1,14 +1,16 @@
 #include "scenarios/format/excitations.hpp"
 
+#include <algorithm>
+#include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "friction_models/modifiers/modifiers.hpp"
 #include "friction_models/parameters.hpp"
 #include "friction_models/registry.hpp"
 #include "scenarios/format/common_keys.hpp"
 #include "scenarios/format/limits.hpp"
-#include "sim/excitation.hpp"
 
 namespace dualdamp::scenarios {
 
@@ -93,37 +95,93 @@ std::vector<Field> table_fields(const std::string& unit) {
           repeat()};
 }
 
-Choice make_excitations() {
+/// An excitation type: its name in a file, what it is in a model, and its keys.
+struct ExcitationRow {
+  sim::ExcitationType type = sim::ExcitationType::none;
+  Variant variant;
+  SamplesIn samples = SamplesIn::nowhere;
+};
+
+std::vector<ExcitationRow> make_rows() {
+  using enum sim::ExcitationType;
   std::vector<Field> force = harmonic_fields("N");
   force.push_back(quantity("offset", {"N"}, "constant force added").with_fallback(0.0));
-  return {"type",
-          {{"none", "no excitation: free vibration", {}},
-           {"base_harmonic", "base motion y(t) = A cos(w t + phase)", {harmonic_fields("m")}, "m"},
-           {"force_harmonic", "force on the mass f(t) = A cos(w t + phase) + offset", {std::move(force)}, "N"},
-           {"base_ramp",
-            "base moving at constant velocity, y(t) = V t",
-            {{quantity("velocity", {"m/s"}, "velocity V").required()}}},
-           {"force_ramp",
-            "force growing at constant rate, f(t) = R t",
-            {{quantity("rate", {"N/s"}, "rate R").required()}}},
-           {"base_noise", "base in random motion y(t), band-limited white", {noise_fields("m^2.s")}},
-           {"force_noise", "random force on the mass f(t), band-limited white", {noise_fields("N^2.s")}},
-           {"base_chirp", "base motion A cos(phi(t)) with a frequency sweep", {chirp_fields("m")}, "m"},
-           {"force_chirp", "force A cos(phi(t)) on the mass with a frequency sweep", {chirp_fields("N")}, "N"},
-           {"base_table", "base motion y(t) given by a list of times and values", {table_fields("m")}},
-           {"force_table", "force on the mass f(t) given by a list of times and values", {table_fields("N")}},
-           {"measured_base", "base motion y(t) from a data file", {measured_fields("y", "m")}},
-           {"measured_force", "force on the mass f(t) from a data file", {measured_fields("force", "N")}}}};
+  return {
+      {none, {"none", "no excitation: free vibration", {}}},
+      {base_harmonic, {"base_harmonic", "base motion y(t) = A cos(w t + phase)", {harmonic_fields("m")}, "m"}},
+      {force_harmonic,
+       {"force_harmonic", "force on the mass f(t) = A cos(w t + phase) + offset", {std::move(force)}, "N"}},
+      {base_ramp,
+       {"base_ramp",
+        "base moving at constant velocity, y(t) = V t",
+        {{quantity("velocity", {"m/s"}, "velocity V").required()}}}},
+      {force_ramp,
+       {"force_ramp",
+        "force growing at constant rate, f(t) = R t",
+        {{quantity("rate", {"N/s"}, "rate R").required()}}}},
+      {base_noise, {"base_noise", "base in random motion y(t), band-limited white", {noise_fields("m^2.s")}}},
+      {force_noise, {"force_noise", "random force on the mass f(t), band-limited white", {noise_fields("N^2.s")}}},
+      {base_chirp, {"base_chirp", "base motion A cos(phi(t)) with a frequency sweep", {chirp_fields("m")}, "m"}},
+      {force_chirp,
+       {"force_chirp", "force A cos(phi(t)) on the mass with a frequency sweep", {chirp_fields("N")}, "N"}},
+      {base_samples,
+       {"base_table", "base motion y(t) given by a list of times and values", {table_fields("m")}},
+       SamplesIn::scenario},
+      {force_samples,
+       {"force_table", "force on the mass f(t) given by a list of times and values", {table_fields("N")}},
+       SamplesIn::scenario},
+      {base_samples,
+       {"measured_base", "base motion y(t) from a data file", {measured_fields("y", "m")}},
+       SamplesIn::data_file},
+      {force_samples,
+       {"measured_force", "force on the mass f(t) from a data file", {measured_fields("force", "N")}},
+       SamplesIn::data_file}};
+}
+
+const std::vector<ExcitationRow>& rows() {
+  static const std::vector<ExcitationRow> list = make_rows();
+  return list;
+}
+
+const ExcitationRow* find_row(std::string_view name) {
+  const auto row =
+      std::ranges::find_if(rows(), [name](const ExcitationRow& one) { return one.variant.name == name; });
+  return row == rows().end() ? nullptr : &*row;
 }
 
 }  // namespace
 
 const Choice& excitations() {
-  static const Choice choice = make_excitations();
+  static const Choice choice = [] {
+    Choice result{"type", {}};
+    for (const ExcitationRow& row : rows()) result.variants.push_back(row.variant);
+    return result;
+  }();
   return choice;
 }
 
-bool moves_base(std::string_view type) { return type.starts_with("base_") || type == "measured_base"; }
+std::optional<sim::ExcitationType> excitation_type(std::string_view name) {
+  const ExcitationRow* row = find_row(name);
+  return row == nullptr ? std::nullopt : std::optional(row->type);
+}
+
+sim::Excitation excitation_named(std::string_view name) {
+  return {.type = excitation_type(name).value_or(sim::ExcitationType::none)};
+}
+
+SamplesIn samples_of(std::string_view name) {
+  const ExcitationRow* row = find_row(name);
+  return row == nullptr ? SamplesIn::nowhere : row->samples;
+}
+
+bool moves_base(std::string_view name) { return excitation_named(name).moves_base(); }
+
+std::vector<std::string> harmonic_excitations() {
+  std::vector<std::string> names;
+  for (const ExcitationRow& row : rows())
+    if (excitation_named(row.variant.name).is_harmonic()) names.push_back(row.variant.name);
+  return names;
+}
 
 Choice friction_laws() {
   Choice result{"law", {}};

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "scenarios/format/excitations.hpp"
+
 namespace dualdamp::scenarios {
 
 struct Needs {
@@ -15,9 +17,6 @@ struct Needs {
   bool whole_system = true;              ///< mass, stiffness above zero, and damping or damping_ratio must be there
   std::string reason;                    ///< why these excitations only, for messages
 };
-
-/// The excitations that have a steady state.
-[[nodiscard]] inline std::vector<std::string> harmonic_excitations() { return {"base_harmonic", "force_harmonic"}; }
 
 /// Needs of an analysis of steady states; `drive`: keys of the excitation that the analysis does not vary.
 [[nodiscard]] inline std::vector<Needs> needs_of_steady_states(std::vector<std::string> drive) {

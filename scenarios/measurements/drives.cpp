@@ -199,8 +199,9 @@ std::optional<identify::MeasuredSignal> read_signal(CheckedFile& file, const std
 void read_drive(CheckedFile& file) {
   const std::string name(section_name);
   const std::string type = file.text_at(name, "type");
-  const bool is_listed = type.ends_with("_table");
-  if (!is_listed && !type.starts_with("measured_")) return;
+  const SamplesIn samples_in = samples_of(type);
+  if (samples_in == SamplesIn::nowhere) return;
+  const bool is_listed = samples_in == SamplesIn::scenario;
   const Json& section = file.values().at(name);
   for (const char* key : {"times", "values"})
     if (is_listed && !section.contains(key)) return;  // reported
@@ -218,11 +219,11 @@ void read_drive(CheckedFile& file) {
 void check_drive(CheckedFile& file, double duration) {
   const std::string name(section_name);
   const std::string type = file.text_at(name, "type");
+  const sim::Excitation drive = excitation_named(type);
   double pieces = 0.0;
   double end = duration;
-  if (type.ends_with("_noise"))
-    pieces = duration * file.number_at(name, "bandwidth").value_or(0.0) / std::numbers::pi;
-  if (type.ends_with("_chirp") && file.has(name, "from") && file.has(name, "to") && file.has(name, "duration")) {
+  if (drive.is_noise()) pieces = duration * file.number_at(name, "bandwidth").value_or(0.0) / std::numbers::pi;
+  if (drive.is_chirp() && file.has(name, "from") && file.has(name, "to") && file.has(name, "duration")) {
     const sim::Chirp chirp = chirp_of(file.values().at(name));
     pieces = sim::chirp_pieces(chirp);
     end = chirp.duration;
@@ -232,11 +233,11 @@ void check_drive(CheckedFile& file, double duration) {
     if (!file.drive->repeats()) end = file.drive->length();
   }
   if (pieces > max_nodes)
-    file.complain(type.ends_with("_noise") ? "excitation.bandwidth" : "excitation", "the drive has too many pieces",
+    file.complain(drive.is_noise() ? "excitation.bandwidth" : "excitation", "the drive has too many pieces",
                   "at most " + core::format_number(max_nodes, 8) + " pieces", core::format_number(pieces, 6));
   // After its end a table keeps its last value. A motion and a drive of the same decimal duration may differ in the
   // last binary digit.
-  if (!type.ends_with("_table") && end < duration * (1.0 - 1e-9))
+  if (samples_of(type) != SamplesIn::scenario && end < duration * (1.0 - 1e-9))
     file.warnings.push_back("the drive ends at t = " + core::format_number(end, 6) + " s, the motion at " +
                             core::format_number(duration, 6) + " s: in between the drive keeps its last value");
 }

@@ -13,6 +13,7 @@
 #include "identify/records/repeats.hpp"
 #include "identify/records/sine_fit.hpp"
 #include "identify/records/spikes.hpp"
+#include "scenarios/format/excitations.hpp"
 #include "scenarios/measurements/data_path.hpp"
 
 namespace dualdamp::scenarios {
@@ -227,7 +228,7 @@ void read_data_list(CheckedFile& file, const std::string& name) {
   Json list = file.values().at("analysis").at(name);
   const bool is_list = list.is_array();
   if (!is_list) list = Json::array({list});
-  const bool by_force = file.text_at("excitation", "type") == "force_harmonic";
+  const bool by_force = excitation_type(file.text_at("excitation", "type")) == sim::ExcitationType::force_harmonic;
   for (std::size_t i = 0; i < list.size(); ++i) {
     if (!list[i].contains("file")) continue;
     const std::string key = "analysis." + name + (is_list ? "[" + std::to_string(i) + "]" : "");
@@ -250,7 +251,8 @@ void read_data_list(CheckedFile& file, const std::string& name) {
 }
 
 void check_frequency(CheckedFile& file, const identify::Record& record) {
-  const bool is_free = file.node("excitation") == nullptr || file.text_at("excitation", "type") == "none";
+  const bool is_free = file.node("excitation") == nullptr ||
+                       excitation_type(file.text_at("excitation", "type")) == sim::ExcitationType::none;
   const auto lacks_frequency = [](const identify::Pair& pair) { return std::isnan(pair.omega); };
   if (!is_free || !record.pairs || std::ranges::none_of(record.pairs->pairs, lacks_frequency)) return;
   std::string ignored;

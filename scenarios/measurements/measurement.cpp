@@ -93,7 +93,8 @@ bool records(const CheckedFile& file, const char* signal) {
 }
 
 void check_lags(CheckedFile& file) {
-  if (!file.has("analysis", "sensors") || file.text_at("excitation", "type").ends_with("_harmonic")) return;
+  if (!file.has("analysis", "sensors") || excitation_named(file.text_at("excitation", "type")).is_harmonic())
+    return;
   for (const auto& [name, sensor] : file.values().at("analysis").at("sensors").items())
     if (sensor.is_object() && sensor.contains("phase_lag"))
       file.complain("analysis.sensors." + name + ".phase_lag",
@@ -113,7 +114,7 @@ std::vector<std::string> read_signals(const CheckedFile& file) {
   std::vector<std::string> signals = {"x"};
   if (moves_base(drive))
     signals.insert(signals.begin(), "y");
-  else if (!drive.empty() && drive != "none")
+  else if (excitation_named(drive).type != sim::ExcitationType::none)
     signals.emplace_back("force");
   for (const char* signal : {"v", "a"})
     if (records(file, signal)) signals.emplace_back(signal);
@@ -187,7 +188,7 @@ identify::History outline_history(const CheckedFile& file) {
   const auto type = file.text_at("excitation", "type");
   if (moves_base(type))
     history.y = {0.0};
-  else if (!type.empty() && type != "none")
+  else if (excitation_named(type).type != sim::ExcitationType::none)
     history.force = {0.0};
   history.x = {0.0};
   if (records(file, "v")) history.v = {0.0};
@@ -269,7 +270,8 @@ identify::Record outline(const CheckedFile& file) {
   }
   if (sensor_number(file, "sample_rate"))
     record.histories.resize(static_cast<std::size_t>(tests(file)), outline_history(file));
-  if (file.text_at("excitation", "type") == "base_harmonic") record.pairs = outline_pairs(file);
+  if (excitation_type(file.text_at("excitation", "type")) == sim::ExcitationType::base_harmonic)
+    record.pairs = outline_pairs(file);
   return record;
 }
 

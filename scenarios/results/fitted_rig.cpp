@@ -7,6 +7,7 @@
 #include "core/coordinate.hpp"
 #include "core/numbers.hpp"
 #include "identify/fit/drive_values.hpp"
+#include "scenarios/format/excitations.hpp"
 #include "scenarios/format/law_values.hpp"
 #include "sim/sampled_signal.hpp"
 
@@ -65,7 +66,8 @@ void ask_for_states(const identify::Experiment& experiment, Json& scenario) {
     frequencies.push_back(omega);
   }
   Json& drive = scenario["excitation"];
-  if (!drive.is_object() || drive.value("type", "") == "none") drive = {{"type", "base_harmonic"}};
+  if (!drive.is_object() || excitation_type(drive.value("type", "")) == sim::ExcitationType::none)
+    drive = {{"type", "base_harmonic"}};
   if (all_equal(amplitudes) && !all_equal(frequencies)) {
     Json list = Json::array();
     for (const double omega : frequencies) list.push_back(in_rad_per_s(omega));
@@ -169,7 +171,7 @@ bool fill_in_constants(Json& system) {
 bool is_recorded(const identify::Experiment& experiment, const RigText& text) {
   if (experiment.kind != ExperimentKind::history) return false;
   if (experiment.drive) return experiment.drive->samples != nullptr;
-  return text.excitation.is_object() && text.excitation.value("type", "").starts_with("measured_");
+  return text.excitation.is_object() && samples_of(text.excitation.value("type", "")) == SamplesIn::data_file;
 }
 
 /// The samples of a drive. Their times begin at 0, as those of the scenario.

@@ -11,6 +11,7 @@
 #include "core/numbers.hpp"
 #include "identify/fit/drive_values.hpp"
 #include "identify/statistics/noise_level.hpp"
+#include "scenarios/format/excitations.hpp"
 #include "scenarios/format/limits.hpp"
 #include "scenarios/measurements/drives.hpp"
 #include "sim/sampled_signal.hpp"
@@ -270,7 +271,8 @@ void refuse_idle_statements(CheckedFile& file, const std::vector<DataItem>& item
 
 bool leaves_drive_open(const CheckedFile& file) {
   if (file.entry("excitation") == nullptr) return true;
-  return file.text_at("excitation", "type") == "base_harmonic" && !file.has("excitation", "amplitude");
+  return excitation_type(file.text_at("excitation", "type")) == sim::ExcitationType::base_harmonic &&
+         !file.has("excitation", "amplitude");
 }
 
 void take_recorded_drives(CheckedFile& file, bool is_open) {
@@ -294,7 +296,7 @@ void take_recorded_drives(CheckedFile& file, bool is_open) {
     for (std::size_t h = 0; h < histories.size(); ++h) {
       const std::string column = driving_column(stated, histories[h], is_open);
       const bool alone = is_one && histories.size() == 1 && file.files[i].key == "data" && is_open &&
-                         file.text_at("excitation", "type") != "base_harmonic";
+                         excitation_type(file.text_at("excitation", "type")) != sim::ExcitationType::base_harmonic;
       if (stated == "none") {
         drives[h] = RecordDrive{{}, {{"type", "none"}}};
         file.files[i].data.record.histories[h].y.clear();
