@@ -12,7 +12,6 @@
 
 #include "core/numbers.hpp"
 #include "identify/statistics/distributions.hpp"
-#include "identify/statistics/median.hpp"
 #include "identify/statistics/statistics.hpp"
 
 namespace dualdamp::identify {
@@ -106,21 +105,9 @@ Eigen::VectorXd bounded_residuals(const Eigen::VectorXd& residuals, const Eigen:
   return residuals.cwiseProduct((weights / largest).cwiseAbs2());
 }
 
-double huber_sum(const Eigen::VectorXd& residuals) {
-  const Eigen::ArrayXd sizes = residuals.cwiseAbs();
-  const Eigen::ArrayXd inside = sizes.min(huber_bound);
-  return (inside * (2.0 * sizes - inside)).sum();
-}
-
 bool is_noise(double p_value) {
   constexpr double level = 1e-3;
   return !(p_value < level);
-}
-
-double robust_deviation(const Eigen::VectorXd& residuals) {
-  std::vector<double> sizes(residuals.data(), residuals.data() + residuals.size());
-  for (double& size : sizes) size = std::abs(size);
-  return median_deviation(std::move(sizes));
 }
 
 void compare_with_stated(double deviation, double freedom, FittedSignal& signal) {

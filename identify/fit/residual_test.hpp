@@ -36,17 +36,8 @@ namespace dualdamp::identify {
 /// at the end of the fit; equal weights leave the residuals unchanged.
 [[nodiscard]] Eigen::VectorXd bounded_residuals(const Eigen::VectorXd& residuals, const Eigen::VectorXd& weights);
 
-/// Huber's bound, in deviations.
-inline constexpr double huber_bound = 1.345;
-
-/// Huber's sum of residuals in units of their deviation: their squares, beyond the bound lines that continue them.
-[[nodiscard]] double huber_sum(const Eigen::VectorXd& residuals);
-
 /// Whether a chance agrees with noise: it is at least 0.001, or `unknown`.
 [[nodiscard]] bool is_noise(double p_value);
-
-/// The standard deviation of residuals with outliers, from the median of their absolute values.
-[[nodiscard]] double robust_deviation(const Eigen::VectorXd& residuals);
 
 /// Sets `chi2_per_freedom` and `chi2_p_value` of a signal with a stated noise. `deviation`: of the residuals;
 /// `freedom`: number of independent readings, minus the parameters that they determine.

@@ -8,6 +8,7 @@
 #include "identify/fit/freedom.hpp"
 #include "identify/fit/residual_test.hpp"
 #include "identify/fit/starts.hpp"
+#include "identify/statistics/huber.hpp"
 #include "identify/statistics/least_squares.hpp"
 #include "sim/parallel.hpp"
 
@@ -26,7 +27,9 @@ class Search {
     spread();
   }
 
-  [[nodiscard]] const Eigen::VectorXd& weights() const { return weights_; }
+  [[nodiscard]] SearchResult result(const LeastSquaresFit& found) const {
+    return {found.parameters, weights_, unbounded_};
+  }
 
   /// Weighted sum of squares, or Huber's sum of a robust search; infinite if there is no motion. For weights that
   /// are not yet bounded.
@@ -76,11 +79,10 @@ class Search {
     double change = 0.0;
     for (std::size_t s = 0; s < deviations_.size(); ++s) {
       const SignalRows& rows = problem_.signals()[s];
-      const double own =
-          options_.robust ? robust_deviation(problem_.counted(misses, rows)) : problem_.rms(misses, rows);
       const double count = problem_.counted().segment(rows.begin, rows.end - rows.begin).sum();
       if (problem_.signal(rows).is_stated || freedoms[s] < least_freedom) continue;
-      const double found = own * std::sqrt(count / freedoms[s]);
+      const double found = options_.robust ? robust_deviation(problem_.counted(misses, rows), freedoms[s]).deviation
+                                           : problem_.rms(misses, rows) * std::sqrt(count / freedoms[s]);
       if (!(found > 0.0)) continue;
       change = std::max(change, std::abs(std::log(found / deviations_[s])));
       deviations_[s] = found;
@@ -109,6 +111,7 @@ class Search {
       weights_.segment(rows.begin, rows.end - rows.begin).setConstant(1.0 / deviations_[s]);
     }
     weights_ = weights_.cwiseProduct(problem_.counted());
+    unbounded_ = weights_;
   }
 
   /// Huber's weights: a residual beyond the bound has the influence of one at the bound.
@@ -123,6 +126,7 @@ class Search {
   const SearchOptions& options_;
   std::vector<double> deviations_;  ///< of each signal
   Eigen::VectorXd weights_;
+  Eigen::VectorXd unbounded_;
 };
 
 std::vector<Eigen::VectorXd> start_points(const FitProblem& problem, const std::vector<FitParameter>& parameters,
@@ -284,7 +288,7 @@ std::optional<SearchResult> search_from(const FitProblem& problem, const Eigen::
   start.parameters = coordinates;
   const std::optional<LeastSquaresFit> found =
       finish(std::move(start), search, problem, has_several_weights(problem, options));
-  return found ? std::optional(SearchResult{found->parameters, search.weights()}) : std::nullopt;
+  return found ? std::optional(search.result(*found)) : std::nullopt;
 }
 
 std::optional<SearchResult> search_parameters(const FitProblem& problem,
@@ -302,7 +306,7 @@ std::optional<SearchResult> search_parameters(const FitProblem& problem,
     Search search(problem, options);
     if (found) found = finish(std::move(*found), search, problem, several_weights);
     if (found && (!best || alike.squares(found->parameters) < alike.squares(best->coordinates)))
-      best = SearchResult{found->parameters, search.weights()};
+      best = search.result(*found);
   };
   const auto is_at_end = [&] { return best && !holds_motion(*best, problem); };
   take(search_roughly(points, rough_search, rough_problem, options));

@@ -27,7 +27,8 @@ struct SearchOptions {
 
 struct SearchResult {
   Eigen::VectorXd coordinates;
-  Eigen::VectorXd weights;  ///< of each row of the problem: 1/deviation, smaller for outliers
+  Eigen::VectorXd weights;    ///< of each row of the problem: 1/deviation, smaller for outliers
+  Eigen::VectorXd unbounded;  ///< the same without the bound of outliers
 };
 
 /// `sizes`: of each parameter, as in the problem. Nothing if the rig has no such motion at any start.

@@ -8,11 +8,12 @@
 #include "core/constants.hpp"
 #include "identify/fit/freedom.hpp"
 #include "identify/fit/profile.hpp"
-#include "identify/fit/residual_covariance.hpp"
-#include "identify/fit/residual_test.hpp"
+#include "identify/fit/signal_variance.hpp"
 #include "identify/fit/trade_offs.hpp"
 #include "identify/statistics/decompositions.hpp"
 #include "identify/statistics/distributions.hpp"
+#include "identify/statistics/huber.hpp"
+#include "identify/statistics/residual_covariance.hpp"
 
 namespace dualdamp::identify {
 
@@ -23,7 +24,7 @@ using core::infinity;
 class Uncertainty {
  public:
   Uncertainty(const FitEnd& end, Fit& fit) : end_(end), fit_(fit), size_(end.q.size()) {
-    rows_ = end.weights.asDiagonal() * end.jacobian;
+    rows_ = end.unbounded.asDiagonal() * end.jacobian;
     if (size_ > 0) strongest_ = effects(whole_all()).maxCoeff();
     for (Eigen::Index i = 0; i < size_; ++i) {
       const Coordinate& c = end.problem.coordinates()[static_cast<std::size_t>(i)];
@@ -38,7 +39,8 @@ class Uncertainty {
       if (!(c.logarithmic && (low || high)) || effect * unit(i) >= 1.0) free_.push_back(i);
       if (c.logarithmic && effect >= 1.0) warn_of_end(i, low, high);
     }
-    residuals_ = end.weights.cwiseProduct(end.misses);
+    residuals_ = end.unbounded.cwiseProduct(end.misses);
+    if (end.robust) residuals_ = huber_scores(residuals_);
     measure_variance();
     decompose();
   }
@@ -101,21 +103,10 @@ class Uncertainty {
 
   void measure_variance() {
     for (std::size_t s = 0; s < end_.problem.signals().size(); ++s) {
-      const SignalRows& rows = end_.problem.signals()[s];
-      const FittedSignal& signal = fit_.signals[s];
-      const Eigen::Index size = rows.end - rows.begin;
-      const double count = end_.problem.counted().segment(rows.begin, size).sum();
-      const double freedom = std::max(signal.freedom, least_freedom);
-      const double own = residuals_.segment(rows.begin, size).squaredNorm() / freedom;
-      // The residuals replace a stated noise only if they are larger than chance explains.
-      const double chance = 1.0 + 3.0 * std::sqrt(2.0 / freedom);
-      const bool is_stated = end_.problem.signal(rows).is_stated;
-      const bool as_stated = is_stated && own < chance;
-      is_open_.push_back(!is_stated && signal.freedom < least_freedom);
-      variances_.push_back(as_stated || is_open_.back() ? 1.0 : own);
-      // A robust fit has fewer degrees of freedom, which does not matter for the many samples of histories.
-      const double independent = signal.independent * count / static_cast<double>(size);
-      freedoms_.push_back(as_stated ? infinity : std::max(1.0, independent - (count - signal.freedom)));
+      const SignalVariance found = signal_variance(end_, fit_.signals[s]);
+      variances_.push_back(found.variance);
+      freedoms_.push_back(found.freedom);
+      is_open_.push_back(found.is_open);
     }
   }
 
@@ -156,44 +147,40 @@ class Uncertainty {
     for (Eigen::Index j = 0; j < free; ++j)
       scaled.col(j) = rows_.col(free_[static_cast<std::size_t>(j)]) * unit(free_[static_cast<std::size_t>(j)]);
     const SymmetricSpectrum normal = symmetric_spectrum(scaled.transpose() * scaled);
-    const double largest = normal.values[free - 1];
-    constexpr double singular = 1e-12;  // of squares
-    Eigen::VectorXd inverse(free);
-    for (Eigen::Index j = 0; j < free; ++j) {
-      const double value = normal.values[j];
-      inverse[j] = value > singular * largest ? 1.0 / value : 0.0;
-      if (inverse[j] == 0.0) lost_.push_back(expand(normal.vectors.col(j)));
-    }
-    const Eigen::MatrixXd bread = normal.vectors * inverse.asDiagonal() * normal.vectors.transpose();
+    for (Eigen::Index j = 0; j < free; ++j)
+      if (!(normal.values[j] > singular * normal.values[free - 1])) lost_.push_back(expand(normal.vectors.col(j)));
+    const Eigen::MatrixXd bread = regular_inverse(normal);
     Eigen::MatrixXd plain = Eigen::MatrixXd::Zero(free, free);
     for (std::size_t s = 0; s < variances_.size(); ++s) {
       const SignalRows& rows = end_.problem.signals()[s];
       const Eigen::MatrixXd part = scaled.middleRows(rows.begin, rows.end - rows.begin);
       parts_.push_back(lift(bread *
                             score_covariance(part, residuals_.segment(rows.begin, rows.end - rows.begin),
-                                             variances_[s], end_.problem.signal(rows).is_sampled, end_.robust) *
+                                             variances_[s], end_.problem.signal(rows).is_sampled) *
                             bread));
       scaled_covariance_ += parts_.back();
       plain += variances_[s] * (part.transpose() * part);
     }
     const Eigen::VectorXd all = units();
     covariance_ = all.asDiagonal() * scaled_covariance_ * all.asDiagonal();
-    classical_ = all.asDiagonal() * lift(bread * plain * bread) * all.asDiagonal();
-    if (end_.robust) covariance_ *= robust_factor();
+    classical_ =
+        all.asDiagonal() * lift(end_.robust ? bounded_inverse() : bread * plain * bread) * all.asDiagonal();
   }
 
-  /// Correction of the covariance: the bound makes the curvature of Huber's sum smaller than the weights do.
-  [[nodiscard]] double robust_factor() const {
-    double weight = 0.0;
-    double inside = 0.0;
-    for (Eigen::Index i = 0; i < residuals_.size(); ++i) {
-      if (!(end_.weights[i] > 0.0)) continue;
-      // A bounded residual r has the weighted size sqrt(bound |r|).
-      const double size = std::abs(residuals_[i]);
-      weight += size > huber_bound ? huber_bound * huber_bound / (size * size) : 1.0;
-      inside += size > huber_bound ? 0.0 : 1.0;
-    }
-    return inside > 0.0 ? weight * weight / (inside * inside) : 1.0;
+  /// The inverse of a normal matrix without its directions that are lost.
+  [[nodiscard]] static Eigen::MatrixXd regular_inverse(const SymmetricSpectrum& normal) {
+    const double least = singular * normal.values[normal.values.size() - 1];
+    const Eigen::VectorXd inverse = (normal.values.array() > least).select(normal.values.cwiseInverse(), 0.0);
+    return normal.vectors * inverse.asDiagonal() * normal.vectors.transpose();
+  }
+
+  /// What takes the place of the classical covariance for the profiles of a robust fit, which keep the weights of
+  /// its end: the sum of squares grows by these.
+  [[nodiscard]] Eigen::MatrixXd bounded_inverse() const {
+    const auto free = static_cast<Eigen::Index>(free_.size());
+    Eigen::MatrixXd scaled = end_.weights.asDiagonal() * end_.jacobian(Eigen::all, free_);
+    for (Eigen::Index j = 0; j < free; ++j) scaled.col(j) *= unit(free_[static_cast<std::size_t>(j)]);
+    return mean_variance() * regular_inverse(symmetric_spectrum(scaled.transpose() * scaled));
   }
 
   [[nodiscard]] Eigen::VectorXd whole_all() const {
@@ -313,7 +300,9 @@ class Uncertainty {
   }
 
   void add_profiles() {
-    const Profiler profiler(end_.problem, end_.weights, end_.q, rows_, residuals_);
+    const Eigen::MatrixXd rows = end_.weights.asDiagonal() * end_.jacobian;
+    const Eigen::VectorXd residuals = end_.weights.cwiseProduct(end_.misses);
+    const Profiler profiler(end_.problem, end_.weights, end_.q, rows, residuals);
     std::vector<double> limits(static_cast<std::size_t>(size_), 0.0);
     Profiler::for_each(size_, [&](Eigen::Index i) {
       FittedParameter& fitted = fit_.parameters[static_cast<std::size_t>(i)];
@@ -385,6 +374,9 @@ class Uncertainty {
   /// A value below this part of its size is near zero.
   static constexpr double small = 0.1;
 
+  /// A direction with a smaller part of the largest square of an effect is lost.
+  static constexpr double singular = 1e-12;
+
   /// Of a direction of length 1, and of the strongest effect.
   static constexpr double rounding = 1e-4;
 
@@ -392,8 +384,8 @@ class Uncertainty {
   Fit& fit_;
   Eigen::Index size_;
   std::vector<Eigen::Index> free_;      ///< parameters with an effect
-  Eigen::MatrixXd rows_;                ///< weighted jacobian
-  Eigen::VectorXd residuals_;           ///< weighted
+  Eigen::MatrixXd rows_;                ///< jacobian over the deviations
+  Eigen::VectorXd residuals_;           ///< over the deviations; bounded in a robust fit
   std::vector<double> variances_;       ///< of the weighted residuals of each signal
   std::vector<double> freedoms_;        ///< of these; infinite: stated
   std::vector<bool> is_open_;           ///< the noise of the signal is neither stated nor shown

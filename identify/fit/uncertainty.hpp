@@ -12,10 +12,11 @@ namespace dualdamp::identify {
 /// The end of a search.
 struct FitEnd {
   const FitProblem& problem;
-  const Eigen::VectorXd& weights;   ///< 1/deviation of each row, bounded if the fit is robust
-  const Eigen::VectorXd& q;         ///< coordinates
-  const Eigen::VectorXd& misses;    ///< outputs - measured
-  const Eigen::MatrixXd& jacobian;  ///< of the outputs by the coordinates
+  const Eigen::VectorXd& weights;    ///< 1/deviation of each row, bounded if the fit is robust
+  const Eigen::VectorXd& unbounded;  ///< the same without the bound
+  const Eigen::VectorXd& q;          ///< coordinates
+  const Eigen::VectorXd& misses;     ///< outputs - measured
+  const Eigen::MatrixXd& jacobian;   ///< of the outputs by the coordinates
   bool profile = true;
   bool robust = false;
 };

@@ -1,4 +1,4 @@
-#include "identify/fit/residual_covariance.hpp"
+#include "identify/statistics/residual_covariance.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -23,15 +23,13 @@ std::vector<double> autocorrelation(const Eigen::VectorXd& residuals, bool is_sa
 }
 
 Eigen::MatrixXd score_covariance(const Eigen::MatrixXd& rows, const Eigen::VectorXd& residuals, double variance,
-                                 bool is_sampled, bool scores) {
-  const Eigen::MatrixXd factors = scores ? Eigen::MatrixXd(residuals.asDiagonal() * rows) : rows;
+                                 bool is_sampled) {
   const std::vector<double> rho = autocorrelation(residuals, is_sampled);
-  const double unit = scores ? 1.0 : variance;
-  Eigen::MatrixXd sum = unit * (factors.transpose() * factors);
+  Eigen::MatrixXd sum = variance * (rows.transpose() * rows);
   for (std::size_t l = 1; l < rho.size(); ++l) {
     const Eigen::Index count = rows.rows() - static_cast<Eigen::Index>(l);
-    const Eigen::MatrixXd part = factors.bottomRows(count).transpose() * factors.topRows(count);
-    sum += (scores ? 1.0 : variance * rho[l]) * bartlett(l, rho.size()) * (part + part.transpose());
+    const Eigen::MatrixXd part = rows.bottomRows(count).transpose() * rows.topRows(count);
+    sum += variance * rho[l] * bartlett(l, rho.size()) * (part + part.transpose());
   }
   return sum;
 }

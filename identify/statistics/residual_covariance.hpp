@@ -20,9 +20,8 @@ namespace dualdamp::identify {
   return 1.0 - static_cast<double>(lag) / static_cast<double>(count);
 }
 
-/// The bracket for one signal. `rows`: of J; `residuals`: over their deviation; `variance`: of these. `scores`: the
-/// residuals were bounded, and each enters with its own square in place of the variance.
+/// The bracket for one signal. `rows`: of J; `residuals`: over their deviation; `variance`: of these.
 [[nodiscard]] Eigen::MatrixXd score_covariance(const Eigen::MatrixXd& rows, const Eigen::VectorXd& residuals,
-                                               double variance, bool is_sampled, bool scores);
+                                               double variance, bool is_sampled);
 
 }  // namespace dualdamp::identify
