@@ -62,6 +62,14 @@ class DecayReader {
   explicit DecayReader(const History& history) : history_(history), x_(history.x) {}
 
   DerivedDecay run() {
+    DerivedDecay result = read();
+    result.held = held_until();
+    result.half_period = half_period_;
+    return result;
+  }
+
+ private:
+  DerivedDecay read() {
     DerivedDecay result;
     result.last = x_.size();
     constexpr std::size_t fewest = 16;
@@ -92,7 +100,6 @@ class DecayReader {
     return fault.empty() ? result : refused(fault);
   }
 
- private:
   static DerivedDecay refused(std::string fault) {
     DerivedDecay result;
     result.fault = std::move(fault);

@@ -18,18 +18,19 @@ void keep(std::vector<double>& signal, std::size_t first, std::size_t last) {
   signal.erase(signal.begin(), signal.begin() + static_cast<std::ptrdiff_t>(first));
 }
 
-/// Removes the samples outside the free motion. Returns a warning; empty if there are none.
-std::string keep_free_motion(const DerivedDecay& decay, History& history) {
-  if (decay.first == 0 && decay.last == history.x.size()) return {};
-  for (std::vector<double>* signal : {&history.x, &history.v, &history.a}) keep(*signal, decay.first, decay.last);
-  history.start += static_cast<double>(decay.first) / history.sample_rate;
+}  // namespace
+
+std::string keep_free_motion(History& history, std::size_t first, std::size_t last) {
+  const std::size_t size = std::max({history.x.size(), history.v.size(), history.a.size()});
+  if (first == 0 && last == size) return {};
+  for (std::vector<double>* signal : {&history.y, &history.x, &history.v, &history.a, &history.force})
+    keep(*signal, first, last);
+  history.start += static_cast<double>(first) / history.sample_rate;
   constexpr int digits = 4;
-  const double end = history.start + static_cast<double>(history.x.size() - 1) / history.sample_rate;
+  const double end = history.start + static_cast<double>(last - first - 1) / history.sample_rate;
   return "the free motion lasts from t = " + core::format_number(history.start, digits) + " to " +
          core::format_number(end, digits) + " s: samples outside it are left out";
 }
-
-}  // namespace
 
 std::vector<std::string> complete(Record& record, double frequency, double stiffness) {
   if (record.pairs || record.decay || record.histories.empty()) return {};
@@ -60,7 +61,7 @@ std::vector<std::string> complete(Record& record, double frequency, double stiff
     DerivedDecay decay = decay_of(history);
     for (const std::string& warning : decay.warnings) warn(history, warning);
     if (decay.record.extremes.empty()) continue;
-    warn(history, keep_free_motion(decay, history));
+    warn(history, keep_free_motion(history, decay.first, decay.last));
     warn(history, remove_zero(history, decay.record));
     decays.push_back(std::move(decay.record));
   }

@@ -38,11 +38,17 @@ struct DerivedDecay {
   std::vector<std::string> warnings;    ///< what was left out before the release and in the noise at the end
   std::size_t first = 0, last = 0;      ///< samples [first, last) of the free motion
   std::string fault;                    ///< why there are no extremes
+  std::size_t held = 0;                 ///< first samples that are equal within the noise
+  double half_period = 0.0;             ///< samples of a half swing; 0: x does not turn back
 };
 
 /// Turning points of x, from the release until the mass comes to rest, the swings grow again in noise, or the
 /// record ends.
 [[nodiscard]] DerivedDecay decay_of(const History& history);
+
+/// Leaves out the samples before the free motion, where the mass is held or a blow pushes it, and the samples from
+/// `last` on. Returns a warning; empty if there are none.
+[[nodiscard]] std::string keep_free_motion(History& history, std::size_t first, std::size_t last);
 
 /// The mean of several decays of the same oscillator: the means of their first, second, ... extremes. The sign of
 /// each decay is chosen so that its first swing goes down. With one decay ratio and one x_f, the law of extremes is

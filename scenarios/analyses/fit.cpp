@@ -8,6 +8,7 @@
 
 #include "friction_models/registry.hpp"
 #include "scenarios/analyses/shared/record_drive.hpp"
+#include "scenarios/analyses/shared/record_holds.hpp"
 #include "scenarios/analyses/shared/record_zeros.hpp"
 #include "scenarios/format/excitations.hpp"
 #include "scenarios/format/values.hpp"
@@ -64,6 +65,9 @@ Setup setup_of(const Json& analysis, const Json& system, const Json& excitation,
   refuse_idle_drive(all, model, faults);
   if (initial_is_known && !data.empty()) refuse_idle_initial(data, faults);
   setup.warnings = undriven_warnings(data, model);
+  for (auto* items : {&data, &validation})
+    std::ranges::move(leave_out_holds(*items, model, initial_is_known && items == &data),
+                      std::back_inserter(setup.warnings));
   std::ranges::move(remove_zeros(data, model, sought), std::back_inserter(setup.warnings));
   std::ranges::move(remove_zeros(validation, model, {}), std::back_inserter(setup.warnings));
   setup.data = experiments_from(data, "data", model, sought, faults);

@@ -10,6 +10,7 @@
 #include "friction_models/registry.hpp"
 #include "identify/fit/prediction.hpp"
 #include "scenarios/analyses/shared/record_drive.hpp"
+#include "scenarios/analyses/shared/record_holds.hpp"
 #include "scenarios/analyses/shared/record_zeros.hpp"
 #include "scenarios/format/excitations.hpp"
 #include "scenarios/format/law_values.hpp"
@@ -154,7 +155,8 @@ std::vector<double> errors_of(const identify::Fit& fit, std::size_t experiments)
   return squares;
 }
 
-/// A record that the rig explains without the drive that was assumed.
+/// A record that the rig explains without the drive that was assumed. `data`: without a drive, the records are
+/// those of free vibrations, which begin at their release.
 std::string undriven_record(const identify::Rig& rig, const identify::Fit& held, const identify::Experiments& data,
                             const std::string& drive, const core::SettingWords& words) {
   constexpr double part = 0.5;   // of the error under the drive
@@ -204,12 +206,26 @@ std::string driven_record(const identify::Fit& held, const identify::Experiments
   return {};
 }
 
+/// The records as they are if the assumed drive did not drive them; empty if none is assumed. Faults are told of
+/// the records under the drive.
+identify::Experiments undriven_data(std::vector<DataItem> items, const CheckedValues& values) {
+  if (!values.analysis.value("drive_of_fit", false)) return {};
+  sim::Model model = values.model;
+  model.excitation = {};
+  std::vector<SetupFault> faults;
+  static_cast<void>(leave_out_holds(items, model, false));
+  static_cast<void>(remove_zeros(items, model, {}));
+  return experiments_from(items, "data", model, {}, faults);
+}
+
 std::unique_ptr<const Question> ask_predict(CheckedValues&& values) {
   std::vector<SetupFault> faults;
   identify::Rig rig = rig_of(values.system, values.model);
   std::vector<identify::FitParameter> parameters = fitted_parameters(rig, values.analysis, faults);
   std::vector<DataItem> items = items_of(values.analysis, values.files, "data");
-  std::vector<std::string> warnings = remove_zeros(items, values.model, {});
+  identify::Experiments undriven = undriven_data(items, values);
+  std::vector<std::string> warnings = leave_out_holds(items, values.model, false);
+  std::ranges::move(remove_zeros(items, values.model, {}), std::back_inserter(warnings));
   identify::Experiments data = experiments_from(items, "data", values.model, {}, faults);
   // The drive of the fit is not assumed for a record that seems to hold another.
   const bool assumes_base = values.analysis.value("drive_of_fit", false) && values.model.excitation.moves_base();
@@ -225,17 +241,18 @@ std::unique_ptr<const Question> ask_predict(CheckedValues&& values) {
       rows_of(values.analysis, "covariance", parameters.size()),
       rows_of(values.analysis, "undetermined", parameters.size()).transpose()};
   return std::make_unique<PredictQuestion>(std::move(rig), std::move(parameters), std::move(uncertainty),
-                                           std::move(data), std::move(warnings), assumed_drive(values, items),
-                                           values.words);
+                                           std::move(data), std::move(undriven), std::move(warnings),
+                                           assumed_drive(values, items), values.words);
 }
 
 }  // namespace
 
 Answer PredictQuestion::run(const RunContext& /*context*/) const {
   const bool is_driven = rig_.known.excitation.type != sim::ExcitationType::none;
+  const identify::Experiments& undriven = undriven_data_.size() == data_.size() ? undriven_data_ : data_;
   const auto refuses = [&](const identify::Fit& held) {
     if (assumed_drive_.empty()) return std::string();
-    return is_driven ? undriven_record(rig_, held, data_, assumed_drive_, words_)
+    return is_driven ? undriven_record(rig_, held, undriven, assumed_drive_, words_)
                      : driven_record(held, data_, words_);
   };
   identify::Prediction prediction = identify::predict_records(rig_, parameters_, uncertainty_, data_, {}, refuses);
