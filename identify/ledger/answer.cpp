@@ -49,16 +49,12 @@ std::string misfit_text(const Misfit& misfit) {
          "depart together, or in a way that is not tested";
 }
 
-/// Beyond this factor on the noise no law of the library has the readings of a range over laws.
-constexpr double most_inflation = 3.0;
-
 /// A range over laws of which none fits, and any other estimate where the joint model misses the record, is a
 /// number that does not describe it.
 bool misses(Estimate& estimate, const Ledger& ledger) {
   if (!estimate.sound) return false;
-  if (estimate.laws && estimate.laws->inflation > most_inflation)
-    estimate.reason = "no law of the library fits: the best one misses the readings by " +
-                      core::format_number(estimate.laws->inflation, 2) + " times their noise";
+  if (const std::string none = estimate.laws ? no_law_fits(*estimate.laws) : std::string(); !none.empty())
+    estimate.reason = none;
   else if (ledger.misfit && !estimate.laws)
     estimate.reason = misfit_size(*ledger.misfit);
   else if (const std::string negative = negative_friction(ledger); !negative.empty() && !estimate.laws)
@@ -313,10 +309,13 @@ void share_findings(std::vector<Estimate>& estimates) {
   }
 }
 
-/// The ranges over all laws, and which laws end them.
-std::string over_laws(const std::vector<Estimate>& estimates, core::Coordinate coordinate) {
-  const auto found = std::ranges::find_if(estimates, [](const Estimate& e) { return e.laws != nullptr; });
-  if (found == estimates.end()) return {};
+/// The ranges over all laws, and which laws end them, or why they are not to be used.
+std::string over_laws(const Identification& all) {
+  const auto found = std::ranges::find_if(all.estimates, [](const Estimate& e) { return e.laws != nullptr; });
+  if (found == all.estimates.end()) return {};
+  // Where nothing is usable, the reason of all says it.
+  if (!found->usable)
+    return all.answer ? " The range over laws is not to be used: " + found->reason + "." : std::string();
   const LawIntervals& laws = *found->laws;
   const auto range = [](const Interval& ends) { return number(ends[0]) + " to " + number(ends[1]); };
   const auto ends = [](const std::array<std::string, 2>& names) {
@@ -324,8 +323,8 @@ std::string over_laws(const std::vector<Estimate>& estimates, core::Coordinate c
   };
   const auto allowed = std::ranges::count_if(laws.laws, [](const LawAnswer& law) { return !law.rejected; });
   return " Over the " + std::to_string(allowed) + " laws that these data allow: zeta " + range(laws.zeta_hull) +
-         " (" + ends(laws.zeta_ends) + "), F0 " + range(laws.F0_hull) + " " + core::unit_for(coordinate, "N") +
-         " (" + ends(laws.F0_ends) + ").";
+         " (" + ends(laws.zeta_ends) + "), F0 " + range(laws.F0_hull) + " " +
+         core::unit_for(all.ledger.coordinate, "N") + " (" + ends(laws.F0_ends) + ").";
 }
 
 /// The interval of the answer and what is not excluded beyond it. A range over laws holds departures already.
@@ -373,7 +372,7 @@ std::string verdict_of(const Identification& all) {
     return (text.empty()
                 ? ""
                 : text.substr(1) + (of_friction ? trend_text(all.estimates, all.ledger.coordinate) : "") + " ") +
-           "No estimate is to be used: " + all.reason + "." + over_laws(all.estimates, all.ledger.coordinate);
+           "No estimate is to be used: " + all.reason + "." + over_laws(all);
   const Estimate& best = all.estimates[*all.answer];
   const bool untested = all.ledger.data.empty();
   const std::string harmless = harmless_text(all.ledger);
@@ -388,7 +387,7 @@ std::string verdict_of(const Identification& all) {
     if (disagree(best, other))
       text += " " + other.method + " disagrees: " + numbers_of(other, all.ledger.coordinate) + ".";
   text += range_text(all);
-  return text + over_laws(all.estimates, all.ledger.coordinate);
+  return text + over_laws(all);
 }
 
 }  // namespace

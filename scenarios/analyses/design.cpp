@@ -106,12 +106,17 @@ ResultFields design_fields() {
       {"candidates[].text", "", "the advice in words"},
       {"hull95.zeta[]", "1", "ends of the present hull of zeta"},
       {"hull95.F0[]", "N", "ends of the present hull of the friction force"},
+      {"inflation", "1",
+       "factor by which the noise must be larger so that the best law is not rejected; above 3 no law of the library "
+       "describes the record, and neither the hulls nor the candidates are to be used"},
       {"advice", "", "the best candidate in words, or that none helps"}};
 }
 
 std::string summary_of(const identify::Design& design) {
   const MeasurementAdvice& best = design.advice.front();
   constexpr double little = 0.9;
+  if (const std::string none = identify::no_law_fits(design.now); !none.empty())
+    return none + ", so that the ranges and what would narrow them are not to be used";
   if (best.hull.zeta > little && best.hull.F0 > little) return "nothing on the list narrows the ranges by a tenth";
   return best.text;
 }
@@ -133,11 +138,17 @@ Answer DesignQuestion::run(const RunContext& context) const {
       identify::design_after(record, methods.constants, options_, identify::interval_options(options_), moved);
   if (const auto* why = std::get_if<std::string>(&found)) return failed(*why);
   const auto& design = std::get<identify::Design>(found);
+  std::ranges::move(identify::warnings_about(design.now, options_), std::back_inserter(warnings));
+  if (const std::string none = identify::no_law_fits(design.now); !none.empty())
+    warnings.push_back(none +
+                       ": a stated noise that is too small, a wrong frequency or constant, or friction that "
+                       "no law of the library has. The ranges and the advice are not to be used");
   Answer answer;
   answer.warnings = std::move(warnings);
   Json& result = answer.result;
   result["advice"] = summary_of(design);
   result["hull95"] = {{"zeta", design.now.zeta_hull}, {"F0", design.now.F0_hull}};
+  result["inflation"] = finite_or_null(design.now.inflation);
   result["candidates"] = Json::array();
   for (const MeasurementAdvice& advice : design.advice) result["candidates"].push_back(advice_json(advice));
   answer.tables.push_back(candidate_table(design.advice));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <memory>
 #include <utility>
 #include <variant>
@@ -46,28 +47,6 @@ void take(const LawIntervals& laws, const KnownConstants& constants, Estimate& e
   place(estimate.value.c, estimate.interval95->c, laws.zeta_hull, constants.critical_damping());
   place(estimate.value.F0, estimate.interval95->F0, laws.F0_hull, 1.0);
   place(estimate.value.x_f, estimate.interval95->x_f, laws.F0_hull, 1.0 / constants.stiffness);
-}
-
-/// `stated`: whether the user bounds the severities.
-void tell(const LawIntervals& laws, bool stated, Estimate& estimate) {
-  constexpr int digits = 3;
-  if (laws.inflation > 1.0)
-    estimate.warnings.push_back("no law of the library fits: the noise was raised by a factor of " +
-                                core::format_number(laws.inflation, digits) + " until the best one did");
-  for (const std::string& name : laws.unsolved)
-    estimate.warnings.push_back("no steady states were found under '" + name + "', which is left out");
-  std::vector<std::string> bounded;
-  for (const LawAnswer& law : laws.laws) {
-    constexpr double near = 0.99;
-    // A law that is rejected at the user's bound might be allowed beyond it.
-    if ((stated || !law.rejected) && law.severity != 0.0 && std::abs(law.severity) > near * std::abs(law.largest))
-      bounded.push_back(law.name);
-  }
-  if (!bounded.empty())
-    estimate.warnings.push_back(
-        "the range may be wider: these laws fit best at the largest severity that was tried: " +
-        core::joined(bounded, ", ") +
-        (stated ? "; without 'largest_severity' they are followed on where they can be" : ""));
 }
 
 /// Plain friction with the stated constants. The fit with a constant moved a little begins here: a new search might
@@ -162,6 +141,29 @@ LawIntervalOptions interval_options(const AnyLawOptions& options) {
           .without = options.without};
 }
 
+std::vector<std::string> warnings_about(const LawIntervals& laws, const AnyLawOptions& options) {
+  std::vector<std::string> warnings;
+  const bool stated = !std::isnan(options.largest_severity);
+  constexpr int digits = 3;
+  if (laws.inflation > 1.0)
+    warnings.push_back("no law of the library fits: the noise was raised by a factor of " +
+                       core::format_number(laws.inflation, digits) + " until the best one did");
+  for (const std::string& name : laws.unsolved)
+    warnings.push_back("no steady states were found under '" + name + "', which is left out");
+  std::vector<std::string> bounded;
+  for (const LawAnswer& law : laws.laws) {
+    constexpr double near = 0.99;
+    // A law that is rejected at the user's bound might be allowed beyond it.
+    if ((stated || !law.rejected) && law.severity != 0.0 && std::abs(law.severity) > near * std::abs(law.largest))
+      bounded.push_back(law.name);
+  }
+  if (!bounded.empty())
+    warnings.push_back("the range may be wider: these laws fit best at the largest severity that was tried: " +
+                       core::joined(bounded, ", ") +
+                       (stated ? "; without 'largest_severity' they are followed on where they can be" : ""));
+  return warnings;
+}
+
 Estimate any_law(const Record& record, const KnownConstants& constants, const AnyLawOptions& options) {
   Estimate estimate;
   estimate.method = any_law_method.name;
@@ -177,7 +179,7 @@ Estimate any_law(const Record& record, const KnownConstants& constants, const An
   estimate.laws = laws;
   estimate.used = model.numbers();
   take(*laws, constants, estimate);
-  tell(*laws, !std::isnan(options.largest_severity), estimate);
+  std::ranges::move(warnings_about(*laws, options), std::back_inserter(estimate.warnings));
   const auto allowed = std::ranges::count_if(laws->laws, [](const LawAnswer& law) { return !law.rejected; });
   conclude(estimate, {},
            "rests on " + laws->data + ", which allow " + std::to_string(allowed) + " of " +

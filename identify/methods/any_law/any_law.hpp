@@ -71,6 +71,10 @@ struct AnyLawOptions : KnownDeviations {
 /// The options of the library and of its intervals.
 [[nodiscard]] LawIntervalOptions interval_options(const AnyLawOptions& options);
 
+/// What limits these intervals: a noise that was raised, laws without a motion, laws at the end of their
+/// severities.
+[[nodiscard]] std::vector<std::string> warnings_about(const LawIntervals& laws, const AnyLawOptions& options);
+
 [[nodiscard]] Estimate any_law(const Record& record, const KnownConstants& constants,
                                const AnyLawOptions& options = {});
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/constants.hpp"
+#include "core/numbers.hpp"
 #include "identify/statistics/distributions.hpp"
 
 namespace dualdamp::identify {
@@ -270,6 +271,13 @@ LawIntervals intervals_of(const ReadingModel& model, const KnownConstants& const
   LawIntervals intervals = Summary(model, constants, plain, std::move(profiles)).intervals();
   intervals.unsolved = std::move(unsolved);
   return intervals;
+}
+
+std::string no_law_fits(const LawIntervals& laws) {
+  constexpr double most = 3.0;
+  if (!(laws.inflation > most)) return {};
+  return "no law of the library fits: the best one misses the readings by " +
+         core::format_number(laws.inflation, 2) + " times their noise";
 }
 
 std::variant<LawStudy, std::string> study_laws(const ReadingModel& model, const KnownConstants& constants,

@@ -57,6 +57,10 @@ struct LawIntervals {
   std::vector<std::string> unsolved;  ///< laws for which no steady state was found
 };
 
+/// Why these intervals are not to be used: even the best law misses the readings by more than three times their
+/// noise. Empty if some law fits better.
+[[nodiscard]] std::string no_law_fits(const LawIntervals& laws);
+
 /// The fits behind the intervals.
 struct LawStudy {
   PlainFit plain;

@@ -381,3 +381,25 @@ TEST_CASE("Where the joint model misses the record no narrow estimate answers, a
   CHECK_FALSE(concluded({narrow, ranges}, missed).answer);
   CHECK_FALSE(concluded({ranges}, ledger({})).answer);
 }
+
+TEST_CASE("A verdict cites a range over laws only where it is usable") {
+  Estimate ranges = estimate("any_law", 0.06, 2.0, 0.3);
+  LawIntervals laws;
+  laws.zeta_hull = ranges.interval95->zeta;
+  laws.F0_hull = ranges.interval95->F0;
+  laws.laws.resize(7);
+  ranges.laws = std::make_shared<const LawIntervals>(laws);
+  const Estimate narrow = estimate("den_hartog_fit", 0.06, 2.0, 0.01);
+  const std::string cited = "Over the 7 laws that these data allow";
+  CHECK(mentions(concluded({narrow, ranges}, ledger({})).verdict, cited));
+  laws.inflation = 4.6;
+  ranges.laws = std::make_shared<const LawIntervals>(laws);
+  const Identification found = concluded({narrow, ranges}, ledger({}));
+  CHECK(answering(found) == "den_hartog_fit");
+  CHECK_FALSE(mentions(found.verdict, cited));
+  CHECK(mentions(found.verdict,
+                 "The range over laws is not to be used: no law of the library fits: the best one misses"));
+  const Identification none = concluded({ranges}, ledger({}));
+  CHECK_FALSE(mentions(none.verdict, cited));
+  CHECK(mentions(none.verdict, "no law of the library fits"));
+}

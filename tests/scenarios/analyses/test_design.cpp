@@ -108,6 +108,41 @@ TEST_CASE("design: uncertain constants are in the ranges now and after, as in th
   CHECK_THROWS_AS(answer_to("1.042 kg", "type: design, gain_uncertainty: {force: 10 %}"), core::InputError);
 }
 
+TEST_CASE("design: where no law fits the ranges are not to be used, as in identify", "[scenarios][design]") {
+  // Errors of 0.1 mm where 5 um are stated.
+  std::ofstream("misfit_data.csv")
+      << "Y [mm],x [mm]\n4,27.1\n4.5,32.3\n5,37.1\n5.5,42.3\n6,47.1\n6.5,52.3\n7,57.1\n";
+  const auto run = [](const std::string& type, const std::string& sigma_x) {
+    return scenarios::run(scenarios::parse_scenario(
+        "schema: dualdamp/1\nsystem: {mass: 1 kg, stiffness: 1000 N/m}\n"
+        "excitation: {type: base_harmonic, frequency: natural}\nanalysis: {type: " +
+            type + ", data: misfit_data.csv, sigma_x: " + sigma_x +
+            ", without: [bouc_wen, contact_compliance, dahl, elasto_plastic, friction_lag, generalized_maxwell_slip, lugre]}\n",
+        "test.yaml"));
+  };
+  const auto tells = [](const std::vector<std::string>& warnings, const std::string& words) {
+    return std::ranges::any_of(warnings,
+                               [&](const std::string& one) { return one.find(words) != std::string::npos; });
+  };
+  const scenarios::RunResult next = run("design", "5 um");
+  const scenarios::RunResult identified = run("identify, methods: [any_law]", "5 um");
+  const auto answer = testing::result_of(next);
+  CHECK(answer.at("inflation").get<double>() > 3.0);
+  CHECK(answer.at("inflation") == testing::result_of(identified).at("estimates")[0].at("inflation"));
+  for (const std::string words : {"no law of the library fits: the noise was raised by a factor of ",
+                                  "no law of the library fits: the best one misses the readings by "}) {
+    CHECK(tells(next.warnings, words));
+    CHECK(tells(identified.warnings, words));
+  }
+  CHECK(next.sentence.find("not to be used") != std::string::npos);
+  // With the noise that the record has, some law fits.
+  const scenarios::RunResult right = run("design", "0.1 mm");
+  CHECK(testing::result_of(right).at("inflation") == 1.0);
+  CHECK_FALSE(tells(right.warnings, "no law of the library fits"));
+  CHECK(right.sentence.find("not to be used") == std::string::npos);
+  std::remove("misfit_data.csv");
+}
+
 TEST_CASE("design: data that state their own frequencies, and data without steady states", "[scenarios][design]") {
   const auto write = [](const char* text) { std::ofstream("design_data.csv") << text; };
   const auto read = [](const std::string& excitation) {
