@@ -109,7 +109,7 @@ bool has_harmonic_base(const std::string& rig, const std::string& name) {
 scenarios::Scenario scenario_of(const FitCommand& command) {
   scenarios::LoadOptions options;
   options.data_anywhere = true;
-  options.words = option_of_setting;
+  options.words = option_of_fit;
   options.set = {{"analysis.data=" + data_of(command.data, command), "DATA"}};
   if (command.law.find(',') == std::string::npos)
     options.set.push_back({"system.friction.law=" + command.law, "LAW"});
@@ -138,7 +138,7 @@ scenarios::Scenario prediction_by(const Json& document, const PredictCommand& co
   const Json& result = document.at("result");
   scenarios::LoadOptions options;
   options.data_anywhere = true;
-  options.words = option_of_setting;
+  options.words = option_of_fit;
   options.set = {{"analysis=" + prediction_of(result, command), "DATA"}};
   const auto rig = result.at("rig").get<std::string>();
   add_drive(command, !has_harmonic_base(rig, command.result), options);

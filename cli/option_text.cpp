@@ -1,6 +1,7 @@
 #include "cli/option_text.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 
 namespace dualdamp::cli {
@@ -37,8 +38,17 @@ std::string option_of_setting(core::Setting setting, std::string_view name, std:
       return "--set " + pair;
     case core::Setting::plugin:
       return "with --plugin LIB";
+    case core::Setting::noise:
+      return key == "x" || key == "Y" ? "--sigma-" + key + " " + text : "";
   }
   return {};
+}
+
+std::string option_of_fit(core::Setting setting, std::string_view name, std::string_view value) {
+  if (setting != core::Setting::noise) return option_of_setting(setting, name, value);
+  constexpr std::array<std::string_view, 5> signals = {"x", "v", "a", "force", "phase"};
+  if (std::ranges::find(signals, name) == signals.end()) return {};
+  return "--sigma " + std::string(name) + "=" + std::string(value);
 }
 
 std::string key_or_option_of_setting(core::Setting setting, std::string_view name, std::string_view value) {

@@ -15,6 +15,9 @@ namespace dualdamp::cli {
 /// `--unit x=mm`: the words of commands that take data files.
 [[nodiscard]] std::string option_of_setting(core::Setting setting, std::string_view name, std::string_view value);
 
+/// The words of `fit` and `predict`, which state the noise of any signal in one option.
+[[nodiscard]] std::string option_of_fit(core::Setting setting, std::string_view name, std::string_view value);
+
 /// The words of commands that take scenarios: the keys of their files, and what only an option states.
 [[nodiscard]] std::string key_or_option_of_setting(core::Setting setting, std::string_view name,
                                                    std::string_view value);

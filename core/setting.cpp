@@ -27,6 +27,8 @@ std::string key_of_setting(Setting setting, std::string_view name, std::string_v
       return key + ": " + text;
     case Setting::plugin:
       return "once it is loaded";
+    case Setting::noise:  // of the others not every analysis has a key
+      return key == "x" ? "sigma_x: " + text : "";
   }
   return {};
 }

@@ -19,6 +19,7 @@ enum class Setting {
   frequency,  ///< of the harmonic motion of the base
   value,      ///< path of any value of a scenario; the value
   plugin,     ///< library with laws
+  noise,      ///< of a column; its standard deviation; empty where it is not stated
 };
 
 /// `units: {x: mm}`, `no_header: true`, ...: the keys of a scenario.

@@ -71,6 +71,30 @@ std::string unit_behind(std::string_view text, std::string_view name, const Know
   return is_unit_of(unit, known) ? unit : std::string();
 }
 
+/// Words before or after the name of a column that holds the uncertainty of its readings: u_x, u(x), x_err.
+constexpr std::array<std::string_view, 16> words_of_uncertainty = {
+    "u",  "uc",  "unc",   "uncert", "uncertainty", "err", "error", "errors",
+    "sd", "std", "stdev", "stddev", "sigma",       "se",  "sem",   "\u03c3"};
+
+const KnownColumn* column_of_uncertainty(std::string_view heading) {
+  const auto is_mark = [](char c) { return std::string_view(" _/,:-.([{<)]}>").find(c) != std::string_view::npos; };
+  std::vector<std::string_view> parts;
+  while (!heading.empty() && parts.size() < 2) {
+    const auto* const end = std::ranges::find_if(heading, is_mark);
+    const std::string_view part(heading.begin(), end);
+    if (!part.empty() && part != "of" && part != "in") parts.push_back(part);
+    heading = {end == heading.end() ? end : end + 1, heading.end()};
+  }
+  if (parts.size() < 2) return nullptr;
+  const auto is_word = [](std::string_view part) {
+    return std::ranges::any_of(words_of_uncertainty,
+                               [part](std::string_view word) { return is_alike(part, word); });
+  };
+  for (const auto& [word, name] : {std::pair{parts[0], parts[1]}, {parts[1], parts[0]}})
+    if (const KnownColumn* known = column_in_any_case(name); is_word(word) && known != nullptr) return known;
+  return nullptr;
+}
+
 }  // namespace
 
 const KnownColumn* known_column(std::string_view name) {
@@ -144,8 +168,15 @@ void split_unit(Heading& heading, const KnownColumn& known) {
   if (last != std::string::npos) heading.name.resize(last + 1);
 }
 
-std::string ignored(std::string_view what, const std::string& name) {
-  return std::string(what) + " '" + name + "' is not known and is ignored";
+std::string ignored(std::string_view what, const std::string& name, const core::SettingWords& words) {
+  const std::string text = std::string(what) + " '" + name + "' is not known and is ignored";
+  const KnownColumn* uncertain = column_of_uncertainty(name);
+  if (uncertain == nullptr) return text;
+  const std::string column(uncertain->name);
+  const std::string advice = words(core::Setting::noise, column, "...");
+  return text + "; if it holds the uncertainty of each " + column + ", " +
+         (advice.empty() ? "readings are weighed by their scatter instead"
+                         : "state one for all of them, such as its median: " + advice);
 }
 
 std::string listed(const std::vector<std::string>& names) {

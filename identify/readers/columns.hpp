@@ -6,6 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include "core/setting.hpp"
+
 namespace dualdamp::identify {
 
 /// A column that a record may have.
@@ -58,8 +60,9 @@ struct Heading {
 /// `Weg_mm`. The name of `Weg_[mm]` becomes `Weg`.
 void split_unit(Heading& heading, const KnownColumn& known);
 
-/// The warning about an unknown column, variable or field.
-[[nodiscard]] std::string ignored(std::string_view what, const std::string& name);
+/// The warning about an unknown column, variable or field. If it seems to hold the uncertainty of each reading, the
+/// warning tells how one for all readings is stated.
+[[nodiscard]] std::string ignored(std::string_view what, const std::string& name, const core::SettingWords& words);
 
 /// "a, b and c"
 [[nodiscard]] std::string listed(const std::vector<std::string>& names);

@@ -46,6 +46,13 @@ class Ignored(case.Case):
                 self.assertIn(f"found: {found}", result.stderr)
         self.run_program("run", "base.yaml", "--set", "system.friction={law: coulomb, kinetic: 1 N}", "--set", "system.friction.static=2 N")
 
+    def test_a_column_with_the_uncertainty_of_each_reading(self):
+        """It is ignored: the options that state one for all readings are named in the words of the command."""
+        data = self.write("data.csv", "Y [mm],x [mm],u_x [mm]\n4.5,4.7,0.02\n5,7.21,0.02\n5.5,9.76,0.02\n6,12.2,0.03\n")
+        rig = ["--mass", "1.042 kg", "--stiffness", "1568 N/m", "--frequency", "6.17 Hz"]
+        for command, option in ((["identify", data, "--method", "resonance_deming"], "--sigma-x ..."), (["fit", "coulomb", data, "--no-profile"], "--sigma x=...")):
+            self.assertIn(f"if it holds the uncertainty of each x, state one for all of them, such as its median: {option}", self.run_program(*command, *rig).stderr)
+
     def test_an_amplitude_that_a_list_replaces(self):
         """As an option of its own; beside the list in the file, or as a part of a section, it says what is replaced."""
         curve = ["run", self.write("curve.yaml", BASE.replace("{type: steady_state}", "{type: xy_curve, amplitudes: [0.1 m, 0.2 m]}"))]

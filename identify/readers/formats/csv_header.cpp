@@ -168,7 +168,7 @@ class HeaderReader {
     if (known == nullptr || is_left_alone) {
       field.may_be_missing = std::ranges::find(remarks, heading.name) != remarks.end();
       if (heading.text.empty() || is_left_alone) return;
-      warnings_.push_back(ignored_.emplace_back(ignored("column", excerpt(heading.text))));
+      warnings_.push_back(ignored_.emplace_back(ignored("column", excerpt(heading.text), options_.words)));
     } else if (find_for(options_.columns, *known) != nullptr) {
       warnings_.push_back("column '" + excerpt(heading.text) + "' is ignored: another one is used in its place");
     } else if (!well_formed) {

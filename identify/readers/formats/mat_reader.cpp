@@ -80,7 +80,7 @@ class Reader {
   }
 
   void ignore(std::string_view what, const std::string& name) {
-    warnings_.push_back(ignored_.emplace_back(ignored(what, name)));
+    warnings_.push_back(ignored_.emplace_back(ignored(what, name, options_.words)));
   }
 
   void complain(std::string message, std::string allowed = {}, std::string found = {}) {

@@ -98,6 +98,26 @@ TEST_CASE("What spreadsheets and instruments write around the data") {
   reads_alike("Y,x\n0.10,00.2\n.3,0.4\n");
 }
 
+TEST_CASE(
+    "A column of the uncertainty of each reading is ignored, and the warning tells how to state one for all") {
+  const auto warning = [](const std::string& heading) {
+    return parse_record("Y [mm],x [mm]," + heading + "\n4,9,0.02\n5,12,0.03\n6,16,0.03\n", "data.csv")
+        .warnings.at(0);
+  };
+  for (const std::string heading :
+       {"u_x [mm]", "x_err [mm]", "u(x) [mm]", "sigma_x_mm", "x std", "uncertainty of x", "position_sd"}) {
+    CAPTURE(heading);
+    CHECK(warning(heading).starts_with("column '" + heading + "' is not known and is ignored"));
+    const bool told = warning(heading).find(
+                          "if it holds the uncertainty of each x, state one for all of them, such as "
+                          "its median: sigma_x: ...") != std::string::npos;
+    CHECK(told);
+  }
+  CHECK(warning("u_Y [mm]").find("readings are weighed by their scatter instead") != std::string::npos);
+  for (const std::string heading : {"x_set [mm]", "u [mm]", "error", "temperature [K]", "u_z [mm]"})
+    CHECK(warning(heading) == "column '" + heading + "' is not known and is ignored");
+}
+
 TEST_CASE("Columns that are not known or not used are ignored with a warning") {
   const MeasuredRecord csv =
       parse_record("Y,temperature [K],x,t,\"a \"\"b\"\", c\"\n1,warm,2,0,\n2,hot,5,0,-\n", "data.csv");
