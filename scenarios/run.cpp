@@ -86,7 +86,15 @@ std::string unit_warning(const Scenario& scenario, const std::vector<Table>& tab
   for (const ResultField& field : scenario.result_fields) kinds.insert(kind_of(field.unit, field.path));
   for (const Table& table : tables) kinds.merge(kinds_of(table));
   const std::vector<std::string> unused = unused_units(scenario.written_units, kinds);
-  return unused.empty() ? "" : "no quantity of the result is in a unit that was asked for: " + core::joined(unused);
+  if (unused.empty()) return {};
+  std::vector<std::string> there;
+  for (const std::string& kind : kinds)
+    if (!kind.empty() && kind != "1") there.push_back(core::unit_for(scenario.model.oscillator.coordinate, kind));
+  return "no quantity of the result is in a unit that was asked for: " + core::joined(unused) +
+         (are_stated(unused, scenario.written_units)
+              ? "; what the data or the scenario states in such units is not repeated in the result"
+              : "") +
+         (there.empty() ? "; its numbers have no units" : "; its quantities are in " + core::joined(there));
 }
 
 /// The result of an answer: its summary and its comparison with the expected values.

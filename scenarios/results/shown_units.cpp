@@ -131,6 +131,21 @@ std::vector<std::string> unused_units(const std::map<std::string, std::string>& 
   return unused;
 }
 
+bool are_stated(const std::vector<std::string>& requested, const std::map<std::string, std::string>& written) {
+  const auto kinds_of_unit = [](const std::string& unit) {
+    ShownUnits kinds;
+    add_asked(unit, kinds);
+    return kinds;
+  };
+  ShownUnits wanted;
+  for (const std::string& unit : requested) wanted.merge(kinds_of_unit(unit));
+  return std::ranges::any_of(written, [&](const auto& entry) {
+    return !is_asked_for(entry.first) && std::ranges::any_of(kinds_of_unit(entry.second), [&](const auto& kind) {
+      return wanted.contains(kind.first);
+    });
+  });
+}
+
 bool is_legible(double largest, const ShownUnit& unit) {
   constexpr double least = 1e-3;
   constexpr double most = 1e6;

@@ -31,6 +31,18 @@ class Terminal(Case):
     def test_numbers_of_a_fit_are_in_the_units_of_the_data(self):
         self.assertRegex(self.run_program(*FIT).stdout, r"position +mm +29\.99")
 
+    def test_units_of_readings_that_the_result_does_not_repeat(self):
+        self.write("pairs.csv", "Y [mm],x [mm]\n4,27.1\n5,37.2\n6,47.2\n7,57.3\n")
+        self.write("next.yaml", """schema: dualdamp/1
+system: {mass: 1 kg, stiffness: 1000 N/m}
+excitation: {type: base_harmonic, frequency: 302 rpm}
+analysis: {type: design, data: pairs.csv, without: [bouc_wen, contact_compliance, dahl, elasto_plastic, friction_lag, generalized_maxwell_slip, lugre]}
+""")
+        asked = "no quantity of the result is in a unit that was asked for: "
+        repeats = "; what the data or the scenario states in such units is not repeated in the result"
+        self.assertIn(f"{asked}mm, rpm{repeats}; its quantities are in N\n", self.run_program("run", "next.yaml", "--out", "next", "--units", "mm,rpm").stderr)
+        self.assertIn(f"{asked}kg/s; its quantities are in N\n", self.run_program("run", "next.yaml", "--out", "again", "--units", "kg/s").stderr)
+
     def test_files_of_a_fit_stay_in_si(self):
         self.run_program(*FIT, "--units", "mm,kN")
         self.assertEqual(json.loads((self.folder / "fit/result.json").read_text())["result"]["residual"]["unit"], "m")
