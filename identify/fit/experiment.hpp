@@ -85,6 +85,7 @@ class Experiment {
   std::vector<Own> own_of_place;     ///< also sought unless they are known, if a force depends on the position
   std::vector<Own> own_others;       ///< parameters that may be sought as well
   bool is_force_driven = false;      ///< of steady states: the levels are amplitudes of a force
+  std::vector<std::string> derived;  ///< of a loop: signals it needs that are derivatives of measured ones
   bool knows_load = false;           ///< `travel` is known: the caller stated the first state
   std::vector<std::pair<Own, std::string>> remarks;  ///< why parameters of `own_of_place` are sought
   /// Work of all predictions so far, those of parts of the record included: in units of `sim::Engine::work`, of

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/constants.hpp"
+#include "core/coordinate.hpp"
 #include "core/diagnostics.hpp"
 #include "core/numbers.hpp"
 #include "friction_models/law_fault.hpp"
@@ -121,6 +122,39 @@ core::Outcome cut_short(long most_work) {
           "state values or bounds, or free fewer parameters"};
 }
 
+/// The search ended where the motion cannot be followed beside the estimate, most often at the end of a parameter's
+/// range: a contact as stiff as the search allows.
+core::Outcome without_derivative(const FitProblem& problem, const Request& request, const Eigen::VectorXd& q) {
+  const Eigen::VectorXd values = problem.values(q);
+  const core::Coordinate coordinate = request.rig.known.oscillator.coordinate;
+  const auto rests = [](const Signal& signal) { return !signal.rest.empty(); };
+  const bool sticks = std::ranges::any_of(
+      request.experiments, [&](const auto& experiment) { return std::ranges::any_of(experiment->signals, rests); });
+  std::vector<std::string> all;
+  std::vector<std::string> ends;
+  for (std::size_t i = 0; i < request.parameters.size(); ++i) {
+    const auto at = static_cast<Eigen::Index>(i);
+    const Coordinate& range = problem.coordinates()[i];
+    const FitParameter& parameter = request.parameters[i];
+    const std::string unit = parameter.unit == "1" ? "" : " " + core::unit_for(coordinate, parameter.unit);
+    all.push_back(parameter.name + " = " + core::format_number(values[at], 3) + unit);
+    constexpr double near = 1e-3;
+    const bool is_value = values[at] == 0.0;  // of a force: no friction is no stiff law
+    if (!is_value && (q[at] - range.low < near || range.high - q[at] < near)) ends.push_back(all.back());
+  }
+  return {
+      core::OutcomeKind::not_identifiable,
+      "the motion cannot be followed beside the estimate, and has no derivative there: " +
+          (ends.empty()
+               ? core::joined(all) + ". State values or bounds, or free fewer parameters"
+               : core::joined(ends) + ", where the search ends, because the data do not bound it. State a value or "
+                                      "bounds, or fit a law without it") +
+          (sticks
+               ? ". The mass sticks in this loop: at rest, a contact as good as rigid needs finer positions than "
+                 "those measured, and a rigid law, such as 'coulomb', gives these samples no weight"
+               : "")};
+}
+
 /// Warns of parameters of records that are sought because of what the record shows.
 void say_why_sought(const Request& request, Fit& result) {
   for (std::size_t e = 0; e < request.experiments.size(); ++e)
@@ -165,7 +199,7 @@ std::optional<Eigen::VectorXd> describe(const FitProblem& problem, const Request
   Eigen::MatrixXd jacobian;
   problem.limit(std::numeric_limits<long>::max());
   if (!problem.derivatives(q, result.outputs, jacobian)) {
-    result.outcome = {core::OutcomeKind::not_identifiable, "the motion has no derivative at the estimate"};
+    result.outcome = without_derivative(problem, request, q);
     return std::nullopt;
   }
   const Eigen::VectorXd values = problem.values(q);

@@ -132,6 +132,8 @@ class FrictionLoop final : public Experiment {
   /// filtered. The acceleration is not counted as a derivative if no mass needs it.
   void complete(const History& history, bool has_mass) {
     const bool lacks_speed = v_.empty();
+    if (lacks_speed) derived.emplace_back("v");
+    if (has_mass && a_.empty()) derived.emplace_back("a");
     if (x_.empty()) x_ = sharp_integral(v_, rate_);
     if (lacks_speed) v_ = sharp_difference(x_, rate_);
     if (a_.empty()) a_ = lacks_speed ? sharp_second_difference(x_, rate_) : sharp_difference(v_, rate_);

@@ -140,12 +140,35 @@ std::string residuals_of(const Experiments& experiments, const FittedSignal& fit
   return experiments[fitted.rows.experiment]->label + ": the residuals of " + signal_of(experiments, fitted).name;
 }
 
+/// Whether samples of a sensor drive the motion.
+bool has_recorded_drive(const Experiment& experiment, const Fit& fit) {
+  if (experiment.kind != ExperimentKind::history) return false;
+  return (experiment.drive ? *experiment.drive : fit.rig.known.excitation).samples != nullptr;
+}
+
+/// Where noise that the residuals hold and their signal does not may come from, and what helps.
+std::pair<std::string, std::string> foreign_noise(const Experiment& experiment, const Fit& fit) {
+  if (experiment.kind != ExperimentKind::loop)
+    return has_recorded_drive(experiment, fit)
+               ? std::pair{"that of the measured drive", "measure the drive with less noise"}
+               : std::pair{"", ""};
+  const std::string source = "that of other signals of the record, which the law and the derivatives pass on";
+  if (experiment.derived.empty()) return {source, "measure the motion with less noise"};
+  const std::string& last = experiment.derived.back();
+  if (experiment.derived.size() > 1) return {source, "measure v and a rather than x"};
+  return {source, last + " is a derivative of " + (last == "a" ? "v" : "x") + ": measure " + last + " too, or " +
+                      (last == "a" ? "v" : "x") + " with less noise"};
+}
+
 /// White residuals far above the noise of their signal come from somewhere else; the fit takes them for its noise.
-std::string said_of_noise(const FittedSignal& fitted, const std::string& who) {
+std::string said_of_noise(const Experiment& experiment, const FittedSignal& fitted, const Fit& fit,
+                          const std::string& who) {
+  const auto [source, help] = foreign_noise(experiment, fit);
+  const auto before = [](const std::string& text, const char* joint) { return text.empty() ? "" : text + joint; };
   return who + " are " + core::format_number(fitted.noise_units, 3) +
-         " times the noise of that signal, though they look like noise: that of other signals of the record, which "
-         "the law and the derivatives pass on, or outliers. The estimates may be off by more than the intervals say; "
-         "measure v and a rather than x, or use 'robust' for outliers";
+         " times the noise of that signal, though they look like noise: " + before(source, ", or ") +
+         "outliers. The estimates may be off by more than the intervals say; " + before(help, ", or ") +
+         "use 'robust' for outliers";
 }
 
 /// The zero of a signal of a history that its residuals speak of; nothing if they do not, or if it is sought.
@@ -169,12 +192,6 @@ std::string said_of_zero(const FittedSignal& fitted, Own zero, const std::string
          " standard errors: the zero of the sensor is off, or the law differs between the directions. Seek the zero: "
          "'free' with " +
          std::string(own_names[static_cast<std::size_t>(zero)]);
-}
-
-/// Whether samples of a sensor drive the motion.
-bool has_recorded_drive(const Experiment& experiment, const Fit& fit) {
-  if (experiment.kind != ExperimentKind::history) return false;
-  return (experiment.drive ? *experiment.drive : fit.rig.known.excitation).samples != nullptr;
 }
 
 }  // namespace
@@ -202,7 +219,7 @@ void warn_of_residuals(const Experiments& experiments, bool robust, Fit& fit) {
     constexpr double far = 3.0;
     if (is_noise(fitted.p_value) && contradicts_stated(fitted) == 0 && signal.is_sampled && !robust &&
         fitted.noise_units > far && !zero)
-      fit.warnings.push_back(said_of_noise(fitted, who));
+      fit.warnings.push_back(said_of_noise(*experiments[fitted.rows.experiment], fitted, fit, who));
     if (is_noise(fitted.p_value) || (!signal.is_sampled && contradicts_stated(fitted) > 0)) continue;
     std::string text = who;
     if (fitted.noise_units > 1.0) text += ", " + core::format_number(fitted.noise_units, 3) + " times the noise,";

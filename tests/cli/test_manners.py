@@ -59,6 +59,32 @@ class Manners(Case):
         self.assertIn("; or the law of a plugin, with --plugin LIB\n", self.run_program("check", "plugin.yaml", status=3).stderr)
         self.assertIn("or that of a plugin, with --plugin LIB", self.run_program("laws", "bliman_sorine", status=2).stderr)
 
+    def test_a_fit_that_ends_beside_all_motions_says_where_and_what_helps(self):
+        """A loop under rigid friction with rests, fitted with a contact that yields: its stiffness runs to the end of the search."""
+        def force(t):
+            return 6 * math.sin(2 * math.pi * 0.6 * t) + 4 * math.sin(2 * math.pi * 1.7 * t + 0.5)
+
+        times = [i / 100 for i in range(602)]
+        self.write("motion.yaml", f"""schema: dualdamp/1
+system: {{mass: 2 kg, stiffness: 300 N/m, damping: 3 N.s/m, friction: {{law: coulomb, kinetic: 4 N}}}}
+excitation: {{type: force_table, times: {times}, values: {[round(force(t), 6) for t in times]}, interpolation: cubic}}
+initial: {{position: 10 mm}}
+analysis: {{type: simulate, duration: 6 s, sample_rate: 500 Hz}}
+""")
+        self.run_program("run", "motion.yaml", "--out", "motion")
+        rows = [line.split(",") for line in (self.folder / "motion/history.csv").read_text().splitlines() if line[0].isdigit()]
+        for seed in range(4):  # the end of the search is a matter of rounding
+            lines = "".join(f"{t},{float(x):.8f},{float(v):.7f},{force(float(t)) + 0.014 * math.sin(977.0 * (i + 3000 * seed) ** 2):.4f}\n" for i, (t, x, v, *_) in enumerate(rows))
+            data = self.write("loop.csv", "t [s],x [m],v [m/s],force [N]\n" + lines)
+            ran = self.run_program("fit", "contact_compliance,coulomb", data, "--loop", "--free", "mass,damping,stiffness", "--no-profile", "--json")
+            reasons = [row["reason"] for row in json.loads(ran.stdout)["result"]["laws"] if row.get("reason")]
+            for reason in reasons:
+                self.assertIn("the motion cannot be followed beside the estimate, and has no derivative there: contact_stiffness = ", reason)
+                self.assertIn("State a value or bounds, or fit a law without it. The mass sticks in this loop", reason)
+            if reasons:
+                return
+        self.fail("no search ended there")
+
     def test_no_name_is_a_command_of_the_terminal(self):
         """A line of a file, its name, a column: ESC and CSI are shown as replaced characters."""
         self.write("\x1b[31mred.yaml", "schema: dualdamp/1\n\x1b[31mred: 1\n")

@@ -128,9 +128,13 @@ TEST_CASE("loop: noise of a velocity that is differentiated is filtered, and tol
   CHECK(fit.signals.front().noise_units > 5.0);
   REQUIRE(fit.warnings.size() == 1);
   CHECK_THAT(fit.warnings.front(), Catch::Contains("though they look like noise"));
+  // What was measured is not advised again.
+  CHECK_THAT(fit.warnings.front(), Catch::Contains("a is a derivative of v: measure a too, or v with less noise"));
+  const identify::Fit by_x = fit_of_loop({.rate = 1000.0, .v = false, .noise_x = 1.5e-5}, 8);
+  REQUIRE_FALSE(by_x.warnings.empty());
+  CHECK_THAT(by_x.warnings.front(), Catch::Contains("measure v and a rather than x"));
   // Noise of x alone, differentiated twice, makes the mass too small by 0.8 %.
-  CHECK(found_in(fit_of_loop({.rate = 1000.0, .v = false, .noise_x = 1.5e-5}, 8), "mass").value ==
-        Approx(2.0).epsilon(0.02));
+  CHECK(found_in(by_x, "mass").value == Approx(2.0).epsilon(0.02));
 }
 
 TEST_CASE("loop: the filter of a loop without a velocity is no fault of the law", "[identify][fit]") {
