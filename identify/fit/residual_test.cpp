@@ -146,6 +146,12 @@ bool has_recorded_drive(const Experiment& experiment, const Fit& fit) {
   return (experiment.drive ? *experiment.drive : fit.rig.known.excitation).samples != nullptr;
 }
 
+/// Whether nothing drives a history.
+bool is_undriven(const Experiment& experiment, const Fit& fit) {
+  const sim::Excitation& drive = experiment.drive ? *experiment.drive : fit.rig.known.excitation;
+  return experiment.kind == ExperimentKind::history && drive.type == sim::ExcitationType::none;
+}
+
 /// Where noise that the residuals hold and their signal does not may come from, and what helps.
 std::pair<std::string, std::string> foreign_noise(const Experiment& experiment, const Fit& fit) {
   if (experiment.kind != ExperimentKind::loop)
@@ -230,6 +236,9 @@ void warn_of_residuals(const Experiments& experiments, bool robust, Fit& fit) {
         " The law is not that of the rig, a constant is wrong, " +
         (has_recorded_drive(*experiments[fitted.rows.experiment], fit)
              ? "the measured drive has noise, to which the rig responds, "
+             : "") +
+        (is_undriven(*experiments[fitted.rows.experiment], fit)
+             ? "the mass was held or pushed at first, while the fit takes all samples for free motion, "
              : "") +
         "or the search missed the best fit (try more starts, bounds, stated values); the intervals hold only for the "
         "right law";

@@ -50,6 +50,11 @@ class HeldRecords(case.Case):
             self.assert_true(result)
             self.assertFalse([w for w in warnings if "free motion" in w], warnings)
 
+    def test_a_hold_too_short_to_be_found_is_among_the_causes_of_what_is_left(self):
+        warnings = self.fitted(self.record("short.csv", 0.3))[1]
+        self.assertFalse([w for w in warnings if "left out" in w], warnings)
+        self.assertTrue([w for w in warnings if "the mass was held or pushed at first" in w], warnings)
+
     def test_a_held_mass_is_told_where_the_first_state_is_stated(self):
         held = self.record("held.csv", HELD)
         warnings = self.fitted(held, "--set", "initial={position: 0.1 m}")[1]
