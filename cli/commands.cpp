@@ -10,6 +10,8 @@
 #include <map>
 #include <mutex>
 #include <optional>
+#include <string>
+#include <string_view>
 #include <thread>
 
 #include "bench/analyses.hpp"
@@ -65,6 +67,13 @@ const std::shared_ptr<bench::Processes>& processes() {
 /// Whether this process prints nothing: of several processes, only the first one prints.
 bool is_silent() { return bench::Processes::several() && processes()->rank() != 0; }
 
+/// Warnings about a data file name it themselves; it may be the file that was asked about.
+std::string warning_line(const std::string& file, std::string_view warning) {
+  const std::string place = file + ": ";
+  if (warning.starts_with(place)) warning.remove_prefix(place.size());
+  return place + "warning: " + std::string(warning) + "\n";
+}
+
 Report run_and_write(Scenario loaded, scenarios::RunOptions options, bool quiet) {
   refuse_unusable(options.directory);
   options.processes = processes();
@@ -82,14 +91,13 @@ Report run_and_write(Scenario loaded, scenarios::RunOptions options, bool quiet)
   if (!result->failure.empty()) report.errors = scenario->file + ": error: " + result->failure + "\n";
   if (result->verification && !result->verification->agrees)
     report.errors += scenario->file + ": error: verification: " + result->verification->reason + "\n";
-  for (const std::string& warning : result->warnings)
-    report.messages += scenario->file + ": warning: " + warning + "\n";
+  for (const std::string& warning : result->warnings) report.messages += warning_line(scenario->file, warning);
   {
     const std::lock_guard lock(output_mutex());
     core::stop_if_cancelled();
     for (const std::string& message :
          write_results(directory, result->provenance.source, result->provenance.data_sha256, files))
-      report.messages += scenario->file + ": warning: " + message + "\n";
+      report.messages += warning_line(scenario->file, message);
   }
   for (const scenarios::OutputFile& file : files)
     report.messages += "wrote " + (fs::path(directory) / file.name).string() + "\n";

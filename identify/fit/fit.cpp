@@ -76,9 +76,9 @@ void describe_signals(const FitProblem& problem, const Eigen::VectorXd& weights,
     result.log_likelihood_count += signal.independent * counted / static_cast<double>(size);
     if (problem.signal(rows).is_stated && signal.freedom > least_freedom) {
       const double share = signal.freedom / counted;
-      const RobustDeviation own = robust ? robust_deviation(signal.misses, signal.freedom)
-                                         : RobustDeviation{signal.rms / std::sqrt(share), signal.freedom};
-      compare_with_stated(own.deviation, signal.independent * own.freedom / counted, signal);
+      const RobustDeviation found = robust ? robust_deviation(signal.misses, signal.freedom)
+                                           : RobustDeviation{signal.rms / std::sqrt(share), signal.freedom};
+      compare_with_stated(found.deviation, signal.independent * found.freedom / counted, signal);
     }
     result.signals.push_back(signal);
   }

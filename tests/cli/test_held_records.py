@@ -41,6 +41,8 @@ class HeldRecords(case.Case):
         self.assert_true(result)
         told = [w for w in warnings if "the free motion lasts from t = 3.06 to 15.98 s: samples outside it are left out" in w]
         self.assertEqual(len(told), 1, warnings)
+        shown = self.run_program("fit", "coulomb", held, *CONSTANTS, "--no-profile", "--out", "fit").stderr
+        self.assertIn(f"{held}: warning: the free motion lasts", shown)  # the file is named once
         # identify says the same, but leaves out the long rest at the end too.
         identified = self.run_program("identify", held, *CONSTANTS).stderr
         self.assertIn("the free motion lasts from t = 3.06 to ", identified)
