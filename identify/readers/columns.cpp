@@ -169,7 +169,7 @@ void split_unit(Heading& heading, const KnownColumn& known) {
 }
 
 std::string ignored(std::string_view what, const std::string& name, const core::SettingWords& words) {
-  const std::string text = std::string(what) + " '" + name + "' is not known and is ignored";
+  std::string text = std::string(what) + " '" + name + "' is not known and is ignored";
   const KnownColumn* uncertain = column_of_uncertainty(name);
   if (uncertain == nullptr) return text;
   const std::string column(uncertain->name);

@@ -139,8 +139,8 @@ Answer DesignQuestion::run(const RunContext& context) const {
   if (const auto* why = std::get_if<std::string>(&found)) return failed(*why);
   const auto& design = std::get<identify::Design>(found);
   std::ranges::move(identify::warnings_about(design.now, options_), std::back_inserter(warnings));
-  if (const std::string none = identify::no_law_fits(design.now); !none.empty())
-    warnings.push_back(none +
+  if (const std::string misfit = identify::no_law_fits(design.now); !misfit.empty())
+    warnings.push_back(misfit +
                        ": a stated noise that is too small, a wrong frequency or constant, or friction that "
                        "no law of the library has. The ranges and the advice are not to be used");
   Answer answer;
