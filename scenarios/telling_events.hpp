@@ -13,9 +13,8 @@ namespace dualdamp::scenarios {
 /// Of `rows` of a table of events: all but
 ///
 /// * reversals, stops and releases that are less than 1e-8 of `length` away from those before and after;
-/// * pairs of a stop and a release, or of two reversals, at one place to 1e-8 of `length` and at one time to 1e-5
-/// of
-///   the last event's, if the mass goes on in its direction.
+/// * pairs of a stop and a release, or of two reversals, if the mass goes on in its direction, at one place to 1e-8
+///   of `length` and at one time to 1e-5 of the last event's.
 ///
 /// All rows of other tables.
 [[nodiscard]] std::vector<std::size_t> telling_rows(const Table& table, const std::vector<std::size_t>& rows,
