@@ -76,19 +76,41 @@ int synthetic_records_for(std::size_t samples) {
   return std::max(fewest, static_cast<int>(share * synthetic_count));
 }
 
+namespace {
+
+/// Whether a bias of this size is worth knowing at other parameters than those it was found at.
+bool matters(const Eigen::VectorXd& bias, const BootstrapSpread& spread) {
+  constexpr double of_deviation = 0.3;
+  return (bias.cwiseAbs2().array() > of_deviation * of_deviation * spread.covariance.diagonal().array()).any();
+}
+
+}  // namespace
+
 std::optional<BootstrapSpread> parametric_bootstrap(
     const std::vector<NumberedHistory>& histories, const ParameterReading& own, double offset,
     const std::function<std::optional<ParameterReading>(const Record&)>& read) {
-  const Eigen::VectorXd& p = own.parameters;
-  ForceParameters law{p[0], p[1], p[2], p[3]};
-  const std::optional<SyntheticRecords> synthetic = synthetic_records(histories, law, offset);
-  if (!synthetic) return std::nullopt;
-  Eigen::VectorXd truth = p;
-  truth.head<4>() << law.m, law.c, law.k, law.F0;
   std::size_t samples = 0;
   for (const NumberedHistory& item : histories) samples += item.history->x.size();
-  return bootstrap_spread(
-      own, truth, [&](int number) { return synthetic->record(number); }, read, synthetic_records_for(samples));
+  // The spread of records that are made with these parameters, and what the parameters are there.
+  const auto spread_at = [&](Eigen::VectorXd truth) -> std::optional<BootstrapSpread> {
+    ForceParameters law{truth[0], truth[1], truth[2], truth[3]};
+    const std::optional<SyntheticRecords> synthetic = synthetic_records(histories, law, offset);
+    if (!synthetic) return std::nullopt;
+    truth.head<4>() << law.m, law.c, law.k, law.F0;
+    return bootstrap_spread(
+        own, truth, [&](int number) { return synthetic->record(number); }, read, synthetic_records_for(samples));
+  };
+  std::optional<BootstrapSpread> spread = spread_at(own.parameters);
+  if (!spread || !matters(spread->bias, *spread)) return spread;
+  constexpr int most_passes = 4;
+  for (int pass = 1; pass < most_passes; ++pass) {
+    const std::optional<BootstrapSpread> next = spread_at(own.parameters - spread->bias);
+    if (!next) break;
+    const Eigen::VectorXd change = next->bias - spread->bias;
+    spread = next;
+    if (!matters(change, *spread)) break;
+  }
+  return spread;
 }
 
 void set_estimate(Estimate& estimate, const ForceParameters& force, const std::optional<BootstrapSpread>& spread) {

@@ -13,8 +13,12 @@
 /// the interval is widened by the ratio of this error to their root mean square. It is then also widened by the
 /// bias, which need not be that of the record. The interval is never narrowed.
 ///
+/// A bias that depends on the parameters is that at theta - b, not at theta: where it is large, the records are made
+/// again with theta - b until b settles (iterated bootstrap).
+///
 /// Draws depend on the record and the number of the synthetic record. Source: efron1993 (parametric bootstrap).
-/// Cost: B times that of the method, and B x 50 ns a sample and noisy signal.
+/// Cost: B times that of the method, and B x 50 ns a sample and noisy signal; up to four times that where the bias
+/// is large.
 
 #include <Eigen/Core>
 #include <functional>
@@ -57,8 +61,8 @@ struct BootstrapSpread {
 /// Their intervals are then 12 % wider, and keep their coverage by the quantile and 1/B.
 [[nodiscard]] int synthetic_records_for(std::size_t samples);
 
-/// The spread over synthetic records made with the parameters of `own`. `offset`: a constant force [N]. `read` as
-/// above.
+/// The spread over synthetic records made with the parameters of `own`, less their bias if that is more than 0.3
+/// standard errors. `offset`: a constant force [N]. `read` as above.
 [[nodiscard]] std::optional<BootstrapSpread> parametric_bootstrap(
     const std::vector<NumberedHistory>& histories, const ParameterReading& own, double offset,
     const std::function<std::optional<ParameterReading>(const Record&)>& read);

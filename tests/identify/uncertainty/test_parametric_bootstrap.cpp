@@ -112,6 +112,22 @@ TEST_CASE(
   CHECK(covariance(smoother)(1, 1) == covariance(alike)(1, 1));
 }
 
+TEST_CASE("A bias that depends on the parameters is that of the corrected parameters") {
+  // Reads c as c (0.7 + 0.03 c): 11.33 for 11, which is 11.78 for 11.33. The bias at the reading alone
+  // leaves 10.88.
+  const auto read = [](const Record& record) -> std::optional<ParameterReading> {
+    const ParameterSet value = friction_force(record, bearing_constants, {}).value;
+    return ParameterReading{Eigen::Vector4d(bearing_constants.mass, value.c * (0.7 + 0.03 * value.c),
+                                            bearing_constants.stiffness, value.F0),
+                            Eigen::Vector4d(0.0, 0.1, 0.0, 0.1)};
+  };
+  const Record record = noisy_second(3, 1e-6);
+  const ParameterReading own = *read(record);
+  const auto spread = parametric_bootstrap({{1, record.histories.data()}}, own, 0.0, read);
+  REQUIRE(spread);
+  CHECK(own.parameters[1] - spread->bias[1] == Approx(c).epsilon(2e-3));
+}
+
 TEST_CASE("A method that refuses more than one record in ten gets no interval") {
   const std::array<double, synthetic_count> numbers{};
   const ParameterReading own = *read_number(number_of(numbers, 0));
