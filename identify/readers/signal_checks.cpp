@@ -12,9 +12,7 @@ namespace dualdamp::identify {
 
 namespace {
 
-constexpr std::size_t fewest_at_end = 3;
 constexpr double least_height = 0.01;
-constexpr double resolutions = 3.0;
 
 /// The smallest step between two samples, as an estimate of the resolution.
 double resolution_of(std::span<const double> signal, double range) {
@@ -22,32 +20,6 @@ double resolution_of(std::span<const double> signal, double range) {
   for (std::size_t i = 1; i < signal.size(); ++i)
     if (const double step = std::abs(signal[i] - signal[i - 1]); step > 0.0) smallest = std::min(smallest, step);
   return smallest;
-}
-
-Clipping clipping_at(std::span<const double> signal, double value, double range) {
-  const double least = std::max(least_height * range, resolutions * resolution_of(signal, range));
-  Clipping found;
-  for (std::size_t i = 1; i < signal.size();) {
-    std::size_t end = i;
-    while (end < signal.size() && signal[end] == value) ++end;
-    const std::size_t length = end - i;
-    if (length >= fewest_at_end && end < signal.size()) {
-      // A parabola that enters with this slope and leaves after this length is higher by slope length/4. The slope
-      // is taken over half the length, in which a rounded top falls by at most three steps of the resolution.
-      const std::size_t reach = std::max<std::size_t>(length / 2, 1);
-      const double before = std::abs(value - signal[i > reach ? i - reach : 0]);
-      const double after = std::abs(value - signal[std::min(end + reach - 1, signal.size() - 1)]);
-      const double slope = std::min(before, after) / static_cast<double>(reach);
-      if (0.25 * slope * static_cast<double>(length) > least) {
-        if (found.places == 0) found.first = i;
-        ++found.places;
-        found.samples += length;
-        found.value = value;
-      }
-    }
-    i = end + 1;
-  }
-  return found;
 }
 
 /// The height that a signal would still gain beyond the place where it reaches a plateau of `length` samples.
@@ -69,11 +41,20 @@ double lost_height(const std::vector<double>& depths, std::size_t length) {
   return curvature > 0.0 ? std::min(height, 0.5 * slope * slope / curvature) : height;
 }
 
-/// Plateaus at the largest value of `sign` times a signal, within a band of its noise.
-class NoisyTop {
+/// What counts as a plateau at the end of the range, and as clipped.
+struct PlateauRule {
+  double band = 0.0;         ///< width of the values that count as equal
+  std::size_t fewest = 1;    ///< samples of a plateau
+  double least = 0.0;        ///< height that the signal would gain beyond it
+  bool ends_within = false;  ///< the record neither begins nor ends with it
+};
+
+/// Plateaus at the largest value of `sign` times a signal. A mass that comes to rest at its turning point is no
+/// such plateau: it comes without speed.
+class Top {
  public:
-  NoisyTop(std::span<const double> signal, double sign, double range, double band)
-      : signal_(signal), sign_(sign), range_(range), band_(band) {
+  Top(std::span<const double> signal, double sign, double range, const PlateauRule& rule)
+      : signal_(signal), sign_(sign), range_(range), rule_(rule) {
     for (const double value : signal) top_ = std::max(top_, sign * value);
   }
 
@@ -82,13 +63,15 @@ class NoisyTop {
     const std::size_t count = signal_.size();
     for (std::size_t i = 0; i < count;) {
       std::size_t end = i;
-      while (end < count && depth(end) <= 0.5 * band_) ++end;
+      while (end < count && depth(end) <= 0.5 * rule_.band) ++end;
       const std::size_t length = end - i;
-      if (length >= fewest && length < count && height(i, end) > least_height * range_ + bands * band_) {
+      const bool counts =
+          length >= rule_.fewest && length < count && !(rule_.ends_within && (i == 0 || end == count));
+      if (counts && height(i, end) > rule_.least) {
         if (found.places == 0) found.first = i;
         ++found.places;
         found.samples += length;
-        found.value = sign_ * (top_ - 0.5 * band_);
+        found.value = sign_ * (top_ - 0.5 * rule_.band);
       }
       i = end + 1;
     }
@@ -97,7 +80,7 @@ class NoisyTop {
 
  private:
   /// Below the middle of the band.
-  [[nodiscard]] double depth(std::size_t i) const { return top_ - 0.5 * band_ - sign_ * signal_[i]; }
+  [[nodiscard]] double depth(std::size_t i) const { return top_ - 0.5 * rule_.band - sign_ * signal_[i]; }
 
   /// The smaller one of both sides. A record may begin or end on a plateau.
   [[nodiscard]] double height(std::size_t first, std::size_t end) const {
@@ -119,17 +102,17 @@ class NoisyTop {
     return list;
   }
 
-  static constexpr std::size_t fewest = 4;
-  static constexpr double bands = 3.0;
   std::span<const double> signal_;
   double sign_;
   double range_;
-  double band_;
+  PlateauRule rule_;
   double top_ = -std::numeric_limits<double>::infinity();
 };
 
-/// Both ends of the range together.
-Clipping both(const Clipping& top, const Clipping& bottom) {
+/// At both ends of the range.
+Clipping both_ends(std::span<const double> signal, double range, const PlateauRule& rule) {
+  const Clipping top = Top(signal, 1.0, range, rule).clipping();
+  const Clipping bottom = Top(signal, -1.0, range, rule).clipping();
   Clipping all = top.places > 0 ? top : bottom;
   if (top.places > 0 && bottom.places > 0) all.first = std::min(top.first, bottom.first);
   all.samples = top.samples + bottom.samples;
@@ -142,9 +125,13 @@ Clipping both(const Clipping& top, const Clipping& bottom) {
 Clipping clipping_of(std::span<const double> signal) {
   if (signal.empty()) return {};
   const auto [low, high] = std::ranges::minmax(signal);
-  const Clipping top = clipping_at(signal, high, high - low);
-  const Clipping bottom = clipping_at(signal, low, high - low);
-  return top.places + bottom.places < 2 ? Clipping{} : both(top, bottom);
+  const double range = high - low;
+  constexpr double steps = 3.0;
+  const PlateauRule rule{.fewest = 3,
+                         .least = std::max(least_height * range, steps * resolution_of(signal, range)),
+                         .ends_within = true};
+  const Clipping all = both_ends(signal, range, rule);
+  return all.places < 2 ? Clipping{} : all;
 }
 
 Clipping noisy_clipping_of(std::span<const double> signal) {
@@ -156,10 +143,11 @@ Clipping noisy_clipping_of(std::span<const double> signal) {
   constexpr double deviations = 8.0;
   constexpr double steps = 2.0;
   constexpr double widest = 0.015;
+  constexpr double bands = 3.0;
   const double range = high - low;
   const double band = std::max(deviations * noise.deviation(), steps * resolution_of(signal, range));
   if (!(band <= widest * range)) return {};
-  return both(NoisyTop(signal, 1.0, range, band).clipping(), NoisyTop(signal, -1.0, range, band).clipping());
+  return both_ends(signal, range, {.band = band, .fewest = 4, .least = least_height * range + bands * band});
 }
 
 bool is_constant(std::span<const double> signal) {

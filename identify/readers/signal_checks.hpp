@@ -15,17 +15,16 @@ struct Clipping {
 };
 
 /// `samples` is 0 if the signal is not clipped. A swing is clipped if it stays at the largest or the smallest value
-/// of the signal and its slope is too steep for a rounded top: the height that the slope would still reach is above
-/// three times the resolution and above 1 % of the range. There must be two such places. A mass that is held before
-/// its release does not count as one.
+/// of the signal and would have gone further. A parabola through the samples beside the plateau, on both sides, says
+/// how much: more than three times the resolution and 1 % of the range. A mass that sticks arrives without speed.
+/// There must be two such places. A mass that is held before its release does not count as one.
 [[nodiscard]] Clipping clipping_of(std::span<const double> signal);
 
 /// The same where noise, that of the converter say, is added behind the place that clips. A plateau is a run of at
 /// least four samples within a band at the largest or the smallest value, eight deviations of the noise or two
-/// steps of the resolution wide, and at most 1.5 % of the range. A parabola through the samples beside it, on both
-/// sides, says how much higher the swing would have gone: more than 1 % of the range and three bands. A smooth top
-/// goes no higher than about the band, and a mass that sticks arrives without speed. A velocity may really stop
-/// short, as that of a mass carried along, and so may an acceleration. A single place counts.
+/// steps of the resolution wide, and at most 1.5 % of the range. The swing would have gone further by more than 1 % of
+/// the range and three bands; a smooth top goes no higher than about the band. A velocity may really stop short, as
+/// that of a mass carried along, and so may an acceleration. A single place counts.
 [[nodiscard]] Clipping noisy_clipping_of(std::span<const double> signal);
 
 [[nodiscard]] bool is_constant(std::span<const double> signal);

@@ -35,6 +35,23 @@ std::vector<double> clipped(std::vector<double> x, double low, double high) {
   return x;
 }
 
+std::vector<double> in_steps(std::vector<double> x, double step) {
+  for (double& value : x) value = step > 0.0 ? step * std::round(value / step) : value;
+  return x;
+}
+
+/// Half swings between -1 and 1, with a rest of `share` of the time at each end, where the mass arrives and leaves
+/// without speed.
+std::vector<double> sticks(double share, double per_sample = per_swing) {
+  std::vector<double> x;
+  for (double swing = 0.25; swing < 8.0; swing += 1.0 / per_sample) {
+    const double part = std::fmod(swing, 1.0);
+    const double sign = std::fmod(swing, 2.0) < 1.0 ? 1.0 : -1.0;
+    x.push_back(sign * (part < 1.0 - share ? std::cos(std::numbers::pi * part / (1.0 - share)) : -1.0));
+  }
+  return x;
+}
+
 }  // namespace
 
 TEST_CASE("signal checks: clipping is seen under the noise of what reads the sensor") {
@@ -58,13 +75,21 @@ TEST_CASE("signal checks: tops of smooth, quantised and sticking motion are not 
         for (double& value : x) value = step > 0.0 ? step * std::round(value / step) : value;
         CHECK(noisy_clipping_of(x).samples == 0);
       }
-  // Half swings, with a rest of half a swing at each end, where the mass arrives and leaves without speed.
-  std::vector<double> sticks;
-  for (double swing = 0.0; swing < 8.0; swing += 1.0 / per_swing) {
-    const double part = std::fmod(swing, 1.0);
-    const bool moves = part < 0.5;
-    const double sign = std::fmod(swing, 2.0) < 1.0 ? 1.0 : -1.0;
-    sticks.push_back(sign * (moves ? std::cos(2.0 * std::numbers::pi * part) : -1.0));
-  }
-  for (const double noise : {1e-4, 1e-3}) CHECK(noisy_clipping_of(with_noise(sticks, noise)).samples == 0);
+  for (const double noise : {1e-4, 1e-3}) CHECK(noisy_clipping_of(with_noise(sticks(0.5), noise)).samples == 0);
+}
+
+TEST_CASE(
+    "signal checks: without noise a plateau is clipped if the swing arrives with speed, not if the mass rests") {
+  for (const double per_sample : {20.0, 60.0, 1000.0})
+    for (const double step : {0.0, 1e-5, 1e-3, 2.0 / 256.0}) {
+      CAPTURE(per_sample, step);
+      for (const double share : {0.05, 0.2, 0.5, 0.8}) {
+        CAPTURE(share);
+        constexpr double fewest = 8.0;  // samples of a half swing: of fewer, no parabola shows the speed at its end
+        if ((1.0 - share) * per_sample < fewest) continue;
+        CHECK(clipping_of(in_steps(sticks(share, per_sample), step)).samples == 0);
+      }
+      CHECK(clipping_of(in_steps(clipped(decay(per_sample), -0.8, 0.8), step)).places > 2);
+      CHECK(clipping_of(in_steps(decay(per_sample), step)).samples == 0);
+    }
 }
