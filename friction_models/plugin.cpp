@@ -122,7 +122,11 @@ Parameter parameter_of(const Refusal& refuse, const dualdamp_parameter& p, std::
   refuse.unless(core::is_si(p.unit), name + " has a unit that is not known, or not SI",
                 "an SI unit in udunits2 spelling, such as N.s/m", p.unit);
   Parameter result{.name = p.name, .unit = p.unit, .meaning = p.meaning};
-  result.range = {.low = p.low, .high = p.high, .low_open = p.low_is_open != 0, .high_open = p.high_is_open != 0};
+  // No value is infinite: whether such an end is open has no meaning.
+  result.range = {.low = p.low,
+                  .high = p.high,
+                  .low_open = p.low_is_open != 0 && std::isfinite(p.low),
+                  .high_open = p.high_is_open != 0 && std::isfinite(p.high)};
   refuse.unless(p.low < p.high, name + " has an empty range", "low < high",
                 core::format_number(p.low) + " to " + core::format_number(p.high));
   if (p.has_default != 0) {

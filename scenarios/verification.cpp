@@ -230,7 +230,8 @@ class Comparison {
     }
   }
 
-  /// Rows for which one computation has a reason instead of numbers are counted and not compared.
+  /// Rows for which a computation has a reason instead of numbers are not compared. Those are counted for which the
+  /// other one has numbers; where both have a reason, they agree.
   std::vector<char> compared_rows(const Table& table, const std::vector<std::size_t>& mine, const Table& other,
                                   const std::vector<std::size_t>& theirs) {
     std::vector<char> result(mine.size(), 1);
@@ -238,11 +239,13 @@ class Comparison {
       const Column* const reason = t.find("reason");
       return reason != nullptr && !reason->text(row).empty();
     };
-    for (std::size_t i = 0; i < mine.size(); ++i)
-      if (has_reason(table, mine[i]) || has_reason(other, theirs[i])) {
-        result[i] = 0;
-        ++result_.rows_left_out;
-      }
+    for (std::size_t i = 0; i < mine.size(); ++i) {
+      const bool one = has_reason(table, mine[i]);
+      const bool two = has_reason(other, theirs[i]);
+      if (one || two) result[i] = 0;
+      result_.rows_left_out += one != two ? 1 : 0;
+      result_.rows_without_numbers += one && two ? 1 : 0;
+    }
     return result;
   }
 

@@ -29,7 +29,8 @@ struct Verification {
   double tolerance = 0.0;           ///< of that quantity
   std::string quantity;             ///< its path in the result; empty: there was nothing to compare
   long quantities = 0;              ///< number of compared values
-  long rows_left_out = 0;           ///< rows of lists for which one computation has no numbers
+  long rows_left_out = 0;           ///< rows of lists for which only one computation has numbers
+  long rows_without_numbers = 0;    ///< rows of lists for which both have a reason instead
   bool agrees = true;
   std::string reason;  ///< why it does not agree or could not be computed
 };

@@ -141,23 +141,28 @@ void add_missing(const RigLaw& law, std::size_t index, const std::vector<FitPara
                  std::vector<FitParameter>& missing, std::vector<std::string>& faults) {
   ParameterValues completed = law.values;
   std::vector<std::string> names;
+  const auto need = [&](const Parameter& parameter) {
+    if (parameter.kind == ParameterKind::number) {
+      names.emplace_back(parameter.name);
+      return;
+    }
+    // What is missing inside of a stated list or record, the reader of the scenario reports, with its place.
+    faults.push_back("'" + std::string(parameter.name) + "' of " + std::string(law.entry->name) + " is missing: " +
+                     (parameter.kind == ParameterKind::list
+                          ? "state the list, with start values; a fit does not choose its length"
+                          : "state it; a fit seeks numbers only"));
+  };
   for (const friction::ParameterFault& fault : friction::complete(*law.entry, completed)) {
     if (!fault.is_missing) continue;
-    std::vector<std::string> instead = names_instead_of(law.entry->parameters, fault.name);
+    const std::vector<std::string> instead = names_instead_of(law.entry->parameters, fault.name);
     const auto own = std::ranges::find(law.entry->parameters, fault.name, &Parameter::name);
-    if (own != law.entry->parameters.end() && own->kind == ParameterKind::number) {
-      names.push_back(fault.name);
-    } else if (!instead.empty()) {
-      for (const Parameter& parameter : law.entry->parameters)
-        if (std::ranges::find(instead, parameter.name) != instead.end() && parameter.required())
-          names.emplace_back(parameter.name);
-    } else if (own != law.entry->parameters.end()) {
-      // What is missing inside of a stated list or record, the reader of the scenario reports, with its place.
-      faults.push_back("'" + fault.name + "' of " + std::string(law.entry->name) + " is missing: " +
-                       (own->kind == ParameterKind::list
-                            ? "state the list, with start values; a fit does not choose its length"
-                            : "state it; a fit seeks numbers only"));
+    const bool is_known = own != law.entry->parameters.end();
+    if (is_known && (own->kind == ParameterKind::number || instead.empty())) {
+      need(*own);
+      continue;
     }
+    for (const Parameter& parameter : law.entry->parameters)
+      if (std::ranges::find(instead, parameter.name) != instead.end() && parameter.required()) need(parameter);
   }
   for (const Parameter& parameter : law.entry->parameters)
     if (is_level_of_rest(*law.entry, parameter) && !law.values.has(parameter.name))

@@ -130,6 +130,7 @@ extern "C" const dualdamp_law_table* dualdamp_law() {
   if (is("unit")) parameters[0].unit = "lbf";
   if (is("no unit")) parameters[0].unit = nullptr;
   if (is("meaning")) parameters[0].meaning = "";
+  if (is("open infinity")) parameters[0].high_is_open = 1;
   if (is("range")) parameters[0].high = -1.0;
   if (is("range NaN")) parameters[0].low = std::numeric_limits<double>::quiet_NaN();
   if (is("default")) parameters[0].has_default = 1;

@@ -165,6 +165,7 @@ class Sound(Case):
     def test_conformance_suite(self):
         result = self.run_program("laws", "test_slider", "--check", *VALUES, "--plugin", TEST_LAW)
         self.assertIn("keeps the law contract", result.stdout)
+        self.run_program("laws", "test_slider", "--check", *VALUES, "--plugin", TEST_LAW, fault="open infinity")
         active = self.run_program("laws", "test_slider", "--check", *VALUES, "--plugin", TEST_LAW, status=1, fault="active")
         self.assertIn("it gives out more work than it took in", active.stdout)
 

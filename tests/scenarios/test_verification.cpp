@@ -80,6 +80,21 @@ TEST_CASE("verification: counts are equal, and a missing number is a difference"
   CHECK(scenarios::compare_answers(other, answer(0.1, 1.0), fields).quantity == "peak");
 }
 
+TEST_CASE("verification: rows without numbers in one computation are told from those in both",
+          "[scenarios][verification]") {
+  const auto with_reasons = [](std::vector<std::string> reasons) {
+    Answer curve = curve_answer(1.0);
+    curve.tables[0].columns.push_back(
+        {.name = "reason", .texts = std::move(reasons), .kind = scenarios::CellKind::text});
+    return curve;
+  };
+  const Verification found =
+      scenarios::compare_answers(with_reasons({"none", "none"}), with_reasons({"none", ""}), {});
+  CHECK(found.rows_left_out == 1);
+  CHECK(found.rows_without_numbers == 1);
+  CHECK(found.agrees);
+}
+
 TEST_CASE("verification: each point of a curve is measured by its own amplitude", "[scenarios][verification]") {
   // Relative to an amplitude of 1 m an error of 1e-12 m would not count.
   const Verification off = scenarios::compare_answers(curve_answer(1e-6), curve_answer(1e-6 + 1e-12), {});
