@@ -79,7 +79,7 @@ TEST_CASE("signal checks: tops of smooth, quantised and sticking motion are not 
 }
 
 TEST_CASE(
-    "signal checks: without noise a plateau is clipped if the swing arrives with speed, not if the mass rests") {
+    "signal checks: without noise a plateau is clipped if the swing arrives with speed, not if the mass sticks") {
   for (const double per_sample : {20.0, 60.0, 1000.0})
     for (const double step : {0.0, 1e-5, 1e-3, 2.0 / 256.0}) {
       CAPTURE(per_sample, step);
