@@ -154,6 +154,32 @@ void check_mass_and_stiffness(CheckedFile& file) {
   check(std::sqrt(*m) * std::sqrt(*k), "critical damping", "sqrt(m k) of 1e-40 to 1e40 N.s/m");
 }
 
+/// Squares and products of all numbers must be neither zero nor infinite: below 1e-160 m the energies of a motion
+/// vanish, and forces with squares in them are wrong. Mass, stiffness and damping have ranges of their own.
+void check_magnitudes(CheckedFile& file, const Json& value, const std::string& path) {
+  constexpr double least = 1e-60;
+  constexpr double most = 1e60;
+  if (path == "system.mass" || path == "system.stiffness" || path == "system.damping") return;
+  if (value.is_number_float()) {
+    const double size = std::abs(value.get<double>());
+    if (size == 0.0 || (size >= least && size <= most)) return;
+    file.complain(path, "'" + path + "' is too " + (size > most ? "large" : "small") + " to compute with",
+                  "0, or 1e-60 to 1e60 in SI", core::format_number(value.get<double>(), 6));
+  } else if (value.is_object()) {
+    for (const auto& [key, item] : value.items())
+      check_magnitudes(file, item, path.empty() ? key : path + "." + key);
+  } else if (value.is_array()) {
+    for (std::size_t i = 0; i < value.size(); ++i)
+      check_magnitudes(file, value[i], path + "[" + std::to_string(i) + "]");
+  }
+}
+
+void check_magnitudes(CheckedFile& file) {
+  const Json values = file.values();
+  for (const char* section : {"system", "excitation", "initial", "analysis"})
+    if (values.contains(section)) check_magnitudes(file, values.at(section), section);
+}
+
 void resolve_frequency(CheckedFile& file) {
   if (!file.has("excitation", "frequency")) return;
   Json& frequency = file.values()["excitation"]["frequency"];
@@ -308,6 +334,7 @@ Checked check(const Document& document, Reading& reading, const Section& format,
   if (file.needs() != nullptr) check_loss_factor(file, *analysis, analyses);
   check_load_modulation(file);
   check_mass_and_stiffness(file);
+  check_magnitudes(file);
   resolve_frequency(file);
   if (file.needs() != nullptr && !file.needs()->excitations.empty()) read_drive(file);
   if (analysis->check != nullptr) analysis->check(file);

@@ -149,6 +149,14 @@ void ExactEngine::begin_motion() {
   if (tracking_) reset_sensitivity();
 }
 
+void ExactEngine::reset_sensitivity() {
+  const Oscillator& rig = model_.oscillator;
+  double size = std::max(std::abs(x_), std::abs(v_) * std::sqrt(rig.mass / std::abs(rig.stiffness)));
+  for (const friction::Memory& memory : memories_)
+    for (const double state : memory.state) size = std::max(size, std::abs(state));
+  sensitivity_.begin(memories_, some_memory_, size);
+}
+
 /// The end of a slip: stick or slip.
 void ExactEngine::settle() {
   change_direction(Direction::none);

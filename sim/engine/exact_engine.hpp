@@ -34,7 +34,7 @@ class ExactEngine final : public Engine {
   [[nodiscard]] double accuracy() const override { return 0.0; }
   [[nodiscard]] bool has_past() const override { return false; }
 
-  void reset_sensitivity() override { sensitivity_.begin(memories_, some_memory_); }
+  void reset_sensitivity() override;
   [[nodiscard]] Eigen::MatrixXd sensitivity() const override { return sensitivity_.matrix(); }
 
  private:

@@ -17,17 +17,18 @@ Eigen::Index at(std::size_t i) { return static_cast<Eigen::Index>(i); }
 
 }  // namespace
 
-void Sensitivity::begin(const Memories& memories, bool with_memory) {
+void Sensitivity::begin(const Memories& memories, bool with_memory, double size) {
+  unit_ = size > 1.0 && std::isfinite(size) ? std::exp2(std::ceil(std::log2(size))) : 1.0;
   std::size_t columns = 2;
   for (const Memory& memory : memories) columns += memory.state.size();
   motion_.assign(columns, Eigen::Vector2d::Zero());
-  motion_[0].x() = motion_[1].y() = 1.0;
+  motion_[0].x() = motion_[1].y() = unit_;
   states_.resize(memories.size());
   std::size_t first = 2;
   for (std::size_t i = 0; i < memories.size(); ++i) {
     const std::size_t count = memories[i].state.size();
     states_[i].setZero(at(count), at(columns));
-    for (std::size_t k = 0; k < count; ++k) states_[i](at(k), at(first + k)) = 1.0;
+    for (std::size_t k = 0; k < count; ++k) states_[i](at(k), at(first + k)) = unit_;
     first += count;
   }
   guard_.assign(columns, 0.0);
@@ -174,7 +175,7 @@ Eigen::MatrixXd Sensitivity::matrix() const {
     result.middleRows(row, states.rows()) = states;
     row += states.rows();
   }
-  return result;
+  return result / unit_;
 }
 
 }  // namespace dualdamp::sim

@@ -35,8 +35,8 @@ class Sensitivity {
   };
 
   /// Sets the derivative to identity for a motion that begins with these memories. `with_memory`: some law may have
-  /// states now or later.
-  void begin(const Memories& memories, bool with_memory);
+  /// states now or later. `size`: of the motion; a perturbation far below it would be lost in its rounding.
+  void begin(const Memories& memories, bool with_memory, double size);
 
   /// Computes the forces that perturbed states exert in the interval that begins now. `decays`: of the transients.
   void lay(Laws laws, const Memories& memories, const friction::Instant& now, friction::Direction direction,
@@ -86,6 +86,7 @@ class Sensitivity {
   void flow(double factor, Laws laws, const Memories& memories, const friction::Instant& now,
             friction::Direction direction);
 
+  double unit_ = 1.0;                    ///< size of the perturbation at the start, a power of two
   std::vector<Eigen::Vector2d> motion_;  ///< of each column
   std::vector<Eigen::Vector2d> begin_;   ///< motion_ at the start of the interval
   std::vector<Eigen::MatrixXd> states_;  ///< of each law: state by column

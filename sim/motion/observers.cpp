@@ -61,11 +61,14 @@ void quadrature(const Interval& interval, const Visit& visit) {
 /// bracket such a place.
 constexpr int cells = 8;
 
+/// A product would underflow in a small motion.
+bool changes_sign(double left, double right) { return (left < 0.0 && right > 0.0) || (left > 0.0 && right < 0.0); }
+
 /// The time between low and high at which the acceleration changes sign, by bisection; `sign` is its sign at low.
 double speed_extreme(const Interval& interval, double low, double high, double sign) {
   for (int step = 0; step < 60; ++step) {
     const double middle = 0.5 * (low + high);
-    (interval.at(middle).a * sign > 0.0 ? low : high) = middle;
+    ((interval.at(middle).a > 0.0) == (sign > 0.0) ? low : high) = middle;
   }
   return low;
 }
@@ -79,7 +82,7 @@ double largest_inner_speed(const Interval& interval) {
     for (int cell = 1; cell <= cells; ++cell) {
       const double right = from + width * cell / cells;
       const double right_a = interval.at(right).a;
-      if (left_a * right_a < 0.0) {
+      if (changes_sign(left_a, right_a)) {
         const double at = speed_extreme(interval, left, right, left_a);
         largest = std::max(largest, std::abs(interval.at(at).v));
       }
@@ -99,7 +102,7 @@ double speed_between(const ClosedForm& form, const core::ModeFunction& jerk, dou
   basis.evaluate(s, values);
   for (int i = 0; i < 60; ++i) {
     const double a = core::evaluate(basis, form.a, values);
-    (a * left_a > 0.0 ? low : high) = s;
+    ((a > 0.0) == (left_a > 0.0) ? low : high) = s;
     const double newton = -a / core::evaluate(basis, jerk, values);
     const bool last = std::abs(newton) * basis.fastest() < 1e-6;
     const bool inside = s + newton > low && s + newton < high;
@@ -143,7 +146,7 @@ double largest_inner_speed(const Interval& interval, const ClosedForm& form) {
         turn_by(basis, turn, here);
       }
       const double right_a = core::evaluate(basis, form.a, here);
-      if (left_a * right_a < 0.0) {
+      if (changes_sign(left_a, right_a)) {
         const double low = from + step * cell;
         const double crossing = low + step * (left_a / (left_a - right_a));
         largest = std::max(largest, speed_between(form, jerk, low, low + step, crossing, left_a));

@@ -4,6 +4,7 @@
 usage: test_ignored.py PROGRAM ROOT [TEST...]
 """
 
+import json
 import math
 import sys
 import unittest
@@ -141,6 +142,22 @@ analysis: {{type: fit, data: [{{file: loop.csv, loop: true}}, {{file: run.csv}}]
         for mass in ("1e-20 kg", "1e-70 kg"):
             result = self.run_program("run", "base.yaml", "--set", f"system.mass={mass}", "--set", "system.damping=0 N.s/m", status=4)
             self.assertIn("followed no longer", result.stderr)
+
+    def test_lengths_and_forces_beyond_all_machines(self):
+        """Energies of zero and a LuGre force without its squares had left with status 0."""
+        for scale, size in (("e-171", "small"), ("e-300", "small"), ("e70", "large")):
+            for friction in (f"law: coulomb, kinetic: 2{scale} N", f"law: lugre, kinetic: 2{scale} N, stribeck_velocity: 0.1{scale} m/s, sigma0: 10000 N/m, sigma1: 10 N.s/m"):
+                drive = f"excitation={{type: base_harmonic, amplitude: 0.1{scale} m, frequency: 7 rad/s}}"
+                result = self.run_program("run", "base.yaml", "--set", drive, "--set", f"system.friction={{{friction}}}", "--set", f"initial.position=0.3{scale} m", status=3)
+                for path in ("excitation.amplitude", "system.friction.kinetic", "initial.position"):
+                    self.assertIn(f"'{path}' is too {size} to compute with", result.stderr)
+                self.assertIn("allowed: 0, or 1e-60 to 1e60 in SI", result.stderr)
+        curve = "analysis={type: xy_curve, amplitudes: [1e-171 m, 2e-171 m]}"
+        result = self.run_program("run", "base.yaml", "--set", curve, status=3)
+        self.assertIn("'analysis.amplitudes[1]' is too small to compute with", result.stderr)
+        drive = "excitation={type: base_harmonic, amplitude: 0.1e-55 m, frequency: 7 rad/s}"
+        result = self.run_program("run", "base.yaml", "--set", drive, "--set", "system.friction={law: coulomb, kinetic: 2e-55 N}", "--json")
+        self.assertGreater(json.loads(result.stdout)["result"]["energy"]["friction"], 1e-111)
 
     def test_readings_beyond_all_machines(self):
         """Their squares are no numbers: an interval from -inf to inf, and a range that is nan, had left with status 0."""

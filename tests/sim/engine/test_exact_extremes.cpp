@@ -7,6 +7,7 @@
 #include "friction_models/laws/contact_compliance.hpp"
 #include "sim/engine/exact_engine.hpp"
 #include "sim/motion/simulate.hpp"
+#include "sim/orbits/steady_state.hpp"
 #include "tests/sim/engine/exact_motions.hpp"
 
 using namespace dualdamp;
@@ -106,6 +107,31 @@ TEST_CASE("Amplitudes of 1e-200 move like those of 1", "[exact]") {
         CHECK(std::abs(there[i].t - here[i].t) < 1e-13 * here[i].t);
         CHECK(std::abs(std::ldexp(there[i].x, -power) - here[i].x) < 1e-12);
       }
+    }
+  }
+}
+
+TEST_CASE("Floquet multipliers and the largest speed do not depend on the unit of length", "[exact]") {
+  for (const bool with_contact : {false, true}) {
+    const auto state = [&](double unit) {
+      Model model = base_driven(1.0, 100.0, 4.0, 0.1 * unit, 7.0);
+      if (with_contact) {
+        model.friction.emplace_back(friction::ContactCompliance(2.0 * unit, 2.0 * unit, 1000.0, 0.0));
+      } else {
+        model.friction.push_back(coulomb(2.0 * unit, 3.0 * unit));
+      }
+      return steady_state(model);
+    };
+    const SteadyState here = state(1.0);
+    REQUIRE(here.outcome.ok());
+    for (const int power : {-900, -570, -40, 40, 53, 180, 430}) {
+      const SteadyState there = state(std::ldexp(1.0, power));
+      CAPTURE(with_contact, power);
+      REQUIRE(there.outcome.ok());
+      CHECK(std::abs(std::ldexp(there.max_speed, -power) - here.max_speed) < 1e-12);
+      REQUIRE(there.multipliers.size() == here.multipliers.size());
+      for (std::size_t i = 0; i < here.multipliers.size(); ++i)
+        CHECK(std::abs(there.multipliers[i] - here.multipliers[i]) < 1e-11);
     }
   }
 }
