@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/constants.hpp"
+#include "core/numbers.hpp"
 #include "sim/batch/batch.hpp"
 #include "sim/engine/drive.hpp"
 #include "sim/engine/engine.hpp"
@@ -77,6 +78,7 @@ class OrbitFinder {
   [[nodiscard]] SteadyState with_extremes(const Orbit& orbit);
   [[nodiscard]] std::optional<SteadyState> mirror_image(const SteadyState& of);
   void add_mirror_images(SteadyState& result);
+  void warn_of_distance(const ForcingPeriod& period, SteadyState& result);
 
   const Model& model_;
   SteadyStateOptions options_;
@@ -212,6 +214,23 @@ void OrbitFinder::add_mirror_images(SteadyState& result) {
   }
 }
 
+/// Under weak damping a motion closes within the tolerance long before it has reached its orbit. What is left to
+/// it, and what errors of steps add up to, is measured by the monodromy matrix.
+void OrbitFinder::warn_of_distance(const ForcingPeriod& period, SteadyState& result) {
+  constexpr double usual = 1e-9;
+  constexpr double told = 1e-4;
+  const double rest = 1.0 - period.radius();
+  if (options_.tolerance <= usual || !(rest > neutral_margin)) return;
+  double distance = std::max(correction_left(period, model_.excitation.frequency), map_.engine().accuracy() / rest);
+  if (!(distance > told)) return;
+  constexpr double all = 100.0;
+  result.warnings.emplace_back(
+      "the steady state may be off by " +
+      (distance < 1.0 ? core::format_number(all * distance, 1) + " %" : std::string("more than its size")) +
+      ": at this tolerance a motion counts as closed while it is still that far from it; a smaller "
+      "'numerics.tolerance' finds it more exactly");
+}
+
 void OrbitFinder::find(SteadyState& result) {
   std::optional<Orbit> orbit;
   // Newton's method cannot change the state of a motion that depends on its past.
@@ -233,7 +252,9 @@ void OrbitFinder::find(SteadyState& result) {
   result.period_ratio = orbit->period_ratio;
   result.period *= orbit->period_ratio;
   result.start = orbit->period.begin;
-  if (!has_past) result.multipliers = orbit->period.multipliers();
+  if (has_past) return;
+  result.multipliers = orbit->period.multipliers();
+  warn_of_distance(orbit->period, result);
 }
 
 }  // namespace

@@ -143,6 +143,25 @@ analysis: {{type: fit, data: [{{file: loop.csv, loop: true}}, {{file: run.csv}}]
             result = self.run_program("run", "base.yaml", "--set", f"system.mass={mass}", "--set", "system.damping=0 N.s/m", status=4)
             self.assertIn("followed no longer", result.stderr)
 
+    def test_loose_tolerances(self):
+        """Steady states were off by up to 20 %, or called subharmonic, with status 0 and no warning."""
+        for tolerance in ("1e-3", "1e-4", "1e-5"):
+            error = self.run_program("run", "base.yaml", "--set", f"numerics.tolerance={tolerance}", status=3).stderr
+            self.assertIn("'numerics.tolerance' is out of range", error)
+            self.assertIn("<= 1.0e-06", error)
+        text = BASE.replace("damping: 4 N.s/m", "damping: 0.01 N.s/m").replace("{law: coulomb, kinetic: 2 N}", "{law: dahl, kinetic: 2 N, sigma0: 1000 N/m}")
+        self.assertIn("dahl", text)
+        self.write("weak.yaml", text.replace("type: steady_state", "type: frequency_response, frequencies: [5 rad/s, 10 rad/s, 13 rad/s]").replace("frequency: 10 rad/s", "").replace("amplitude: 0.1 m, ", "amplitude: 0.1 m"))
+        results = {}
+        for tolerance in ("1e-6", "1e-11"):
+            document = json.loads(self.run_program("run", "weak.yaml", "--json", "--set", f"numerics.tolerance={tolerance}").stdout)
+            results[tolerance] = [point["x"] for point in document["result"]["points"]]
+            said = [warning for warning in document["warnings"] if "the steady state may be off by" in warning]
+            self.assertEqual(bool(said), tolerance == "1e-6", document["warnings"])
+        off = max(abs(loose / tight - 1) for loose, tight in zip(results["1e-6"], results["1e-11"]))
+        self.assertGreater(off, 1e-5)
+        self.assertLess(off, 1e-3)
+
     def test_lengths_and_forces_beyond_all_machines(self):
         """Energies of zero and a LuGre force without its squares had left with status 0."""
         for scale, size in (("e-171", "small"), ("e-300", "small"), ("e70", "large")):
