@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "sim/engine/engine.hpp"
+#include "sim/motion/event_forecast.hpp"
 #include "sim/motion/observers.hpp"
 #include "sim/validate.hpp"
 
@@ -16,6 +17,7 @@ History simulate(const Model& model, const SimulateOptions& options) {
   Engine& engine = *owned;
   Sampler sampler = options.sample_rate > 0.0 ? Sampler(options.sample_rate) : Sampler(options.times);
   EnergyAudit energy(model.oscillator);
+  EventForecast forecast(model, options.duration, options.max_events);
   while (const Interval* interval = engine.next(options.duration)) {
     sampler.observe(*interval);
     energy.observe(*interval);
@@ -27,7 +29,9 @@ History simulate(const Model& model, const SimulateOptions& options) {
     if (!interval->ending) continue;
     history.final.v = engine.velocity();
     history.events.push_back({interval->end(), *interval->ending, engine.position(), engine.velocity()});
-    if (static_cast<long>(history.events.size()) >= options.max_events) {
+    const long count = static_cast<long>(history.events.size());
+    forecast.observe(history.final, count);
+    if (count >= options.max_events || forecast.is_hopeless()) {
       history.outcome = {core::OutcomeKind::event_limit,
                          "more than " + std::to_string(options.max_events) + " events before the end"};
       break;
