@@ -158,6 +158,9 @@ std::vector<std::string> law_warnings(const Json& section, core::Coordinate coor
   return result;
 }
 
+/// Above it amplitudes were off by more than 2e-4 in trials (docs/smooth-engine.md).
+constexpr double loosest_quiet_tolerance = 1e-6;
+
 sim::Solver solver(const Json& numerics) {
   static const std::map<std::string, sim::SolverKind> kinds = {{"automatic", sim::SolverKind::automatic},
                                                                {"explicit", sim::SolverKind::explicit_steps},
@@ -246,6 +249,11 @@ Scenario scenario_of(const Document& document, Reading reading, const std::strin
   std::ranges::move(checked.warnings, std::back_inserter(scenario.warnings));
   std::ranges::move(loss_factor_warnings(scenario.model), std::back_inserter(scenario.warnings));
   scenario.tolerance = tolerance_of(values, scenario.model);
+  if (scenario.model.solver.tolerance > loosest_quiet_tolerance)
+    scenario.warnings.push_back(
+        "'numerics.tolerance' = " + core::format_number(scenario.model.solver.tolerance) +
+        " is loose: steady amplitudes under weak damping may be off by up to 20 %, and a slow "
+        "approach may pass for a subharmonic motion; 1e-6 keeps amplitudes within 0.02 %");
   scenario.verify = values.contains("numerics") && values.at("numerics").value("verify", false);
   const Json& section = values.at("analysis");
   scenario.analysis_name = std::string(checked.analysis->name);

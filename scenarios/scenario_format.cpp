@@ -88,10 +88,10 @@ Section scenario_format(const AnalysisList& analyses) {
            "numerics",
            {{quantity("tolerance", {"1"},
                       "closure error of a steady state relative to its size, and error of a step if friction is "
-                      "not piecewise linear; default: 1e-14, or 1e-11 for such friction. Above 1e-6 amplitudes "
-                      "would be off by up to 20 %, and slow approaches would pass for subharmonic motions")
+                      "not piecewise linear; default: 1e-14, or 1e-11 for such friction. Above 1e-6 amplitudes may "
+                      "be off by 20 %, and a warning says so")
                  .at_least(1e-15)
-                 .at_most(1e-6),
+                 .at_most(1e-3),
              words("solver", {"automatic", "explicit", "implicit"},
                    "steps of the smooth engine; automatic: the exact engine if every law allows it, otherwise "
                    "explicit steps until the motion is stiff")
