@@ -7,6 +7,7 @@
 #include "core/numbers.hpp"
 #include "identify/fit/experiment.hpp"
 #include "identify/fit/starts.hpp"
+#include "identify/records/held_way.hpp"
 #include "identify/records/rest_samples.hpp"
 #include "identify/records/signals.hpp"
 #include "identify/statistics/noise_level.hpp"
@@ -25,15 +26,23 @@ Direction direction_of(double v) {
   return v > 0.0 ? Direction::forward : v < 0.0 ? Direction::backward : Direction::none;
 }
 
+double noise_of(const std::vector<double>& samples) {
+  RobustNoiseLevel level;
+  level.add(samples);
+  return level.deviation();
+}
+
 class FrictionLoop final : public Experiment {
  public:
   FrictionLoop(const History& history, const ExperimentOptions& options)
       : start_(history.start), rate_(history.sample_rate), x_(history.x), v_(history.v), a_(history.a) {
     kind = ExperimentKind::loop;
-    RobustNoiseLevel level;
-    level.add(history.force);
-    force_noise_ = options.sigma_force > 0.0 ? options.sigma_force : level.deviation();
+    force_noise_ = options.sigma_force > 0.0 ? options.sigma_force : noise_of(history.force);
     complete(history, options.has_mass);
+    way_x_ = law_x_;
+    way_v_ = law_v_;
+    hold(still_stretches(rests_, {history.x, noise_of(history.x)}, {history.v, noise_of(history.v)}), way_x_,
+         way_v_);
     const double speed = largest_swing(law_v_);
     // The zero of the sensor of a velocity drives its integral away.
     const auto duration = static_cast<double>(law_v_.size() - 1) / rate_;
@@ -210,6 +219,11 @@ class FrictionLoop final : public Experiment {
     return {static_cast<double>(i) / rate_, law_x_[i] - offset, law_v_[i]};
   }
 
+  /// On the way that moves a law with a memory.
+  [[nodiscard]] Instant on_way(std::size_t i, double offset) const {
+    return {static_cast<double>(i) / rate_, way_x_[i] - offset, way_v_[i]};
+  }
+
   /// Adds the force of a law. A law without memory needs no path between the samples.
   [[nodiscard]] bool add(const friction::Law& law, double offset, double travel, std::vector<double>& force) const {
     if (!depends_on_past(law)) {
@@ -217,9 +231,9 @@ class FrictionLoop final : public Experiment {
         force[i] += law.force({}, instant(i, offset), direction_of(law_v_[i]));
       return true;
     }
-    sim::LawHost host = sim::loaded_host(law, instant(0, offset), travel);
+    sim::LawHost host = sim::loaded_host(law, on_way(0, offset), travel);
     host.limit_steps(std::min(most_steps(), sim::WorkLimit::most()));
-    if (const Direction first = direction_of(law_v_[0]); travel == 0.0 || first != host.direction())
+    if (const Direction first = direction_of(way_v_[0]); travel == 0.0 || first != host.direction())
       host.change_direction(first);
     force[0] += host.force();
     for (std::size_t i = 1; i < force.size() && !host.broken(); ++i) {
@@ -238,20 +252,24 @@ class FrictionLoop final : public Experiment {
   }
 
   /// Half the second derivative of the velocity between samples i - 1 and i, from two samples to each side. None
-  /// where the velocity would cross zero and come back: the samples show no reversal there.
+  /// where the velocity would cross zero and come back: the samples show no reversal there, nor motion beside a
+  /// rest.
   [[nodiscard]] double bend(std::size_t i) const {
-    if (i < 2 || i + 1 >= law_v_.size()) return 0.0;
-    const double from = law_v_[i - 1];
-    const double to = law_v_[i];
-    const double bend = 0.25 * rate_ * rate_ * (law_v_[i - 2] - from - to + law_v_[i + 1]);
-    const double most = 0.25 * std::abs(bend) / (rate_ * rate_);
-    return from * to > 0.0 && most >= std::min(std::abs(from), std::abs(to)) ? 0.0 : bend;
+    if (i < 2 || i + 1 >= way_v_.size()) return 0.0;
+    const double from = way_v_[i - 1];
+    const double to = way_v_[i];
+    const double bend = 0.25 * rate_ * rate_ * (way_v_[i - 2] - from - to + way_v_[i + 1]);
+    const double rise = std::abs(bend) / (rate_ * rate_);
+    const bool turns = from * to > 0.0    ? 0.25 * rise >= std::min(std::abs(from), std::abs(to))
+                       : from * to == 0.0 ? rise > std::abs(from + to)
+                                          : false;
+    return turns ? 0.0 : bend;
   }
 
   /// Moves the law from sample i - 1 to sample i. The velocity is a parabola, which may cross zero once.
   void move(sim::LawHost& host, std::size_t i, double offset) const {
-    const Instant from = instant(i - 1, offset);
-    const Instant to = instant(i, offset);
+    const Instant from = on_way(i - 1, offset);
+    const Instant to = on_way(i, offset);
     const double h = to.t - from.t;
     const double curve = bend(i);
     const double slope = (to.v - from.v) / h - curve * h;
@@ -280,6 +298,7 @@ class FrictionLoop final : public Experiment {
   double rate_;
   std::vector<double> x_, v_, a_;      ///< measured, or derivatives or integrals of what was measured
   std::vector<double> law_x_, law_v_;  ///< for the laws: filtered before they are differentiated
+  std::vector<double> way_x_, way_v_;  ///< for laws with a memory: without the noise of rests
   std::optional<ZeroPhaseFilter> filter_;
   std::vector<double> force_;  ///< measured, before the filter
   double force_noise_ = 0.0;

@@ -118,8 +118,7 @@ void LawHost::move_along(double end, const Path& way) {
     if (events > max_events) return give_up("there is no end of events within one step");
     const double scheduled = law_.next_change(memory_);
     const double stop = std::min(end, scheduled);
-    const double violated = time_of_violation(stop, path);
-    go(violated, path);
+    go_to_violation(stop, path);
     if (const int guard = worst_guard(); guard >= 0) {
       law_.jump(memory_, {guard}, now_, direction_);
     } else if (now_.t == scheduled) {
@@ -143,25 +142,32 @@ void LawHost::move_to(double x) {
   now_.x = x;
 }
 
-/// The first time at which a guard is below zero, or `end`. A guard that is above zero at `end` counts as above
-/// zero until then.
-double LawHost::time_of_violation(double end, const Path& path) {
-  if (!law_.has_memory()) return end;
-  const auto violated = [&](double t) {
-    LawHost trial = *this;
+/// Moves to the first time at which a guard is below zero, or to `end`. A guard that is above zero at `end` counts
+/// as above zero until then.
+void LawHost::go_to_violation(double end, const Path& path) {
+  if (!law_.has_memory()) return go(end, path);
+  const auto try_to = [&](LawHost& trial, double t) {
     trial.go(t, path);
     steps_ = trial.steps_;
     // Far beyond the zero of its guard a formula may overflow.
     return trial.worst_guard() >= 0 || trial.broken();
   };
-  if (!violated(end)) return end;
+  LawHost whole = *this;
+  if (!try_to(whole, end)) {
+    *this = std::move(whole);
+    return;
+  }
+  const auto violated = [&](double t) {
+    LawHost trial = *this;
+    return try_to(trial, t);
+  };
   double low = now_.t;
   double high = end;
   for (int i = 0; i < 80; ++i) {
     const double t = (low + high) / 2.0;
     (violated(t) ? high : low) = t;
   }
-  return high;
+  go(high, path);
 }
 
 void LawHost::go(double end, const Path& path) {

@@ -62,7 +62,7 @@ class LawHost {
   [[nodiscard]] Path with_past(const Path& way);
   void integrate(double end, const Path& path);
   [[nodiscard]] int worst_guard();
-  [[nodiscard]] double time_of_violation(double end, const Path& path);
+  void go_to_violation(double end, const Path& path);
   void settle();
   void give_up(const std::string& fault);
 
