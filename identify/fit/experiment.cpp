@@ -36,7 +36,9 @@ std::vector<std::string> Experiment::objections(const sim::Model& /*model*/, con
   return {};
 }
 
-std::unique_ptr<Neighbours> Experiment::neighbours(const sim::Model& /*model*/) const {
+std::unique_ptr<Neighbours> Experiment::neighbours(const sim::Model& model, const OwnValues& own,
+                                                   const Neighbours* /*near*/, Eigen::VectorXd& outputs) const {
+  if (!predict(model, own, outputs)) return nullptr;
   return std::make_unique<Alike>(*this);
 }
 

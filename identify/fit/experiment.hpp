@@ -57,7 +57,7 @@ struct MotionSize {
 
 enum class ExperimentKind { steady_states, decay, history, loop };
 
-/// Predicts models that differ little from a given one, for derivatives.
+/// Predicts models that differ little from a given one: for derivatives, and for the next point of a search.
 class Neighbours {
  public:
   Neighbours() = default;
@@ -66,6 +66,8 @@ class Neighbours {
   Neighbours& operator=(const Neighbours&) = delete;
   [[nodiscard]] virtual bool predict(const sim::Model& model, const OwnValues& own,
                                      Eigen::VectorXd& outputs) const = 0;
+  /// Whether the models of a search beside it take less time by these neighbours.
+  [[nodiscard]] virtual bool lead() const { return false; }
 };
 
 class Experiment {
@@ -109,8 +111,11 @@ class Experiment {
   [[nodiscard]] virtual std::unique_ptr<Experiment> tied(double strength) const;
   /// What the readings say against `model` although they have no weight; a sentence each.
   [[nodiscard]] virtual std::vector<std::string> objections(const sim::Model& model, const OwnValues& own) const;
-  /// Predictions near `model`. By default, each model is predicted independently.
-  [[nodiscard]] virtual std::unique_ptr<Neighbours> neighbours(const sim::Model& model) const;
+  /// Predicts `model`, and returns what predicts models near it. Null: the model has no such motion. `near`:
+  /// neighbours of a model beside it, or null. By default, each model is predicted independently.
+  [[nodiscard]] virtual std::unique_ptr<Neighbours> neighbours(const sim::Model& model, const OwnValues& own,
+                                                               const Neighbours* near,
+                                                               Eigen::VectorXd& outputs) const;
 
  protected:
   Experiment(const Experiment&) = default;  ///< for parts of a record

@@ -209,7 +209,7 @@ std::optional<sim::Model> FitProblem::model_at(const Eigen::VectorXd& values) co
   return model_of(std::move(*rig));
 }
 
-bool FitProblem::outputs(const Eigen::VectorXd& q, Eigen::VectorXd& result) const {
+bool FitProblem::outputs(const Eigen::VectorXd& q, Eigen::VectorXd& result, const Trail* trail) const {
   if (is_exhausted()) return false;
   const Eigen::VectorXd p = values(q);
   return guarded([&] {
@@ -220,7 +220,11 @@ bool FitProblem::outputs(const Eigen::VectorXd& q, Eigen::VectorXd& result) cons
     std::atomic<bool> ok = true;
     sim::in_parts(experiments_.size(), 1, 0, [&](std::size_t e, std::size_t) {
       Eigen::VectorXd part;
-      if (!within_limit(e, [&] { return experiments_[e]->predict(*model, owned[e], part); }))
+      const Neighbours* near = leader(trail, e);
+      if (!within_limit(e, [&] {
+            return near != nullptr ? near->predict(*model, owned[e], part)
+                                   : experiments_[e]->predict(*model, owned[e], part);
+          }))
         ok = false;
       else
         result.segment(begins_[e], part.size()) = part;
@@ -275,18 +279,43 @@ bool FitProblem::column(const Eigen::VectorXd& q, const Eigen::VectorXd& middle,
   return slope.allFinite();
 }
 
+const Neighbours* FitProblem::leader(const Trail* trail, std::size_t e) {
+  if (trail == nullptr || trail->neighbours_.empty() || !trail->neighbours_[e]->lead()) return nullptr;
+  return trail->neighbours_[e].get();
+}
+
+std::optional<FitProblem::All> FitProblem::neighbours(const Eigen::VectorXd& q, const Trail* trail,
+                                                      Eigen::VectorXd& result) const {
+  if (is_exhausted()) return std::nullopt;
+  const Eigen::VectorXd p = values(q);
+  All found(experiments_.size());
+  const bool is_possible = guarded([&] {
+    const std::optional<sim::Model> model = model_at(p);
+    if (!model) return false;
+    const std::vector<OwnValues> owned = own(p);
+    result.resize(rows_);
+    std::atomic<bool> ok = true;
+    sim::in_parts(experiments_.size(), 1, 0, [&](std::size_t e, std::size_t) {
+      Eigen::VectorXd part;
+      if (!within_limit(e, [&] {
+            found[e] = experiments_[e]->neighbours(*model, owned[e], leader(trail, e), part);
+            return found[e] != nullptr;
+          }))
+        ok = false;
+      else
+        result.segment(begins_[e], part.size()) = part;
+    });
+    return ok.load();
+  });
+  if (!is_possible) return std::nullopt;
+  return found;
+}
+
 bool FitProblem::derivatives(const Eigen::VectorXd& q, Eigen::VectorXd& result, Eigen::MatrixXd& jacobian,
-                             bool seeks) const {
-  if (!outputs(q, result)) return false;
-  const std::optional<sim::Model> middle = model_at(values(q));
-  if (!middle) return false;
-  All neighbours(experiments_.size());
-  for (std::size_t e = 0; e < experiments_.size(); ++e)
-    if (!within_limit(e, [&] {
-          neighbours[e] = experiments_[e]->neighbours(*middle);
-          return true;
-        }))
-      return false;
+                             bool seeks, Trail* trail) const {
+  std::optional<All> found = neighbours(q, trail, result);
+  if (!found) return false;
+  const All& neighbours = *found;
   jacobian.resize(rows_, q.size());
   std::atomic<bool> ok = true;
   sim::in_parts(static_cast<std::size_t>(q.size()), 1, 0, [&](std::size_t number, std::size_t) {
@@ -303,6 +332,7 @@ bool FitProblem::derivatives(const Eigen::VectorXd& q, Eigen::VectorXd& result, 
     else
       ok = false;
   });
+  if (trail != nullptr) trail->neighbours_ = std::move(*found);
   return ok.load();
 }
 

@@ -43,6 +43,13 @@ struct SignalRows {
   Eigen::Index end = 0;
 };
 
+/// The motions at the last point of a search, from which those at its next points are found: steady states of
+/// smooth laws take a tenth of the time that they take from nothing.
+class Trail {
+  friend class FitProblem;
+  std::vector<std::unique_ptr<Neighbours>> neighbours_;  ///< of each experiment; empty: there was no point yet
+};
+
 class FitProblem {
  public:
   using Experiments = std::vector<std::unique_ptr<Experiment>>;
@@ -81,12 +88,12 @@ class FitProblem {
   [[nodiscard]] Eigen::MatrixXd slope(const Eigen::VectorXd& q) const;
 
   /// Predicted readings, not divided by the noise. False: the rig has no such motion, or a law refuses the values.
-  [[nodiscard]] bool outputs(const Eigen::VectorXd& q, Eigen::VectorXd& result) const;
+  [[nodiscard]] bool outputs(const Eigen::VectorXd& q, Eigen::VectorXd& result, const Trail* trail = nullptr) const;
   /// Outputs and their derivatives by the coordinates. `seeks`: a coordinate without an effect near `q` gets a
   /// difference over a wider step, so that a search can leave the place. Else jumps of an acceleration within a
-  /// step are left out.
+  /// step are left out. The trail, if there is one, then leads on from `q`.
   [[nodiscard]] bool derivatives(const Eigen::VectorXd& q, Eigen::VectorXd& result, Eigen::MatrixXd& jacobian,
-                                 bool seeks = false) const;
+                                 bool seeks = false, Trail* trail = nullptr) const;
 
   [[nodiscard]] const Eigen::VectorXd& measured() const { return measured_; }
   /// 1 for each reading that counts, 0 for one that does not.
@@ -103,10 +110,14 @@ class FitProblem {
   [[nodiscard]] std::vector<OwnValues> own(const Eigen::VectorXd& values) const;
 
  private:
-  /// One column of the derivatives, by differences over `step`. False: there is no motion on either side.
   using All = std::vector<std::unique_ptr<Neighbours>>;
+  /// One column of the derivatives, by differences over `step`. False: there is no motion on either side.
   [[nodiscard]] bool column(const Eigen::VectorXd& q, const Eigen::VectorXd& middle, const All& neighbours,
                             Eigen::Index i, double step, bool seeks, Eigen::VectorXd& slope) const;
+  /// The motions at `q` and what finds those near it; nothing: there are none.
+  [[nodiscard]] std::optional<All> neighbours(const Eigen::VectorXd& q, const Trail* trail,
+                                              Eigen::VectorXd& result) const;
+  [[nodiscard]] static const Neighbours* leader(const Trail* trail, std::size_t experiment);
   void mend_jumps(const Eigen::VectorXd& below, const Eigen::VectorXd& above, Eigen::VectorXd& slope) const;
   [[nodiscard]] std::optional<sim::Model> model_at(const Eigen::VectorXd& values) const;
   FitProblem(const FitProblem& whole, Experiments parts);

@@ -59,12 +59,11 @@ class Search {
     least.tolerance = tolerance;
     least.most_iterations = most_iterations;
     least.slopes_along_steps = true;
+    Last last;
     least.evaluate = [&](const Eigen::VectorXd& q, Eigen::VectorXd& residuals, Eigen::MatrixXd* jacobian) {
-      Eigen::VectorXd outputs;
-      if (jacobian == nullptr ? !problem_.outputs(q, outputs) : !problem_.derivatives(q, outputs, *jacobian, true))
-        return false;
-      residuals = problem_.misses(outputs).cwiseProduct(weights_);
-      if (jacobian != nullptr) *jacobian = weights_.asDiagonal() * *jacobian;
+      if (!evaluate(q, jacobian != nullptr, last)) return false;
+      residuals = problem_.misses(last.outputs).cwiseProduct(weights_);
+      if (jacobian != nullptr) *jacobian = weights_.asDiagonal() * last.jacobian;
       return true;
     };
     return fit(least);
@@ -95,6 +94,28 @@ class Search {
   }
 
  private:
+  /// The last point of a search; the solver asks for some of them twice.
+  struct Last {
+    Trail trail;
+    Eigen::VectorXd q;
+    Eigen::VectorXd outputs;
+    Eigen::MatrixXd jacobian;
+    bool is_known = false;
+    bool has_jacobian = false;
+  };
+
+  [[nodiscard]] bool evaluate(const Eigen::VectorXd& q, bool with_jacobian, Last& last) const {
+    const bool is_first = last.q.size() == 0;  // the solver asks for the derivatives next
+    const bool is_same = last.is_known && last.q == q;
+    if (is_same && (last.has_jacobian || !with_jacobian)) return true;
+    with_jacobian = with_jacobian || is_first;
+    last.q = q;
+    last.is_known = with_jacobian ? problem_.derivatives(q, last.outputs, last.jacobian, true, &last.trail)
+                                  : problem_.outputs(q, last.outputs, &last.trail);
+    last.has_jacobian = with_jacobian && last.is_known;
+    return last.is_known;
+  }
+
   /// The noise if it is known; else a share of the signal, for the first weights.
   [[nodiscard]] double first_deviation(const SignalRows& rows) const {
     const Signal& signal = problem_.signal(rows);

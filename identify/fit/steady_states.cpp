@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -64,20 +65,42 @@ class SteadyStates final : public Experiment {
     return list;
   }
 
-  [[nodiscard]] std::unique_ptr<Neighbours> neighbours(const sim::Model& model) const override {
-    return std::make_unique<Near>(*this, model);
+  [[nodiscard]] std::unique_ptr<Neighbours> neighbours(const sim::Model& model, const OwnValues&,
+                                                       const Neighbours* near,
+                                                       Eigen::VectorXd& outputs) const override {
+    auto found = std::make_unique<Near>(*this, model, dynamic_cast<const Near*>(near), outputs);
+    return found->is_complete() ? std::move(found) : nullptr;
   }
 
  private:
   /// Steady states by Newton's method from known orbits.
   class Near final : public Neighbours {
    public:
-    Near(const SteadyStates& states, const sim::Model& model) : states_(states) {
-      for (const Level& level : states.levels_) {
-        const sim::Model there = driven(model, level, states.by_force_);
-        orbits_.push_back(sim::known_orbit(there, sim::steady_state(there, states.options(model))));
-      }
+    Near(const SteadyStates& states, const sim::Model& model, const Near* from, Eigen::VectorXd& outputs)
+        : states_(states),
+          is_smooth_(std::ranges::any_of(model.friction, [](const auto& law) { return !law.is_affine(); })) {
+      is_complete_ = states_.fill(model, outputs, [&](std::size_t i) {
+        const sim::Model there = driven(model, states_.levels_[i], states_.by_force_);
+        const sim::SteadyStateOptions options = states_.options(model);
+        if (from != nullptr) {
+          sim::SteadyState state = sim::steady_state_near(from->orbits_[i], there, options);
+          if (state.outcome.ok()) {
+            sim::KnownOrbit orbit = sim::known_orbit(there, state);
+            // The motion of a model farther away may have left the orbit that was followed to it.
+            if (sim::attracts(orbit)) {
+              orbits_.push_back(std::move(orbit));
+              return state;
+            }
+          }
+        }
+        sim::SteadyState state = sim::steady_state(there, options);
+        if (state.outcome.ok()) orbits_.push_back(sim::known_orbit(there, state));
+        return state;
+      });
     }
+    [[nodiscard]] bool is_complete() const { return is_complete_; }
+    /// The orbits of laws of the exact engine are found in no time from nothing.
+    [[nodiscard]] bool lead() const override { return is_smooth_; }
     [[nodiscard]] bool predict(const sim::Model& model, const OwnValues&, Eigen::VectorXd& outputs) const override {
       return states_.fill(model, outputs, [&](std::size_t i) {
         return sim::steady_state_near(orbits_[i], driven(model, states_.levels_[i], states_.by_force_),
@@ -87,6 +110,8 @@ class SteadyStates final : public Experiment {
 
    private:
     const SteadyStates& states_;
+    bool is_smooth_;
+    bool is_complete_ = false;
     std::vector<sim::KnownOrbit> orbits_;
   };
 

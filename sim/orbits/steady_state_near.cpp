@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/constants.hpp"
+#include "sim/neutral_margin.hpp"
 #include "sim/orbits/orbit_account.hpp"
 #include "sim/orbits/period_map.hpp"
 #include "sim/validate.hpp"
@@ -49,6 +50,13 @@ KnownOrbit known_orbit(const Model& model, const SteadyState& state) {
   ForcingPeriod period = map.from(state.start, Monodromy::with);
   if (!period.ends_in_its_mode()) return {state.start, {}};
   return {state.start, std::move(period.monodromy)};
+}
+
+bool attracts(const KnownOrbit& orbit) {
+  if (orbit.monodromy.size() == 0) return false;
+  ForcingPeriod period;
+  period.monodromy = orbit.monodromy;
+  return period.radius() < 1.0 - neutral_margin;
 }
 
 SteadyState steady_state_near(const KnownOrbit& near, const Model& model, const SteadyStateOptions& options) {

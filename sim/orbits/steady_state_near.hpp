@@ -19,6 +19,9 @@ struct KnownOrbit {
 /// `state`: a steady state of `model` whose outcome is ok(). Cost: one forcing period with its derivative.
 [[nodiscard]] KnownOrbit known_orbit(const Model& model, const SteadyState& state);
 
+/// Whether all motions beside the orbit approach it. False where its monodromy matrix is not known.
+[[nodiscard]] bool attracts(const KnownOrbit& orbit);
+
 /// `near`: of a model with the same laws. The result has the Floquet multipliers of the known orbit, and
 /// `newton_steps` counts corrections. If the method does not converge quickly, the result is that of
 /// `steady_state`. Needs a harmonic excitation.

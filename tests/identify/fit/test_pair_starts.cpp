@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "friction_models/registry.hpp"
+#include "identify/fit/problem.hpp"
 #include "identify/fit/starts.hpp"
 #include "tests/identify/fit/synthetic.hpp"
 
@@ -85,4 +86,38 @@ TEST_CASE("fit: the phase of a mass goes on smoothly where it comes to rest", "[
   };
   constexpr double largest_pull = 1568.0 * 2e-3;
   CHECK(lag_under(1.001 * largest_pull) == Approx(lag_under(0.9999 * largest_pull)).margin(0.03));
+}
+
+TEST_CASE("fit: a search finds along its trail the steady states that are found from nothing",
+          "[identify][fit][pairs]") {
+  // Orbits of smooth laws lead to those of the next point; those of exact laws are found anew.
+  for (const std::string law : {"dahl", "coulomb"}) {
+    CAPTURE(law);
+    identify::Rig rig = resonant_rig("coulomb");
+    if (law == "dahl") rig.laws.front() = {friction::find_law("dahl"), {{"kinetic", 2.0}, {"sigma0", 6000.0}}};
+    const identify::Experiments experiments = states_of(resonant_rig("coulomb"), 4e-3, 16e-3, true, 1);
+    const std::vector<identify::FitParameter> parameters = test::sought_in(rig, {"kinetic", "damping"}, 1.0);
+    const identify::FitProblem problem(rig, parameters, experiments, {2.0, 1.2});
+    Eigen::VectorXd q = problem.coordinates(Eigen::Vector2d(2.0, 1.2));
+    identify::Trail trail;
+    Eigen::VectorXd outputs;
+    Eigen::MatrixXd slopes;
+    REQUIRE(problem.derivatives(q, outputs, slopes, true, &trail));
+    for (const double step : {0.01, 0.1, 0.5}) {
+      CAPTURE(step);
+      q += step * Eigen::Vector2d(1.0, -0.5);
+      Eigen::VectorXd led, led_outputs, anew;
+      Eigen::MatrixXd led_slopes, slopes_anew;
+      REQUIRE(problem.outputs(q, led, &trail));
+      REQUIRE(problem.derivatives(q, led_outputs, led_slopes, true, &trail));
+      REQUIRE(problem.derivatives(q, anew, slopes_anew, true));
+      CHECK((led - anew).norm() < 1e-9 * anew.norm());
+      CHECK((led_outputs - anew).norm() < 1e-9 * anew.norm());
+      CHECK((led_slopes - slopes_anew).norm() < 1e-5 * slopes_anew.norm());
+    }
+    Eigen::VectorXd unused;
+    const auto near = experiments.front()->neighbours(*identify::model_of(rig), {}, nullptr, unused);
+    REQUIRE(near != nullptr);
+    CHECK(near->lead() == (law == "dahl"));
+  }
 }
