@@ -57,14 +57,21 @@ Interval widened(const Interval& interval, double value, double deviation) {
   return {centre - std::hypot(centre - interval[0], added), centre + std::hypot(interval[1] - centre, added)};
 }
 
-void set_uncertainty(Estimate& estimate, const Eigen::Matrix2d& covariance, double half_width,
+void set_uncertainty(Estimate& estimate, const Eigen::Matrix2d& covariance, const Eigen::Vector2d& half_widths,
                      const KnownConstants& constants) {
-  const ParameterSet error = parameters(std::sqrt(covariance(0, 0)), std::sqrt(covariance(1, 1)), constants);
+  const Eigen::Vector2d deviation = covariance.diagonal().cwiseSqrt();
+  const Eigen::Vector2d half = half_widths.cwiseProduct(deviation);
+  const ParameterSet error = parameters(deviation[0], deviation[1], constants);
   estimate.std = error;
-  estimate.interval95 = around(estimate.value, error, half_width);
+  estimate.interval95 = around(estimate.value, parameters(half[0], half[1], constants), 1.0);
   const Eigen::DiagonalMatrix<double, 2> to_force(1.0, constants.stiffness);
   estimate.covariance = to_force * covariance * to_force;
   if (error.zeta > 0.0 && error.x_f > 0.0) estimate.correlation = covariance(0, 1) / (error.zeta * error.x_f);
+}
+
+void set_uncertainty(Estimate& estimate, const Eigen::Matrix2d& covariance, double half_width,
+                     const KnownConstants& constants) {
+  set_uncertainty(estimate, covariance, Eigen::Vector2d::Constant(half_width), constants);
 }
 
 std::string fault_of(const KnownConstants& constants) {

@@ -39,6 +39,10 @@ namespace dualdamp::identify {
 void set_uncertainty(Estimate& estimate, const Eigen::Matrix2d& covariance, double half_width,
                      const KnownConstants& constants);
 
+/// The same with a half width for each, in standard errors: of zeta and c, and of x_f and F0.
+void set_uncertainty(Estimate& estimate, const Eigen::Matrix2d& covariance, const Eigen::Vector2d& half_widths,
+                     const KnownConstants& constants);
+
 /// Why constants cannot be used; empty if they can. Mass and stiffness must be positive and finite.
 [[nodiscard]] std::string fault_of(const KnownConstants& constants);
 

@@ -14,6 +14,7 @@
 #include "identify/statistics/least_squares.hpp"
 #include "identify/statistics/profile_likelihood.hpp"
 #include "identify/statistics/statistics.hpp"
+#include "identify/statistics/unequal_errors.hpp"
 #include "sim/analytic/den_hartog.hpp"
 
 namespace dualdamp::identify {
@@ -217,22 +218,32 @@ KnownConstants fitted_constants(const KnownConstants& constants, const ExactFit&
   return result;
 }
 
+/// Errors of equal size, or stated ones: their variance times the covariance of unit errors. At several frequencies
+/// an error of the input, or one in proportion to the reading, is largest at resonance.
+std::optional<UnequalErrors> errors_of(const AmplitudeLaw& law, const ExactFit& fit, const Scatter& scatter) {
+  const Eigen::MatrixXd jacobian = fit.jacobian.leftCols(law.size());
+  std::optional<Eigen::MatrixXd> unit = unit_covariance(jacobian);
+  if (!unit) return std::nullopt;
+  if (!scatter.is_stated && law.frequencies() > 1) return unequal_errors(jacobian, fit.residual);
+  return UnequalErrors{scatter.variance * *unit, Eigen::VectorXd::Constant(law.size(), scatter.half_width)};
+}
+
 void add_uncertainty(const AmplitudeLaw& law, const ExactFit& fit, double unit, const KnownConstants& constants,
                      const std::optional<Scatter>& scatter, Estimate& estimate) {
-  const std::optional<Eigen::MatrixXd> covariance = unit_covariance(fit.jacobian.leftCols(law.size()));
-  if (scatter && covariance) {
+  const std::optional<UnequalErrors> errors = scatter ? errors_of(law, fit, *scatter) : std::nullopt;
+  if (errors) {
     const Eigen::DiagonalMatrix<double, 2> to_metres(1.0, unit);
-    const Eigen::Matrix2d friction = covariance->topLeftCorner<2, 2>();
-    set_uncertainty(estimate, scatter->variance * (to_metres * friction * to_metres), scatter->half_width,
-                    constants);
+    const Eigen::Matrix2d friction = errors->covariance.topLeftCorner<2, 2>();
+    const Eigen::Vector2d half_widths = errors->half_widths.head<2>();
+    set_uncertainty(estimate, to_metres * friction * to_metres, half_widths, constants);
   }
   if (law.size() < 3) return;
   const double omega_n = constants.natural_frequency();
   FurtherParameter parameter{"natural_frequency", "rad/s", omega_n, std::nullopt, std::nullopt};
-  if (scatter && covariance) {
-    const double std = omega_n * std::sqrt(scatter->variance * (*covariance)(2, 2));
+  if (errors) {
+    const double std = omega_n * std::sqrt(errors->covariance(2, 2));
     parameter.std = std;
-    parameter.interval95 = {omega_n - scatter->half_width * std, omega_n + scatter->half_width * std};
+    parameter.interval95 = around(omega_n, errors->half_widths[2] * std);
   }
   estimate.others.push_back(std::move(parameter));
 }

@@ -70,7 +70,7 @@ std::optional<Scatter> scatter_of(double sum_of_squares, double freedom, double 
   const double sigma_Y = std::max(options.sigma_Y, 0.0) / unit;
   if (sigma_x > 0.0 || sigma_Y > 0.0) {
     const double variance = sigma_x * sigma_x + slope * slope * sigma_Y * sigma_Y;
-    return Scatter{variance, normal95(), freedom < 1.0 ? 1.0 : sum_of_squares / freedom / variance};
+    return Scatter{variance, normal95(), freedom < 1.0 ? 1.0 : sum_of_squares / freedom / variance, true};
   }
   if (freedom < 1.0) return std::nullopt;
   return Scatter{sum_of_squares / freedom, quantile95(freedom)};

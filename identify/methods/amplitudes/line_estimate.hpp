@@ -48,6 +48,7 @@ struct Scatter {
   double variance = 0.0;
   double half_width = 0.0;
   double ratio = 1.0;  ///< mean square of the residuals over a stated variance
+  bool is_stated = false;
 };
 
 /// From the standard deviations in `options` if one is given, otherwise from the residuals with `freedom` degrees
