@@ -7,8 +7,9 @@ namespace dualdamp::scenarios {
 namespace {
 
 Section system_section() {
-  Field friction =
-      choice("friction", friction_laws(), "friction law; laws of a list act in parallel, their forces add");
+  Field friction = choice(
+      "friction", friction_laws(),
+      "friction law; laws of a list act in parallel, their forces add; with elements that modifiers make laws of their own at most 256");
   friction.listed = true;
   friction.max_items = 16;
   return {

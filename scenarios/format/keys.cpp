@@ -248,12 +248,10 @@ Section grid_section(const Field& grid) {
 }
 
 std::string describe_values(const Field& field, core::Coordinate coordinate) {
-  const auto list = [&](const std::string& what) {
-    const std::string range = field.min_items == field.max_items
-                                  ? std::to_string(field.min_items)
-                                  : std::to_string(field.min_items) + " to " + std::to_string(field.max_items);
-    return "a list of " + range + " " + what;
-  };
+  const std::string range = field.min_items == field.max_items
+                                ? std::to_string(field.min_items)
+                                : std::to_string(field.min_items) + " to " + std::to_string(field.max_items);
+  const auto list = [&](const std::string& what) { return "a list of " + range + " " + what; };
   std::string numbers;
   for (const std::string& unit : field.units)
     numbers += (numbers.empty() ? "" : ", or ") + core::describe_dimension(unit, coordinate);
@@ -292,9 +290,9 @@ std::string describe_values(const Field& field, core::Coordinate coordinate) {
   }
   const std::string map = map_in_words(*field.choice);
   if (!field.short_for.empty())
-    return "a " + field.short_for + ", a map with the key '" + field.short_for + "', or a list of them";
-  if (field.only_listed) return "a list of maps";
-  return field.listed ? map + ", or a list of such maps" : map;
+    return "a " + field.short_for + ", a map with the key '" + field.short_for + "', or " + list("of them");
+  if (field.only_listed) return list("maps");
+  return field.listed ? map + ", or " + list("such maps") : map;
 }
 
 std::string nearest(std::string_view word, const std::vector<std::string>& names) {

@@ -143,6 +143,17 @@ analysis: {{type: fit, data: [{{file: loop.csv, loop: true}}, {{file: run.csv}}]
             result = self.run_program("run", "base.yaml", "--set", f"system.mass={mass}", "--set", "system.damping=0 N.s/m", status=4)
             self.assertIn("followed no longer", result.stderr)
 
+    def test_the_reference_states_the_lengths_of_lists(self):
+        """Of lists of maps only the message of the error had stated it."""
+        reference = self.run_program("schema", "--markdown").stdout
+        self.assertNotRegex(reference, r"a list of (maps|such maps|them)")
+        self.assertIn("| `harmonics` | a list of 1 to 8 maps |", reference)
+        self.assertIn("a map with the key 'law', or a list of 1 to 16 such maps", reference)
+        self.assertIn("or a list of 1 to 64 of them", reference)
+        harmonics = ", ".join(f"{{order: {order}, amplitude: 1 mm}}" for order in range(2, 11))
+        error = self.run_program("run", "base.yaml", "--set", f"excitation.harmonics=[{harmonics}]", status=3).stderr
+        self.assertIn("1 to 8", error)
+
     def test_loose_tolerances(self):
         """Steady states were off by up to 20 %, or called subharmonic, with status 0 and no warning."""
         for tolerance in ("1e-3", "1e-4", "1e-5"):
