@@ -13,7 +13,7 @@ const colour = (which) => (typeof which === "number" ? `var(--c${which % 7})` : 
 const isNumber = (value) => value !== null && Number.isFinite(value);
 
 /** The smallest and the largest finite number, with a margin; on a logarithmic axis the margin is a factor. */
-function extent(lists, isLog) {
+function extent(lists, { log, whole }) {
   let low = Infinity;
   let high = -Infinity;
   for (const list of lists) for (const value of list) {
@@ -22,7 +22,9 @@ function extent(lists, isLog) {
     if (value > high) high = value;
   }
   if (low > high) return [0, 1];
-  if (isLog) return [low / 1.05, high * 1.05];
+  if (log) return [low / 1.05, high * 1.05];
+  const span = Math.max(high - low, 1);
+  if (whole) return [low - 0.05 * span, low + 1.05 * span]; // counts that are all 0 have no negative part
   const room = high > low ? 0.05 * (high - low) : Math.abs(high) * 0.1 || 1;
   return [low - room, high + room];
 }
@@ -253,7 +255,7 @@ function chart(spec) {
   const used = spec.series.filter((s) => s.y.some((v) => v !== null)).map((s, i) => ({ kind: "line", colour: i, ...s }));
   if (used.length === 0) return null;
   const shape = scaled({ ...spec, series: used });
-  const full = { x: extent(shape.series.map((s) => s.x), shape.x.log), y: extent(shape.series.flatMap((s) => [s.y, s.low ?? [], s.high ?? []]), shape.y.log) };
+  const full = { x: extent(shape.series.map((s) => s.x), shape.x), y: extent(shape.series.flatMap((s) => [s.y, s.low ?? [], s.high ?? []]), shape.y) };
   const [ranges, hidden] = [{ ...full }, new Set()];
   const count = used.reduce((sum, s) => sum + s.x.length, 0);
   const plot = make("div", {

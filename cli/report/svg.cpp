@@ -113,6 +113,8 @@ std::pair<double, double> extent(const Chart& chart, std::vector<double> ChartSe
       }
   if (low > high) return axis.is_log ? std::pair(1.0, 10.0) : std::pair(0.0, 1.0);
   if (axis.is_log) return {low / 1.05, high * 1.05};
+  const double span = std::max(high - low, 1.0);
+  if (axis.is_whole) return {low - 0.05 * span, low + 1.05 * span};
   const double room = high > low ? 0.05 * (high - low) : high == 0.0 ? 1.0 : 0.1 * std::abs(high);
   return {low - room, high + room};
 }

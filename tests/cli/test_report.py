@@ -218,6 +218,13 @@ class Page(unittest.TestCase):
         self.assertEqual(close, ["13.99999", "13.999992", "13.999994", "13.999996"])
         self.assertEqual(around_zero, ["−0.2", "0", "0.2"])
 
+    def test_counts_that_are_all_zero_have_no_negative_axis(self):
+        none, some, equal = self.ask("formula", *(f"extent([{values}], {{ whole: true }})" for values in ("[0, 0, null]", "[0, 2]", "[3, 3]")))
+        self.assertEqual([none, equal], [[-0.05, 1.05], [2.95, 4.05]])
+        self.assertEqual(some, [-0.1, 2.1])
+        self.assertEqual(self.ask("formula", "ticksOf({ whole: true }, extent([[0, 0]], { whole: true }), 5)"), [0, 1])
+        self.assertNotIn("−", "".join(self.ask("frequency_branch", '[...document.querySelectorAll("figure")].filter((f) => f.textContent.includes("Stops in a period")).map((f) => [...f.querySelectorAll("svg text")].map((t) => t.textContent).join(" "))')))
+
     def test_each_key_of_a_legend_has_its_own_name(self):
         legends = '[...document.querySelectorAll(".legend")].map((l) => [...l.children].map((key) => key.textContent))'
         for name in ("xy_curve", "free_decay", "identify_xy_curve", "regime_map"):
