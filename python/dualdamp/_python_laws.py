@@ -10,6 +10,7 @@ import ctypes as c
 import inspect
 import operator
 import os
+import shutil
 import subprocess
 import tempfile
 import threading
@@ -184,14 +185,18 @@ def compile_law(source, *, compiler=None):
         The compiler refuses the text; the exception has its messages.
     """
     text = source if isinstance(source, str) and "\n" in source else Path(source).read_text(encoding="utf-8")
-    # The directory is not deleted: the library stays loaded, and provenance names its file.
     directory = Path(tempfile.mkdtemp(prefix="dualdamp-law-"))
-    (directory / "law.c").write_text(text, encoding="utf-8")
-    command = [compiler or os.environ.get("CC", "cc"), "-O2", "-shared", "-fPIC", f"-I{include_directory()}", "law.c", "-lm", "-o", "law.so"]
-    done = subprocess.run(command, cwd=directory, capture_output=True, text=True)
-    if done.returncode != 0:
-        raise RuntimeError(f"{' '.join(command)}:\n{done.stderr}")
-    core.load_plugin(str(directory / "law.so"))
+    try:
+        (directory / "law.c").write_text(text, encoding="utf-8")
+        command = [compiler or os.environ.get("CC", "cc"), "-O2", "-shared", "-fPIC", f"-I{include_directory()}", "law.c", "-lm", "-o", "law.so"]
+        done = subprocess.run(command, cwd=directory, capture_output=True, text=True)
+        if done.returncode != 0:
+            raise RuntimeError(f"{' '.join(command)}:\n{done.stderr}")
+        core.load_plugin(str(directory / "law.so"))
+    except BaseException:
+        shutil.rmtree(directory, ignore_errors=True)
+        raise
+    # Otherwise the directory stays: the library is loaded, and provenance names its file.
     _tables.tables.cache_clear()
 
 

@@ -3,6 +3,7 @@
 import math
 import shutil
 import subprocess
+import tempfile
 import threading
 
 import dualdamp as dd
@@ -368,6 +369,20 @@ def test_a_law_in_c(drive):
     assert results[0].amplitude == pytest.approx(results[1].amplitude, rel=1e-12)
     with pytest.raises(RuntimeError, match="error"):
         dd.compile_law("no C\nat all\n")
+
+
+def test_a_law_that_does_not_compile_or_load_leaves_no_directory(tmp_path, monkeypatch):
+    shutil.which("cc") or pytest.skip("there is no C compiler")
+    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
+    with pytest.raises(RuntimeError):
+        dd.compile_law("no C\nat all\n")
+    with pytest.raises(OSError):
+        dd.compile_law("int x;\n", compiler="/no/compiler")
+    with pytest.raises(dd.InvalidScenario):
+        dd.compile_law("int no_law;\n")
+    with pytest.raises(UnicodeError):
+        dd.compile_law("// \ud800\n")
+    assert not list(tmp_path.iterdir())
 
 
 def test_a_plugin_is_known_at_once_although_the_laws_were_listed_before(tmp_path):
