@@ -53,7 +53,9 @@ class ExactEngine::ExactInterval final : public Interval {
     const core::ExponentialBasis::Values& values = is_end ? engine_.crossing_.values : room;
     const Drive::Value drive = engine_.drive_.at(s - duration);
     Sample sample{.t = begin + s, .y = drive.y, .y_rate = drive.y_rate, .external = drive.external};
-    sample.x = core::evaluate(basis, engine_.motion_, values);
+    // A motion begins where it was set, not where the sum of its exponentials rounds to.
+    const bool is_start = s == 0.0;
+    sample.x = is_start ? begin_x : core::evaluate(basis, engine_.motion_, values);
     const Oscillator& o = engine_.model_.oscillator;
     if (direction == Direction::none) {
       // Friction balances all other forces.
@@ -61,7 +63,7 @@ class ExactEngine::ExactInterval final : public Interval {
       sample.force = o.stiffness * (drive.y - sample.x) + damper + drive.external;
       return sample;
     }
-    sample.v = core::evaluate(basis, engine_.speed(), values) * friction::sign(direction);
+    sample.v = is_start ? begin_v : core::evaluate(basis, engine_.speed(), values) * friction::sign(direction);
     sample.a = core::evaluate(basis, engine_.speed_rate(), values) * friction::sign(direction);
     sample.force = force.constant + force.rate * s + force.position * sample.x + force.velocity * sample.v;
     for (std::size_t i = 0; i < decays.size(); ++i) sample.force += transients[i] * std::exp(-decays[i] * s);
@@ -91,7 +93,9 @@ class ExactEngine::ExactInterval final : public Interval {
   /// To call when the engine begins another interval.
   void forget() { formed_ = false; }
 
-  Affine force;  ///< sum of all laws, without the transients
+  double begin_x = 0.0;  ///< m
+  double begin_v = 0.0;  ///< m/s
+  Affine force;          ///< sum of all laws, without the transients
   std::vector<double> transients;
   std::vector<double> decays;
 
@@ -383,6 +387,8 @@ void ExactEngine::describe_interval(double begin) {
   interval_->begin = begin;
   interval_->duration = crossing_.s;
   interval_->direction = direction_;
+  interval_->begin_x = x_;
+  interval_->begin_v = v_;
   interval_->force = total_->force;
   if (!total_->decays.empty() || !interval_->decays.empty()) {
     interval_->transients = total_->transients;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <complex>
 #include <numbers>
+#include <utility>
 
 #include "friction_models/laws/contact_compliance.hpp"
 #include "friction_models/laws/coulomb.hpp"
@@ -291,4 +292,25 @@ TEST_CASE("Integrals of products with chains of two exponents, equal, close and 
       }
     }
   }
+}
+
+TEST_CASE("the first sample of a motion is its initial state to the last bit") {
+  for (const double damping : {0.0, 4.0, 50.0})
+    for (const auto& [x, v] : {std::pair{0.0, 0.0}, {0.3, 0.0}, {0.0, 0.7}, {0.013, -0.37}, {0.3, 5.0}})
+      for (const SolverKind solver :
+           {SolverKind::automatic, SolverKind::explicit_steps, SolverKind::implicit_steps})
+        for (const bool with_friction : {false, true}) {
+          Model model;
+          model.oscillator = {.mass = 1.3, .stiffness = 100.0, .damping = damping};
+          model.excitation = {
+              .type = ExcitationType::base_harmonic, .amplitude = 0.1, .frequency = 7.0, .phase = 0.5};
+          if (with_friction) model.friction.emplace_back(dualdamp::friction::Coulomb(2.0, 3.0));
+          model.initial = {.position = x, .velocity = v};
+          model.solver.kind = solver;
+          const History history = simulate(model, {.duration = 0.1, .sample_rate = 20.0});
+          CAPTURE(damping, x, v, static_cast<int>(solver), with_friction);
+          REQUIRE(!history.samples.empty());
+          CHECK(history.samples[0].x == x);
+          CHECK(history.samples[0].v == v);
+        }
 }
