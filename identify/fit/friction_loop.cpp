@@ -43,6 +43,8 @@ class FrictionLoop final : public Experiment {
     way_v_ = law_v_;
     hold(still_stretches(rests_, {history.x, noise_of(history.x)}, {history.v, noise_of(history.v)}), way_x_,
          way_v_);
+    agrees_ = !history.x.empty() && !history.v.empty();
+    if (agrees_) agree();
     const double speed = largest_swing(law_v_);
     // The zero of the sensor of a velocity drives its integral away.
     const auto duration = static_cast<double>(law_v_.size() - 1) / rate_;
@@ -266,26 +268,49 @@ class FrictionLoop final : public Experiment {
     return turns ? 0.0 : bend;
   }
 
+  /// The velocity between samples i - 1 and i: v + slope s + curve s^2 at the time s after the first.
+  struct Stretch {
+    double v = 0.0, slope = 0.0, curve = 0.0;
+    [[nodiscard]] double way(double s) const { return s * (v + s * (slope / 2.0 + s * curve / 3.0)); }
+  };
+  [[nodiscard]] Stretch stretch(std::size_t i) const {
+    const double curve = bend(i);
+    return {way_v_[i - 1], (way_v_[i] - way_v_[i - 1]) * rate_ - curve / rate_, curve};
+  }
+
+  /// Lets the position go on as the velocity says. Measured positions would go against it by their noise, and a
+  /// contact would slip backwards without end. The way follows the measured position by a tenth of the difference
+  /// in each sample, as far as half of what the velocity says allows.
+  void agree() {
+    constexpr double share = 0.1;
+    constexpr double most = 0.5;
+    for (std::size_t i = 1; i < way_x_.size(); ++i) {
+      const double step = stretch(i).way(1.0 / rate_);
+      const double allowed = way_v_[i - 1] * way_v_[i] < 0.0 ? 0.0 : most * std::abs(step);
+      const double before = way_x_[i - 1] + step;
+      way_x_[i] = before + std::clamp(share * (way_x_[i] - before), -allowed, allowed);
+    }
+  }
+
   /// Moves the law from sample i - 1 to sample i. The velocity is a parabola, which may cross zero once.
   void move(sim::LawHost& host, std::size_t i, double offset) const {
     const Instant from = on_way(i - 1, offset);
     const Instant to = on_way(i, offset);
     const double h = to.t - from.t;
-    const double curve = bend(i);
-    const double slope = (to.v - from.v) / h - curve * h;
-    const auto moved = [v = from.v, slope, curve](double s) {
-      return s * (v + s * (slope / 2.0 + s * curve / 3.0));
-    };
-    // Difference of the measured step from the step with this velocity.
-    const double left = to.x - from.x - moved(h);
-    const sim::Path path = [from, h, left, slope, curve, moved](double t) {
+    const Stretch along = stretch(i);
+    const double step = along.way(h);
+    // The step of the position is that of the velocity, but for a factor if both agree, or for a constant speed.
+    const bool has_factor = agrees_ && from.v * to.v >= 0.0 && step != 0.0;
+    const double factor = has_factor ? (to.x - from.x) / step : 1.0;
+    const double left = agrees_ ? 0.0 : (to.x - from.x - step) / h;
+    const sim::Path path = [from, along, factor, left](double t) {
       const double s = t - from.t;
-      return Instant{t, from.x + moved(s) + s / h * left, from.v + s * (slope + s * curve)};
+      return Instant{t, from.x + factor * along.way(s) + left * s, from.v + s * (along.slope + s * along.curve)};
     };
     if (from.v * to.v < 0.0) {
       // The root of the parabola between the samples, without cancellation.
-      const double root = std::sqrt(std::max(0.0, slope * slope - 4.0 * curve * from.v));
-      const double turn = 2.0 * from.v / (-slope + std::copysign(root, from.v));
+      const double root = std::sqrt(std::max(0.0, along.slope * along.slope - 4.0 * along.curve * from.v));
+      const double turn = 2.0 * from.v / (-along.slope + std::copysign(root, from.v));
       host.move_along(from.t + std::clamp(turn, 0.0, h), path);
       host.change_direction(direction_of(to.v));
     } else if (from.v == 0.0 && to.v != 0.0) {
@@ -298,7 +323,8 @@ class FrictionLoop final : public Experiment {
   double rate_;
   std::vector<double> x_, v_, a_;      ///< measured, or derivatives or integrals of what was measured
   std::vector<double> law_x_, law_v_;  ///< for the laws: filtered before they are differentiated
-  std::vector<double> way_x_, way_v_;  ///< for laws with a memory: without the noise of rests
+  std::vector<double> way_x_, way_v_;  ///< for laws with a memory: see hold(), agree()
+  bool agrees_ = false;                ///< see agree()
   std::optional<ZeroPhaseFilter> filter_;
   std::vector<double> force_;  ///< measured, before the filter
   double force_noise_ = 0.0;

@@ -84,6 +84,37 @@ TEST_CASE("loop: a sample at rest costs no more than one in motion", "[identify]
   }
 }
 
+TEST_CASE("loop: positions that go against the velocity by their noise do not stop a contact", "[identify][fit]") {
+  constexpr double rate = 500.0;
+  const core::RandomStream draws{9, 2026};
+  identify::History loop{.sample_rate = rate};
+  double before = 0.0;
+  double force = 0.0;
+  for (std::uint64_t i = 0; i < 2500; ++i) {
+    const double t = static_cast<double>(i) / rate;
+    // Hardly any motion for a third of each stroke.
+    const double x = 1e-3 * std::pow(std::sin(4.0 * t), 3);
+    const double v = 12e-3 * std::pow(std::sin(4.0 * t), 2) * std::cos(4.0 * t);
+    force = std::clamp(force + sigma0 * (x - before), -kinetic, kinetic);
+    before = x;
+    loop.x.push_back(x + noise_x * draws.normal(3 * i));
+    loop.v.push_back(v + noise_v * draws.normal(3 * i + 1));
+    loop.force.push_back(force + 0.01 * draws.normal(3 * i + 2));
+  }
+  identify::Record record;
+  record.histories.push_back(loop);
+  std::string fault;
+  const identify::Experiments experiments = identify::experiments_of(record, {.name = "loop", .loop = true}, fault);
+  identify::Rig rig = test::loop_alone(test::rig_with({"contact_compliance",
+                                                       {{"kinetic", kinetic}, {"contact_stiffness", sigma0}},
+                                                       {"kinetic", "contact_stiffness"}}));
+  const identify::Fit fit = identify::fit_rig(rig, test::sought_in(rig, {"kinetic", "contact_stiffness"}, 1.5),
+                                              experiments, {.profile = false});
+  REQUIRE(fit.outcome.ok());
+  CHECK(test::find_fitted(fit, "kinetic")->value == Approx(kinetic).epsilon(5e-3));
+  CHECK(test::find_fitted(fit, "contact_stiffness")->value == Approx(sigma0).epsilon(0.03));
+}
+
 TEST_CASE("still stretches: without their moving ends, and none where the mass creeps", "[identify]") {
   const core::RandomStream draws{3, 2026};
   constexpr std::size_t size = 200;
