@@ -25,8 +25,8 @@ struct Part {
 
 class Assembly {
  public:
-  Assembly(DataTable table, Problems& problems, std::vector<std::string>& warnings)
-      : table_(std::move(table)), problems_(problems), warnings_(warnings) {}
+  Assembly(DataTable table, bool is_imposed, Problems& problems, std::vector<std::string>& warnings)
+      : table_(std::move(table)), is_imposed_(is_imposed), problems_(problems), warnings_(warnings) {}
 
   Record run() {
     Record record;
@@ -260,11 +260,14 @@ class Assembly {
     const Clipping exact = clipping_of(signal);
     const Clipping clipping = exact.samples > 0 ? exact : noisy_clipping_of(signal);
     if (clipping.samples == 0) return true;
+    const std::vector<double>* v = name == "x" ? values("v") : nullptr;
+    if (v != nullptr && is_still_at(clipping, *v)) return true;
     const std::string where = std::to_string(clipping.samples) + " samples in " + std::to_string(clipping.places) +
                               (clipping.places == 1 ? " place" : " places") + " stay at the end of the range";
     const std::string subject = "column " + std::string(name);
-    // A displacement does not stop short twice at the same place.
-    if (exact.samples > 0 || (name == "x" && clipping.places > 1)) {
+    // A displacement does not stop short twice at the same place, unless it is imposed.
+    const bool is_free = name != "x" || !is_imposed_;
+    if (is_free && (exact.samples > 0 || (name == "x" && clipping.places > 1))) {
       complain(clipping.first, name, subject + " is clipped: " + where,
                "a record within the range of the sensor, or the part of it that is");
       return false;
@@ -381,14 +384,15 @@ class Assembly {
 
   DataTable table_;
   std::vector<std::size_t> source_row_;  ///< if rows were left out: the row in the file of each row
+  bool is_imposed_;
   Problems& problems_;
   std::vector<std::string>& warnings_;
 };
 
 }  // namespace
 
-Record record_of(DataTable table, Problems& problems, std::vector<std::string>& warnings) {
-  return Assembly(std::move(table), problems, warnings).run();
+Record record_of(DataTable table, bool is_imposed, Problems& problems, std::vector<std::string>& warnings) {
+  return Assembly(std::move(table), is_imposed, problems, warnings).run();
 }
 
 }  // namespace dualdamp::identify

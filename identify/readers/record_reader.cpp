@@ -155,7 +155,7 @@ MeasuredRecord assemble(TableFile file, const ReadOptions& options, Problems& pr
   result.warnings = std::move(warnings);
   result.units = file.table.units;
   result.ignored = file.table.ignored;
-  result.record = record_of(std::move(file.table), problems, result.warnings);
+  result.record = record_of(std::move(file.table), options.is_imposed, problems, result.warnings);
   problems.throw_if_any();
   result.sha256 = std::move(file.sha256);
   return result;

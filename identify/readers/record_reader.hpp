@@ -38,7 +38,8 @@ struct ReadOptions {
   core::Coordinate coordinate = core::Coordinate::displacement;  ///< what x is
   std::string coordinate_reason = {};  ///< for messages: why x is one; empty: the caller does not know
   bool force_levels = false;           ///< Y is the amplitude of a force [N]
-  bool no_header = false;  ///< the first row of a CSV file holds numbers; `columns` has the number of each column
+  bool is_imposed = false;  ///< a drive moves the mass along x, and may stop anywhere: no stop is called clipped
+  bool no_header = false;   ///< the first row of a CSV file holds numbers; `columns` has the number of each column
   /// Names of the columns to be read, without aliases; others are not read. Empty: all.
   std::vector<std::string> only = {};
   /// Name of the file in messages; empty: its path.

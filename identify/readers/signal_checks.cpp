@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "identify/statistics/decompositions.hpp"
+#include "identify/statistics/median.hpp"
 #include "identify/statistics/noise_level.hpp"
 
 namespace dualdamp::identify {
@@ -71,6 +72,7 @@ class Top {
         if (found.places == 0) found.first = i;
         ++found.places;
         found.samples += length;
+        found.stretches.emplace_back(i, end);
         found.value = sign_ * (top_ - 0.5 * rule_.band);
       }
       i = end + 1;
@@ -117,6 +119,8 @@ Clipping both_ends(std::span<const double> signal, double range, const PlateauRu
   if (top.places > 0 && bottom.places > 0) all.first = std::min(top.first, bottom.first);
   all.samples = top.samples + bottom.samples;
   all.places = top.places + bottom.places;
+  all.stretches = top.stretches;
+  all.stretches.insert(all.stretches.end(), bottom.stretches.begin(), bottom.stretches.end());
   return all;
 }
 
@@ -148,6 +152,19 @@ Clipping noisy_clipping_of(std::span<const double> signal) {
   const double band = std::max(deviations * noise.deviation(), steps * resolution_of(signal, range));
   if (!(band <= widest * range)) return {};
   return both_ends(signal, range, {.band = band, .fewest = 4, .least = least_height * range + bands * band});
+}
+
+bool is_still_at(const Clipping& clipping, std::span<const double> v) {
+  std::vector<double> inside;
+  std::vector<double> beside;
+  for (const auto& [begin, end] : clipping.stretches) {
+    const std::size_t length = end - begin;
+    for (std::size_t i = begin; i < end; ++i) inside.push_back(std::abs(v[i]));
+    for (std::size_t i = begin - std::min(begin, length); i < begin; ++i) beside.push_back(std::abs(v[i]));
+    for (std::size_t i = end; i < std::min(v.size(), end + length); ++i) beside.push_back(std::abs(v[i]));
+  }
+  constexpr double share = 0.1;
+  return upper_median(std::move(inside)) < share * upper_median(std::move(beside));
 }
 
 bool is_constant(std::span<const double> signal) {

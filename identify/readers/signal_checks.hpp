@@ -3,6 +3,8 @@
 
 #include <cstddef>
 #include <span>
+#include <utility>
+#include <vector>
 
 namespace dualdamp::identify {
 
@@ -12,20 +14,26 @@ struct Clipping {
   std::size_t places = 0;
   std::size_t first = 0;  ///< index of the first such sample
   double value = 0.0;
+  std::vector<std::pair<std::size_t, std::size_t>> stretches = {};  ///< [begin, end) of each place
 };
 
 /// `samples` is 0 if the signal is not clipped. A swing is clipped if it stays at the largest or the smallest value
-/// of the signal and would have gone further. A parabola through the samples beside the plateau, on both sides, says
-/// how much: more than three times the resolution and 1 % of the range. A mass that sticks arrives without speed.
-/// There must be two such places. A mass that is held before its release does not count as one.
+/// of the signal and would have gone further. A parabola through the samples beside the plateau, on both sides,
+/// says how much: more than three times the resolution and 1 % of the range. A mass that sticks arrives without
+/// speed. There must be two such places. A mass that is held before its release does not count as one.
 [[nodiscard]] Clipping clipping_of(std::span<const double> signal);
 
 /// The same where noise, that of the converter say, is added behind the place that clips. A plateau is a run of at
 /// least four samples within a band at the largest or the smallest value, eight deviations of the noise or two
-/// steps of the resolution wide, and at most 1.5 % of the range. The swing would have gone further by more than 1 % of
-/// the range and three bands; a smooth top goes no higher than about the band. A velocity may really stop short, as
-/// that of a mass carried along, and so may an acceleration. A single place counts.
+/// steps of the resolution wide, and at most 1.5 % of the range. The swing would have gone further by more than 1 %
+/// of the range and three bands; a smooth top goes no higher than about the band. A velocity may really stop short,
+/// as that of a mass carried along, and so may an acceleration. A single place counts.
 [[nodiscard]] Clipping noisy_clipping_of(std::span<const double> signal);
+
+/// Whether the measured velocity says that the mass stands still where its displacement stays at the end of the
+/// range: there its median speed is below a tenth of that beside these places. It would be a quarter or more if the
+/// displacement were clipped.
+[[nodiscard]] bool is_still_at(const Clipping& clipping, std::span<const double> v);
 
 [[nodiscard]] bool is_constant(std::span<const double> signal);
 

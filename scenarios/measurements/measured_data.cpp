@@ -33,6 +33,7 @@ identify::ReadOptions read_options(const Json& section, core::Coordinate coordin
       for (const auto& [column, text] : section.at(key).items()) map->emplace(column, text.get<std::string>());
   if (section.contains("decimal")) options.decimal = section.at("decimal").get<std::string>().front();
   options.no_header = section.value("no_header", false);
+  options.is_imposed = section.value("loop", false);
   return options;
 }
 

@@ -170,6 +170,25 @@ TEST_CASE("Gaps: the longest uninterrupted stretch is used, and said so") {
   CHECK(mentions(refusal_of(torn), "no stretch between them is long enough"));
 }
 
+TEST_CASE("Ramps with stops are clipped, unless the velocity or the caller says that the motion stops there") {
+  const auto ramps = [](bool with_v) {
+    std::string text = with_v ? "t [s],x [mm],force [N],v [mm/s]\n" : "t [s],x [mm],force [N]\n";
+    for (int i = 0; i < 400; ++i) {
+      const int part = i % 100;
+      const double sign = i / 100 % 2 == 0 ? 1.0 : -1.0;
+      text += print("%.2f", 0.01 * i) + "," + print("%.3f", sign * std::min(1.0, 0.04 * part - 1.0)) + ",1" +
+              (with_v ? "," + print("%.3f", part < 50 ? sign * 4.0 : 0.0) : "") + "\n";
+    }
+    return text;
+  };
+  CHECK(mentions(refusal_of(ramps(false)), "column x is clipped"));
+  CHECK(parse_record(ramps(true), "data.csv").record.histories.size() == 1);
+  const MeasuredRecord imposed = parse_record(ramps(false), ReadOptions{.is_imposed = true});
+  CHECK(imposed.record.histories.size() == 1);
+  REQUIRE(imposed.warnings.size() == 1);
+  CHECK(mentions(imposed.warnings[0], "column x may be clipped"));
+}
+
 TEST_CASE("The caller names columns and units") {
   std::string text = "Zeit (s),LVDT 1 [mm],LVDT 2 [mm],x\n";
   for (int i = 0; i < 20; ++i) text += print("%.2f,%d,%d,9\n", 0.01 * i, i, 2 * i);

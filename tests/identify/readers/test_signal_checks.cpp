@@ -9,6 +9,7 @@
 #include "core/random.hpp"
 
 using namespace dualdamp;
+using identify::Clipping;
 using identify::clipping_of;
 using identify::noisy_clipping_of;
 
@@ -92,4 +93,28 @@ TEST_CASE(
       CHECK(clipping_of(in_steps(clipped(decay(per_sample), -0.8, 0.8), step)).places > 2);
       CHECK(clipping_of(in_steps(decay(per_sample), step)).samples == 0);
     }
+}
+
+TEST_CASE("signal checks: the velocity tells an imposed stop from clipping") {
+  // Ramps between -1 and 1 with a stop at each end; and a decay whose sensor clips, while the velocity goes on.
+  std::vector<double> x;
+  std::vector<double> v;
+  const core::RandomStream stream{5, 1};
+  for (std::uint64_t i = 0; i < 800; ++i) {
+    const double part = std::fmod(static_cast<double>(i), 100.0) / 100.0;
+    const double sign = i / 100 % 2 == 0 ? 1.0 : -1.0;
+    x.push_back(sign * std::min(1.0, 4.0 * part - 1.0));
+    v.push_back((part < 0.5 ? sign * 4.0 : 0.0) + 0.01 * stream.normal(i));
+  }
+  REQUIRE(clipping_of(x).samples > 0);
+  CHECK(identify::is_still_at(clipping_of(x), v));
+  const std::vector<double> moves = decay();
+  std::vector<double> speed;
+  for (std::size_t i = 0; i < moves.size(); ++i)
+    speed.push_back(moves[std::min(i + 1, moves.size() - 1)] - moves[i]);
+  for (const double limit : {0.3, 0.6, 0.9}) {
+    const Clipping clipping = clipping_of(clipped(moves, -limit, limit));
+    REQUIRE(clipping.samples > 0);
+    CHECK_FALSE(identify::is_still_at(clipping, speed));
+  }
 }
