@@ -137,6 +137,8 @@ class Law {
   [[nodiscard]] std::string_view aperiodic() const {
     return abilities_.aperiodic != nullptr ? abilities_.aperiodic->aperiodic() : std::string_view{};
   }
+  /// Whether its force limits grow or fall with time.
+  [[nodiscard]] bool drifts() const { return abilities_.aperiodic != nullptr && abilities_.aperiodic->drifts(); }
 
  private:
   std::shared_ptr<const LawModel> model_;

@@ -92,6 +92,8 @@ class AperiodicAbility : public Ability {
  public:
   /// Empty: a motion may be periodic.
   [[nodiscard]] virtual std::string_view aperiodic() const = 0;
+  /// Whether its force limits grow or fall with time.
+  [[nodiscard]] virtual bool drifts() const { return false; }
 };
 
 /// The abilities of a law beside its force; a null pointer where the law lacks one. The pointers live as long as

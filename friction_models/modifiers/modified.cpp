@@ -119,6 +119,7 @@ class ModifiedLaw final : public LawModel,
     return std::min(law_.next_change(parts_of(memory).inner()), limits_.next_change(memory.course));
   }
   [[nodiscard]] std::string_view aperiodic() const override;
+  [[nodiscard]] bool drifts() const override { return limits_.settings().drift != 0.0; }
 
  private:
   [[nodiscard]] bool warms() const { return limits_.settings().warms(); }

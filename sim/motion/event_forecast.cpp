@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <string_view>
 
 #include "core/constants.hpp"
 
@@ -20,9 +19,6 @@ constexpr double stronger = 1.5;
 /// Densities of two parts of the motion agree if they differ by less than this factor.
 constexpr double alike = 1.5;
 
-/// Friction that grows with time may end a motion that it lets go today.
-bool drifts(const friction::Law& law) { return law.aperiodic().find("drift") != std::string_view::npos; }
-
 }  // namespace
 
 EventForecast::EventForecast(const Model& model, double duration, long most_events)
@@ -30,7 +26,9 @@ EventForecast::EventForecast(const Model& model, double duration, long most_even
       drive_(model.excitation),
       duration_(duration),
       most_(static_cast<double>(most_events)),
-      possible_(is_linear(rig_) && std::ranges::none_of(model.friction, drifts) && rig_.stiffness > 0.0 &&
+      // Friction that grows with time may end a motion that it lets go today.
+      possible_(is_linear(rig_) && std::ranges::none_of(model.friction, &friction::Law::drifts) &&
+                rig_.stiffness > 0.0 &&
                 (drive_.type == ExcitationType::none || drive_.is_ramp() || drive_.is_harmonic())),
       next_(first_count),
       x_(model.initial.position) {}
