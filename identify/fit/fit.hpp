@@ -14,14 +14,13 @@
 /// its own (`freedom.hpp`), and so has each parameter (welch1947). In a robust fit, the variance of S is that of
 /// Huber's estimate (`signal_variance.hpp`). For a profile, the parameter is held at a value and the others are
 /// fitted by Gauss-Newton steps with the derivatives at the estimate. Directions of the parameters along which the
-/// data allow a change of 100 % are described in words. Laws are compared by AICc (burnham2002) with the number of
-/// samples that count as independent.
+/// data allow a change of 100 % are described in words.
 ///
 /// A search that takes more work than `FitOptions::most_work` ends without a result, and says so. Profiles
 /// have the same limit of their own; beyond it the fit has none.
 ///
-/// Source: ljung1999, burnham2002, newey1987, huber1964, ronchetti1985. Errors: `outcome`. Cost: that of a motion,
-/// times 40 for the starts and times two for each parameter and step.
+/// Source: ljung1999, newey1987, huber1964. Errors: `outcome`. Cost: that of a motion, times 40 for the starts and
+/// times two for each parameter and step.
 
 #include <Eigen/Core>
 #include <memory>
@@ -30,9 +29,9 @@
 
 #include "core/outcome.hpp"
 #include "identify/estimate.hpp"
-#include "identify/fit/experiment.hpp"
+#include "identify/experiments/experiment.hpp"
+#include "identify/experiments/rig.hpp"
 #include "identify/fit/problem.hpp"
-#include "identify/fit/rig.hpp"
 
 namespace dualdamp::identify {
 
@@ -116,13 +115,5 @@ struct SharedUncertainty {
   Eigen::MatrixXd undetermined;  ///< as in `Fit`; empty: none
 };
 [[nodiscard]] SharedUncertainty shared_uncertainty(const Fit& fit);
-
-/// Sets AICc of each fit. All are fits of the same data. The number of independent samples is that of the fit with
-/// the least deviance. `robust`: of fits with Huber's weights, Huber's sum takes the place of the sum of squares,
-/// in units of one deviation for all fits: the least one, with the degrees of freedom of its fit. If no noise is
-/// stated, the growth of Huber's sum from that fit enters the likelihood as a growth of the sum of squares would:
-/// the weights of normal readings are about those of plain fits. A parameter counts 2 E(psi^2)/E(psi') in place of
-/// 2, which is the mean gain of the sum by a parameter that the data do not need (ronchetti1985).
-void compare_fits(std::vector<Fit>& fits, bool robust = false);
 
 }  // namespace dualdamp::identify

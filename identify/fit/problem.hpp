@@ -16,8 +16,8 @@
 #include <utility>
 #include <vector>
 
-#include "identify/fit/experiment.hpp"
-#include "identify/fit/rig.hpp"
+#include "identify/experiments/experiment.hpp"
+#include "identify/experiments/rig.hpp"
 
 namespace dualdamp::identify {
 

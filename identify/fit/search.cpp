@@ -5,9 +5,9 @@
 #include <utility>
 
 #include "core/constants.hpp"
+#include "identify/experiments/starts.hpp"
 #include "identify/fit/freedom.hpp"
 #include "identify/fit/residual_test.hpp"
-#include "identify/fit/starts.hpp"
 #include "identify/statistics/huber.hpp"
 #include "identify/statistics/least_squares.hpp"
 #include "sim/parallel.hpp"

@@ -13,8 +13,8 @@
 #include <optional>
 #include <vector>
 
+#include "identify/experiments/starts.hpp"
 #include "identify/fit/problem.hpp"
-#include "identify/fit/starts.hpp"
 
 namespace dualdamp::identify {
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "friction_models/registry.hpp"
+#include "identify/fit/comparison.hpp"
 #include "scenarios/analyses/shared/record_drive.hpp"
 #include "scenarios/analyses/shared/record_holds.hpp"
 #include "scenarios/analyses/shared/record_zeros.hpp"

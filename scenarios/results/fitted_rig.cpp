@@ -6,7 +6,7 @@
 
 #include "core/coordinate.hpp"
 #include "core/numbers.hpp"
-#include "identify/fit/drive_values.hpp"
+#include "identify/experiments/drive_values.hpp"
 #include "scenarios/format/excitations.hpp"
 #include "scenarios/format/law_values.hpp"
 #include "sim/sampled_signal.hpp"

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "identify/fit/rig.hpp"
+#include "identify/experiments/rig.hpp"
 
 namespace dualdamp::scenarios {
 

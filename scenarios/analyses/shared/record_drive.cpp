@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "core/numbers.hpp"
-#include "identify/fit/drive_values.hpp"
+#include "identify/experiments/drive_values.hpp"
 #include "identify/statistics/noise_level.hpp"
 #include "scenarios/format/excitations.hpp"
 #include "scenarios/format/limits.hpp"

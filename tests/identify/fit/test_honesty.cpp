@@ -4,6 +4,7 @@
 
 #include "core/random.hpp"
 #include "friction_models/registry.hpp"
+#include "identify/fit/comparison.hpp"
 #include "identify/fit/fit.hpp"
 #include "identify/fit/residual_test.hpp"
 #include "identify/records/rest_samples.hpp"

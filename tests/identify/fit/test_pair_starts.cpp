@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "friction_models/registry.hpp"
+#include "identify/experiments/starts.hpp"
 #include "identify/fit/problem.hpp"
-#include "identify/fit/starts.hpp"
 #include "tests/identify/fit/synthetic.hpp"
 
 using namespace dualdamp;

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "core/random.hpp"
+#include "identify/fit/comparison.hpp"
 #include "identify/fit/residual_test.hpp"
 #include "tests/identify/fit/synthetic.hpp"
 

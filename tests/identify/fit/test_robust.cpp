@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/random.hpp"
+#include "identify/fit/comparison.hpp"
 #include "identify/fit/fit.hpp"
 #include "identify/statistics/huber.hpp"
 #include "tests/identify/fit/synthetic.hpp"

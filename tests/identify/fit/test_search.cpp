@@ -8,8 +8,8 @@
 
 #include "core/constants.hpp"
 #include "core/random.hpp"
+#include "identify/experiments/tie.hpp"
 #include "identify/fit/fit.hpp"
-#include "identify/fit/tie.hpp"
 #include "sim/motion/simulate.hpp"
 #include "tests/identify/fit/random_rigs.hpp"
 #include "tests/identify/fit/synthetic.hpp"

@@ -1,4 +1,4 @@
-#include "identify/fit/tie.hpp"
+#include "identify/experiments/tie.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "core/constants.hpp"
-#include "identify/fit/drive_values.hpp"
+#include "identify/experiments/drive_values.hpp"
 #include "identify/records/signals.hpp"
 #include "identify/statistics/decompositions.hpp"
 #include "sim/sampled_signal.hpp"

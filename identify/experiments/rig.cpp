@@ -1,4 +1,4 @@
-#include "identify/fit/rig.hpp"
+#include "identify/experiments/rig.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -17,8 +17,8 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "identify/fit/experiment.hpp"
-#include "identify/fit/rig.hpp"
+#include "identify/experiments/experiment.hpp"
+#include "identify/experiments/rig.hpp"
 
 namespace dualdamp::identify {
 

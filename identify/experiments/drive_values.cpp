@@ -1,4 +1,4 @@
-#include "identify/fit/drive_values.hpp"
+#include "identify/experiments/drive_values.hpp"
 
 #include <cmath>
 #include <memory>

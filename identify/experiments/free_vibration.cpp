@@ -1,7 +1,7 @@
 #include <numbers>
 #include <utility>
 
-#include "identify/fit/experiment.hpp"
+#include "identify/experiments/experiment.hpp"
 #include "sim/conformance/loaded_contacts.hpp"
 #include "sim/motion/simulate.hpp"
 

@@ -19,7 +19,7 @@
 #include <optional>
 #include <vector>
 
-#include "identify/fit/rig.hpp"
+#include "identify/experiments/rig.hpp"
 #include "sim/model.hpp"
 
 namespace dualdamp::identify {

@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "core/numbers.hpp"
-#include "identify/fit/experiment.hpp"
-#include "identify/fit/starts.hpp"
+#include "identify/experiments/experiment.hpp"
+#include "identify/experiments/starts.hpp"
 #include "identify/records/held_way.hpp"
 #include "identify/records/rest_samples.hpp"
 #include "identify/records/signals.hpp"

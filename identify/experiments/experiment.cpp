@@ -1,4 +1,4 @@
-#include "identify/fit/experiment.hpp"
+#include "identify/experiments/experiment.hpp"
 
 #include <algorithm>
 

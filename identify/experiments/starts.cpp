@@ -1,4 +1,4 @@
-#include "identify/fit/starts.hpp"
+#include "identify/experiments/starts.hpp"
 
 #include <algorithm>
 #include <array>

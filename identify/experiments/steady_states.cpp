@@ -5,7 +5,7 @@
 
 #include "core/constants.hpp"
 #include "friction_models/law_fault.hpp"
-#include "identify/fit/experiment.hpp"
+#include "identify/experiments/experiment.hpp"
 #include "sim/orbits/steady_state_near.hpp"
 
 namespace dualdamp::identify {

@@ -21,7 +21,7 @@
 #include <utility>
 #include <vector>
 
-#include "identify/fit/rig.hpp"
+#include "identify/experiments/rig.hpp"
 #include "identify/records/signals.hpp"
 
 namespace dualdamp::identify {
