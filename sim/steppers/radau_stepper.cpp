@@ -102,9 +102,10 @@ class RadauStepper final : public Stepper {
   /// Predicts z from the last step's polynomial, also beyond its end; false if this step is not close enough to it.
   bool predict(double t, double h) {
     constexpr double farthest = 4.0;
+    constexpr double latest = 1.0 + 1e-6;  // times are rounded: the next step may seem to begin after the last one
     const double from = (t - t_) / h_;
     const double length = h / h_;
-    if (!(from >= 0.0 && from <= 1.0 && length > 0.0 && from + length <= farthest)) return false;
+    if (!(from >= 0.0 && from <= latest && length > 0.0 && from + length <= farthest)) return false;
     const Row here = radau_.basis(from);
     for (std::size_t i = 0; i < radau_stages; ++i) {
       Row basis = radau_.basis(from + length * radau_.nodes[i]);

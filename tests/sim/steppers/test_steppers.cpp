@@ -398,3 +398,41 @@ TEST_CASE("the explicit stepper knows how stiff a step was") {
   }
   CHECK(sim::make_implicit_stepper()->stiffness() == 0.0);
 }
+
+TEST_CASE("implicit steps that follow each other are predicted whatever the rounding of their times",
+          "[sim][steppers]") {
+  /// x'' = -x^3, which counts its evaluations.
+  class Counting final : public sim::VectorField {
+   public:
+    std::size_t size() const override { return 2; }
+    void evaluate(std::span<const double> x, double, std::span<double> rates) const override {
+      ++calls;
+      rates[0] = x[1];
+      rates[1] = -x[0] * x[0] * x[0];
+    }
+    void jacobian(std::span<const double> x, double, std::span<double> columns) const override {
+      columns[0] = columns[3] = 0.0;
+      columns[1] = -3.0 * x[0] * x[0];
+      columns[2] = 1.0;
+    }
+    mutable int calls = 0;
+  };
+  const Counting field;
+  const auto stepper = sim::make_implicit_stepper();
+  std::array<double, 2> x = {1.0, 0.0};
+  std::array<double, 2> end{};
+  std::array<double, 2> error{};
+  const std::array<double, 2> allowed = {1e-7, 1e-7};
+  const double h = 0.07;
+  int before = 0;
+  int most = 0;
+  double t = 0.0;
+  for (int i = 0; i < 100; ++i) {
+    before = field.calls;
+    REQUIRE(stepper->step(field, x, t, h, allowed, end, error));
+    if (i > 0) most = std::max(most, field.calls - before);
+    x = end;
+    t += h;
+  }
+  CHECK(most <= 11);  // two iterations and the estimate
+}
