@@ -102,13 +102,24 @@ double Drive::force_size(double time) const {
 }
 
 Drive::Value Drive::at(double s) const {
-  const std::array<double, 4> then = shifted(polynomial_, piece_time_ + s);
-  double level = then[0];
-  double rate = then[1];
+  double level = polynomial_[0];
+  double rate = 0.0;
+  if (has_pieces()) {
+    const std::array<double, 4> then = shifted(polynomial_, piece_time_ + s);
+    level = then[0];
+    rate = then[1];
+  }
   for (std::size_t j = 0; j < frequencies_.size(); ++j) {
-    const Complex value = amplitudes_[j] * turns_[j] * std::polar(1.0, frequencies_[j] * s);
-    level += value.real();
-    rate -= frequencies_[j] * value.imag();
+    // Complex products would check every part for infinity.
+    const Complex a = amplitudes_[j];
+    const Complex turn = turns_[j];
+    const double real = a.real() * turn.real() - a.imag() * turn.imag();
+    const double imaginary = a.real() * turn.imag() + a.imag() * turn.real();
+    const double angle = frequencies_[j] * s;
+    const double cosine = std::cos(angle);
+    const double sine = std::sin(angle);
+    level += real * cosine - imaginary * sine;
+    rate -= frequencies_[j] * (real * sine + imaginary * cosine);
   }
   return base_ ? Value{level, rate, 0.0} : Value{0.0, 0.0, level};
 }

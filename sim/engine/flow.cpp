@@ -38,6 +38,8 @@ constexpr double resolved = 1e-11;
 
 Flow::Flow(const Model& model, const Drive& drive, const VelocityHistory& past)
     : model_(model), drive_(drive), past_(past) {
+  for (const friction::Law& law : model_.friction) is_delayed_ = is_delayed_ || law.delay() > 0.0;
+  is_harmonic_ = model_.excitation.is_harmonic();
   first_.resize(model_.friction.size());
   count_.resize(model_.friction.size());
   scales_.assign(2, 1.0);
@@ -92,7 +94,7 @@ const Memory& Flow::memory(std::size_t i, std::span<const double> X) const {
 /// The instant that is the same for all laws.
 Instant Flow::instant(std::span<const double> X, double t) const {
   Instant now{.t = offset_ + t, .x = X[0], .v = X[1]};
-  if (model_.excitation.is_harmonic()) {
+  if (is_harmonic_) {
     now.angle_rate = model_.excitation.frequency;
     now.angle = now.angle_rate * t;
   }
@@ -101,6 +103,7 @@ Instant Flow::instant(std::span<const double> X, double t) const {
 
 /// Adds the past velocity for law i.
 void Flow::remember(std::size_t i, Instant& now, double t) const {
+  if (!is_delayed_) return;
   const double delay = model_.friction[i].delay();
   if (delay > 0.0) now.past_velocity = past_.at(t - delay, past_frame_);
 }
@@ -137,8 +140,8 @@ double Flow::respond(std::size_t i, std::span<const double> X, const Instant& no
 
 const Drive::Value& Flow::drive(double t) const {
   constexpr std::uint64_t spread = 0x9e3779b97f4a7c15;  // 2^64 over the golden ratio: neighbours fall far apart
-  static_assert(std::tuple_size_v<decltype(known_drives_)> == 16);
-  KnownDrive& known = known_drives_[std::bit_cast<std::uint64_t>(t) * spread >> 60];
+  static_assert(std::tuple_size_v<decltype(known_drives_)> == 64);
+  KnownDrive& known = known_drives_[std::bit_cast<std::uint64_t>(t) * spread >> 58];
   if (!(known.t == t && known.piece == drive_.piece())) known = {t, drive_.piece(), drive_.at(t)};
   return known.value;
 }

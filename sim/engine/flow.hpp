@@ -86,6 +86,8 @@ class Flow final : public VectorField {
   const VelocityHistory& past_;
   friction::Direction direction_ = friction::Direction::none;
   double offset_ = 0.0;
+  bool is_delayed_ = false;  ///< some law has a delay
+  bool is_harmonic_ = false;
   long past_frame_ = 0;  ///< frame of time of `past_` in which the flow counts
   std::size_t size_ = 2;
   std::vector<std::size_t> first_;  ///< of each law: index of its first state in X
@@ -104,7 +106,7 @@ class Flow final : public VectorField {
     long piece = 0;
     Drive::Value value{};
   };
-  mutable std::array<KnownDrive, 16> known_drives_;  ///< the index is a hash of the time's bits
+  mutable std::array<KnownDrive, 64> known_drives_;  ///< the index is a hash of the time's bits
 };
 
 }  // namespace dualdamp::sim

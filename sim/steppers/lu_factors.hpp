@@ -33,6 +33,14 @@ Extent<N> extent(std::size_t size) {
     return {};
 }
 
+/// Without the checks for infinite parts that std::complex makes in each product and quotient.
+inline double product(double a, double b) { return a * b; }
+inline std::complex<double> product(std::complex<double> a, std::complex<double> b) {
+  return {a.real() * b.real() - a.imag() * b.imag(), a.real() * b.imag() + a.imag() * b.real()};
+}
+inline double reciprocal(double a) { return 1.0 / a; }
+inline std::complex<double> reciprocal(std::complex<double> a) { return std::conj(a) / std::norm(a); }
+
 template <class Scalar, std::size_t N>
 class LuFactors {
  public:
@@ -55,10 +63,10 @@ class LuFactors {
   void solve(Scalar* b) const {
     for (std::size_t k = 0; k < n_(); ++k) std::swap(b[k], b[pivots_[k]]);
     for (std::size_t k = 0; k < n_(); ++k)
-      for (std::size_t i = k + 1; i < n_(); ++i) b[i] -= column(k)[i] * b[k];
+      for (std::size_t i = k + 1; i < n_(); ++i) b[i] -= product(column(k)[i], b[k]);
     for (std::size_t k = n_(); k-- > 0;) {
-      b[k] *= column(k)[k];
-      for (std::size_t i = 0; i < k; ++i) b[i] -= column(k)[i] * b[k];
+      b[k] = product(b[k], column(k)[k]);
+      for (std::size_t i = 0; i < k; ++i) b[i] -= product(column(k)[i], b[k]);
     }
   }
 
@@ -75,11 +83,11 @@ class LuFactors {
     pivots_[k] = pivot;
     if (pivot != k)
       for (std::size_t j = 0; j < n_(); ++j) std::swap(column(j)[k], column(j)[pivot]);
-    pivoted[k] = 1.0 / pivoted[k];
-    for (std::size_t i = k + 1; i < n_(); ++i) pivoted[i] *= pivoted[k];
+    pivoted[k] = reciprocal(pivoted[k]);
+    for (std::size_t i = k + 1; i < n_(); ++i) pivoted[i] = product(pivoted[i], pivoted[k]);
     for (std::size_t j = k + 1; j < n_(); ++j) {
       Scalar* const other = column(j);
-      for (std::size_t i = k + 1; i < n_(); ++i) other[i] -= pivoted[i] * other[k];
+      for (std::size_t i = k + 1; i < n_(); ++i) other[i] -= product(pivoted[i], other[k]);
     }
   }
 

@@ -28,8 +28,14 @@ constexpr double epsilon = std::numeric_limits<double>::epsilon();
 /// The larger one; NaN if one of them is NaN.
 double larger(double a, double b) { return a >= b || std::isnan(a) ? a : b; }
 
-/// The method for states of N components, or of any number. The states of the s stages are stored one after the
-/// other.
+/// sum_j weights_j values_j
+double combine(const Row& weights, const Row& values) {
+  double sum = 0.0;
+  for (std::size_t j = 0; j < radau_stages; ++j) sum += weights[j] * values[j];
+  return sum;
+}
+
+/// The method for states of N components, or of any number.
 template <std::size_t N>
 class RadauStepper final : public Stepper {
  public:
@@ -37,34 +43,30 @@ class RadauStepper final : public Stepper {
 
   explicit RadauStepper(std::size_t n)
       : n_(extent<N>(n)),
-        start_(n),
-        end_(n),
-        polynomial_(n * radau_stages),
-        z_(n * radau_stages),
-        rates_(n * radau_stages),
-        correction_(n * radau_stages),
-        state_(n),
-        middle_state_(n),
-        probed_(n),
-        pair_(n),
         jacobian_(n * n),
         factored_jacobian_(n * n),
         real_factors_(n),
-        pair_factors_(make_pair_factors(n, std::make_index_sequence<pairs>{})) {}
+        pair_factors_(make_pair_factors(n, std::make_index_sequence<pairs>{})) {
+    if constexpr (N == any_size) {
+      for (State* state : {&start_, &end_, &state_, &slope_, &middle_state_, &probed_, &real_}) state->resize(n);
+      for (Stages* stages : {&polynomial_, &z_, &defect_, &correction_}) stages->resize(n);
+      pair_.resize(n);
+    }
+  }
 
   [[nodiscard]] bool step(const VectorField& field, std::span<const double> x, double t, double h,
                           std::span<const double> allowed, std::span<double> end,
                           std::span<double> error) override {
     const bool predicted = predict(t, h);
     if (!(predicted && solve(field, x, t, h, allowed))) {
-      std::ranges::fill(z_, 0.0);
+      std::ranges::fill(z_, Row{});
       if (!solve(field, x, t, h, allowed)) {
         begin_straight(field, x, t, h);
         if (!solve(field, x, t, h, allowed)) return false;
       }
     }
     if (!estimate(field, x, t, h, error)) return false;
-    for (std::size_t k = 0; k < n_(); ++k) end[k] = x[k] + z_[(radau_stages - 1) * n_() + k];
+    for (std::size_t k = 0; k < n_(); ++k) end[k] = x[k] + z_[k].back();
     std::ranges::copy(x, start_.begin());
     std::ranges::copy(end, end_.begin());
     std::swap(polynomial_, z_);
@@ -79,7 +81,7 @@ class RadauStepper final : public Stepper {
       return;
     }
     const Row basis = radau_.basis(part);
-    for (std::size_t k = 0; k < n_(); ++k) x[k] = start_[k] + combine(basis, polynomial_, k);
+    for (std::size_t k = 0; k < n_(); ++k) x[k] = start_[k] + combine(basis, polynomial_[k]);
   }
 
   [[nodiscard]] int order() const override { return estimate_order; }
@@ -87,16 +89,13 @@ class RadauStepper final : public Stepper {
   [[nodiscard]] long operations() const override { return operations_; }
 
  private:
+  using State = std::conditional_t<N == any_size, Vector, std::array<double, N>>;
+  /// Each component at all stages.
+  using Stages = std::conditional_t<N == any_size, std::vector<Row>, std::array<Row, N>>;
+
   template <std::size_t... k>
   static std::array<LuFactors<Complex, N>, pairs> make_pair_factors(std::size_t n, std::index_sequence<k...>) {
     return {((void)k, LuFactors<Complex, N>(n))...};
-  }
-
-  /// sum_j weights_j states_j, component k.
-  [[nodiscard]] double combine(const Row& weights, const Vector& states, std::size_t k) const {
-    double sum = 0.0;
-    for (std::size_t j = 0; j < radau_stages; ++j) sum += weights[j] * states[j * n_() + k];
-    return sum;
   }
 
   /// Predicts z from the last step's polynomial, also beyond its end; false if this step is not close enough to it.
@@ -110,16 +109,16 @@ class RadauStepper final : public Stepper {
     for (std::size_t i = 0; i < radau_stages; ++i) {
       Row basis = radau_.basis(from + length * radau_.nodes[i]);
       for (std::size_t j = 0; j < radau_stages; ++j) basis[j] -= here[j];
-      for (std::size_t k = 0; k < n_(); ++k) z_[i * n_() + k] = combine(basis, polynomial_, k);
+      for (std::size_t k = 0; k < n_(); ++k) z_[k][i] = combine(basis, polynomial_[k]);
     }
     return true;
   }
 
   /// Predicts z from the rates at the start: this leaves a speed at which alone friction is steep.
   void begin_straight(const VectorField& field, std::span<const double> x, double t, double h) {
-    field.evaluate(x, t, state_);
-    for (std::size_t i = 0; i < radau_stages; ++i)
-      for (std::size_t k = 0; k < n_(); ++k) z_[i * n_() + k] = radau_.nodes[i] * h * state_[k];
+    field.evaluate(x, t, slope_);
+    for (std::size_t k = 0; k < n_(); ++k)
+      for (std::size_t i = 0; i < radau_stages; ++i) z_[k][i] = radau_.nodes[i] * h * slope_[k];
   }
 
   /// Newton's method on z with a Jacobian in the middle of the step, where z puts it. If z moves far from there,
@@ -146,8 +145,8 @@ class RadauStepper final : public Stepper {
     if (n_() <= speed) return false;
     for (std::size_t i = 0; i < radau_stages; ++i) {
       if (!(h * std::abs(speed_defect_[i]) > allowed[speed])) continue;
-      for (std::size_t k = 0; k < n_(); ++k) state_[k] = x[k] + z_[i * n_() + k];
-      const double slope = combine(radau_.slopes[i], z_, speed) / h;
+      lay_stage(x, i);
+      const double slope = combine(radau_.slopes[i], z_[speed]) / h;
       const double here = state_[speed];
       const double known = std::max(allowed[speed], round_off * (std::abs(x[speed]) + std::abs(here)));
       const auto defect_at = [&](double there) {
@@ -171,6 +170,8 @@ class RadauStepper final : public Stepper {
     double before = 0.0;
     for (int iteration = 0; iteration < most_iterations; ++iteration) {
       correct(field, x, t, h);
+      for (std::size_t k = 0; k < n_(); ++k)
+        for (std::size_t i = 0; i < radau_stages; ++i) z_[k][i] += correction_[k][i];
       const double size = correction_size(x, allowed);
       if (!std::isfinite(size)) return Pace::lost;
       if (iteration == 0 && size <= 1.0) return Pace::converged;
@@ -190,7 +191,7 @@ class RadauStepper final : public Stepper {
   /// Whether the middle of the step is far from the state at which the Jacobian was taken, relative to that state.
   [[nodiscard]] bool has_moved_on(std::span<const double> x) const {
     for (std::size_t k = 0; k < n_(); ++k) {
-      const double now = x[k] + z_[middle * n_() + k];
+      const double now = x[k] + z_[k][middle];
       if (std::abs(now - middle_state_[k]) > 0.5 * std::abs(middle_state_[k])) return true;
     }
     return false;
@@ -199,7 +200,7 @@ class RadauStepper final : public Stepper {
   /// Computes the Jacobian and its factors. False: each entry is within `closeness` (relative) of the Jacobian
   /// whose factors are kept.
   bool factorise(const VectorField& field, std::span<const double> x, double t, double h, double closeness) {
-    for (std::size_t k = 0; k < n_(); ++k) middle_state_[k] = x[k] + z_[middle * n_() + k];
+    for (std::size_t k = 0; k < n_(); ++k) middle_state_[k] = x[k] + z_[k][middle];
     field.jacobian(middle_state_, t + radau_.nodes[middle] * h, jacobian_);
     const auto close = [&](double a, double b) { return std::abs(a - b) <= closeness * std::abs(b); };
     if (h == factored_h_ && std::ranges::equal(jacobian_, factored_jacobian_, close)) return false;
@@ -211,35 +212,49 @@ class RadauStepper final : public Stepper {
     return true;
   }
 
-  /// One iteration: z += correction.
+  /// The correction of one iteration.
   void correct(const VectorField& field, std::span<const double> x, double t, double h) {
     operations_ += real_matrices * static_cast<long>(n_() * n_());
     for (std::size_t i = 0; i < radau_stages; ++i) {
-      for (std::size_t k = 0; k < n_(); ++k) state_[k] = x[k] + z_[i * n_() + k];
-      field.evaluate(state_, t + radau_.nodes[i] * h, std::span(rates_).subspan(i * n_(), n_()));
+      lay_stage(x, i);
+      field.evaluate(state_, t + radau_.nodes[i] * h, slope_);
+      for (std::size_t k = 0; k < n_(); ++k) defect_[k][i] = slope_[k];
     }
-    for (std::size_t i = 0; i < radau_stages; ++i)
-      for (std::size_t k = 0; k < n_(); ++k) rates_[i * n_() + k] -= combine(radau_.slopes[i], z_, k) / h;
-    for (std::size_t i = 0; i < radau_stages && n_() > speed; ++i) speed_defect_[i] = rates_[i * n_() + speed];
-    transform(radau_.from_stages, rates_, correction_);
-    real_factors_.solve(correction_.data());
-    for (std::size_t p = 0; p < pairs; ++p) solve_pair(p, correction_.data() + (1 + 2 * p) * n_());
-    std::swap(rates_, correction_);
-    transform(radau_.to_stages, rates_, correction_);
-    for (std::size_t k = 0; k < z_.size(); ++k) z_[k] += correction_[k];
+    const double rate = 1.0 / h;
+    for (std::size_t k = 0; k < n_(); ++k)
+      for (std::size_t i = 0; i < radau_stages; ++i) defect_[k][i] -= rate * combine(radau_.slopes[i], z_[k]);
+    if (n_() > speed) speed_defect_ = defect_[speed];
+    transform(radau_.from_stages, defect_);
+    solve_parts();
+    transform(radau_.to_stages, correction_);
   }
 
-  void transform(const Matrix& matrix, const Vector& from, Vector& to) const {
-    for (std::size_t i = 0; i < radau_stages; ++i)
-      for (std::size_t k = 0; k < n_(); ++k) to[i * n_() + k] = combine(matrix[i], from, k);
+  /// The state at stage i.
+  void lay_stage(std::span<const double> x, std::size_t i) {
+    for (std::size_t k = 0; k < n_(); ++k) state_[k] = x[k] + z_[k][i];
   }
 
-  void solve_pair(std::size_t p, double* parts) {
-    for (std::size_t k = 0; k < n_(); ++k) pair_[k] = {parts[k], parts[n_() + k]};
-    pair_factors_[p].solve(pair_.data());
+  /// correction_ = matrix times `from`, which may be correction_ itself.
+  void transform(const Matrix& matrix, const Stages& from) {
     for (std::size_t k = 0; k < n_(); ++k) {
-      parts[k] = pair_[k].real();
-      parts[n_() + k] = pair_[k].imag();
+      const Row values = from[k];
+      for (std::size_t i = 0; i < radau_stages; ++i) correction_[k][i] = combine(matrix[i], values);
+    }
+  }
+
+  /// Replaces the transformed defects by the solutions.
+  void solve_parts() {
+    for (std::size_t k = 0; k < n_(); ++k) real_[k] = correction_[k][0];
+    real_factors_.solve(real_.data());
+    for (std::size_t k = 0; k < n_(); ++k) correction_[k][0] = real_[k];
+    for (std::size_t p = 0; p < pairs; ++p) {
+      const std::size_t first = 1 + 2 * p;
+      for (std::size_t k = 0; k < n_(); ++k) pair_[k] = {correction_[k][first], correction_[k][first + 1]};
+      pair_factors_[p].solve(pair_.data());
+      for (std::size_t k = 0; k < n_(); ++k) {
+        correction_[k][first] = pair_[k].real();
+        correction_[k][first + 1] = pair_[k].imag();
+      }
     }
   }
 
@@ -250,8 +265,8 @@ class RadauStepper final : public Stepper {
       double change = 0.0;
       double reach = 0.0;
       for (std::size_t i = 0; i < radau_stages; ++i) {
-        change = larger(change, std::abs(correction_[i * n_() + k]));
-        reach = std::max(reach, std::abs(z_[i * n_() + k]));
+        change = larger(change, std::abs(correction_[k][i]));
+        reach = std::max(reach, std::abs(z_[k][i]));
       }
       const double left = std::max(1e-3 * allowed[k], 16.0 * epsilon * (std::abs(x[k]) + reach));
       size = larger(size, change / left);
@@ -263,7 +278,7 @@ class RadauStepper final : public Stepper {
   /// a fast component as the step does (hairer1996, IV.8).
   bool estimate(const VectorField& field, std::span<const double> x, double t, double h, std::span<double> error) {
     field.evaluate(x, t, error);
-    for (std::size_t k = 0; k < n_(); ++k) error[k] -= combine(radau_.start_slope, z_, k) / h;
+    for (std::size_t k = 0; k < n_(); ++k) error[k] -= combine(radau_.start_slope, z_[k]) / h;
     real_factors_.solve(error.data());
     return std::ranges::all_of(error, [](double value) { return std::isfinite(value); });
   }
@@ -273,18 +288,20 @@ class RadauStepper final : public Stepper {
   // The last successful step.
   double t_ = 0.0;
   double h_ = 0.0;
-  Vector start_;
-  Vector end_;
-  Vector polynomial_;
+  State start_{};
+  State end_{};
+  Stages polynomial_{};
   // The iteration.
-  Vector z_;
-  Vector rates_;
-  Vector correction_;
-  Vector state_;
-  Vector middle_state_;  ///< where the Jacobian was taken
-  Vector probed_;
-  Row speed_defect_{};  ///< f - u' at the stages before the last correction
-  std::vector<Complex> pair_;
+  Stages z_{};
+  Stages defect_{};  ///< f - u'
+  Stages correction_{};
+  State state_{};
+  State slope_{};
+  State middle_state_{};  ///< where the Jacobian was taken
+  State probed_{};
+  Row speed_defect_{};  ///< at the stages before the last correction
+  State real_{};
+  std::conditional_t<N == any_size, std::vector<Complex>, std::array<Complex, N>> pair_{};
   double factored_h_ = 0.0;
   Vector jacobian_;
   Vector factored_jacobian_;
