@@ -18,6 +18,8 @@ using core::infinity;
 /// Errors of a step change by at most these factors.
 constexpr double largest_growth = 5.0;
 constexpr double largest_cut = 0.1;
+/// The step after one whose equations were not solved.
+constexpr double unsolved_cut = 0.25;
 constexpr double safety = 0.9;
 
 /// Friction that acts within this part of the longest step is not even tried by explicit steps.
@@ -275,7 +277,7 @@ bool SmoothEngine::advance(double left) {
       return true;
     }
     rejected = true;
-    h_ = h * std::clamp(ideal, largest_cut, 0.7);
+    h_ = h * std::clamp(ideal, solved ? largest_cut : unsolved_cut, 0.7);
     if (h_ < 1e-14 * longest && use_implicit_steps()) h_ = first_step();
     if (h_ < 1e-100 * longest) break;
   }

@@ -392,12 +392,15 @@ bool SmoothEngine::land(const Hit& hit) {
   // near the origin after it was far away.
   const Watch& watch = watches_[hit.watch];
   const double size = is<LawGuard>(watch.ending) ? std::min(watch.scale, watch.parts) : watch.scale;
+  // An implicit step knows its end to a thousandth of what is allowed. A law with guards may stop its slider here
+  // too and is told the time as well as it can be.
+  const double known = watches_.size() == 1 && is<SlipEnd>(watch.ending) ? 1e-3 * allowed_[1] : 0.0;
   for (int i = 0; i < 5; ++i) {
     if (!stepper_->step(flow_, X_, local_time_, h, allowed_, end_, error_) || excess_error() > 1.0) return false;
     taken_ = h;
     evaluate_guards(end_, local_time_ + h, guard_values_);
     const double value = guard_values_[hit.watch];
-    if (std::abs(value) <= 0.1 * resolution * size) break;
+    if (std::abs(value) <= std::max(0.1 * resolution * size, known)) break;
     const double correction = -value / guard_rate(hit.watch, end_, local_time_ + h, h);
     if (!(std::abs(correction) < 0.1 * h) || std::abs(correction) < 1e-16 * whole) break;
     h += correction;
