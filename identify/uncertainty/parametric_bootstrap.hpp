@@ -13,8 +13,8 @@
 /// the interval is widened by the ratio of this error to their root mean square. It is then also widened by the
 /// bias, which need not be that of the record. The interval is never narrowed.
 ///
-/// A bias that depends on the parameters is that at theta - b, not at theta: where it is large, the records are made
-/// again with theta - b until b settles (iterated bootstrap).
+/// A bias that depends on the parameters is that at theta - b, not at theta: where it is large, the records are
+/// made again with theta - b until b settles (iterated bootstrap).
 ///
 /// Draws depend on the record and the number of the synthetic record. Source: efron1993 (parametric bootstrap).
 /// Cost: B times that of the method, and B x 50 ns a sample and noisy signal; up to four times that where the bias

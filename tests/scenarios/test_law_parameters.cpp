@@ -74,7 +74,8 @@ TEST_CASE("law parameters: one form or the other", "[scenarios][parameters]") {
   CHECK(messages_of("elements: [{stiffness: 1, limit: 1}]\nform: linear\ncount: x\n") ==
         Problems{"3:1: 'count' stands beside 'elements', which it replaces",
                  "2:1: 'form' stands beside 'elements', which it replaces"});
-  CHECK(reading_of("symmetric: true\n").problems[0].allowed == "a list of 1 to 10000 maps; or total, count, form instead");
+  CHECK(reading_of("symmetric: true\n").problems[0].allowed ==
+        "a list of 1 to 10000 maps; or total, count, form instead");
   // A value that cannot be read is not missing.
   CHECK(messages_of("elements: 7\n") == Problems{"1:11: 'elements' is of the wrong kind"});
   CHECK(messages_of("total: 1 N\ncount: 1.5\n") == Problems{"2:8: 'count' is of the wrong kind"});
