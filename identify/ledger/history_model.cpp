@@ -23,15 +23,6 @@ namespace dualdamp::identify {
 namespace {
 
 using By = SampledOscillator::By;
-
-/// Where the model is linearised: the parameters of the fit, the zeros of v and a, and a coefficient for each
-/// relaxation.
-struct Place {
-  Eigen::VectorXd p;
-  Eigen::VectorXd zeros;
-  Eigen::VectorXd g;
-};
-
 using Numbers = std::vector<std::size_t>;
 
 /// The histories of one record with their fit, at which the joint model is linearised.
@@ -62,37 +53,16 @@ class Histories {
   [[nodiscard]] JointModel fitted(const Numbers& taken) {
     Numbers all(list_.relaxations.size());
     std::iota(all.begin(), all.end(), std::size_t{0});
-    Place at = start_;
-    std::optional<Linearised> here = linearised(at, taken, false);
+    Fitted best{start_, linearised(start_, taken, false)};
+    bool of_constants = false;
     for (const std::size_t number : taken) {
-      const std::optional<Place> other =
-          list_.ways[number].kind == Way::Kind::constant ? freed(number) : std::nullopt;
-      if (!other) continue;
-      std::optional<Linearised> there = linearised(*other, taken, false);
-      if (!there || (here && there->squares > here->squares)) continue;
-      at = *other;
-      here = std::move(there);
+      const std::optional<Place> other = is_constant(number) ? freed(number) : std::nullopt;
+      of_constants = of_constants || is_constant(number);
+      if (other) best.take_nearer({*other, linearised(*other, taken, false)});
     }
-    constexpr int most_steps = 8;
-    for (int i = 0; here && i < most_steps; ++i) {
-      Eigen::MatrixXd columns(here->residuals.size(), here->base.cols() + here->relaxed.cols());
-      columns << here->base, here->relaxed;
-      const Eigen::VectorXd step = pivoted_least_squares(columns, here->residuals);
-      constexpr double little = 0.01;  // of a standard error, squared
-      if (!step.allFinite() || (columns * step).squaredNorm() < little * here->variance) break;
-      std::optional<Linearised> next;
-      Place moved;
-      for (double share = 1.0; share > 0.05; share *= 0.4) {
-        moved = stepped(at, share * step, taken);
-        next = linearised(moved, taken, false);
-        if (next && next->squares < here->squares) break;
-        next.reset();
-      }
-      if (!next) break;
-      at = std::move(moved);
-      here = std::move(next);
-    }
-    return joint(at, taken, all);
+    descend(taken, best);
+    if (!taken.empty() && !of_constants) best.take_nearer(by_way_of_constant(taken));
+    return joint(best.at, taken, all);
   }
 
   void forget_stated() {  // the noise of x is that of its samples
@@ -117,6 +87,65 @@ class Histories {
     double variance = 1.0;       ///< of one residual
     std::vector<Autoregression> errors;  ///< of the channels that were read
   };
+
+  struct Fitted {
+    Place at;
+    std::optional<Linearised> here;
+
+    void take_nearer(Fitted&& other) {
+      if (other.here && !(here && other.here->squares > here->squares)) *this = std::move(other);
+    }
+  };
+
+  [[nodiscard]] bool is_constant(std::size_t number) const {
+    return list_.ways[number].kind == Way::Kind::constant;
+  }
+
+  /// Steps of Gauss and Newton, as long as they bring the motion nearer.
+  void descend(const Numbers& taken, Fitted& fitted) {
+    auto& [at, here] = fitted;
+    constexpr int most_steps = 8;
+    for (int i = 0; here && i < most_steps; ++i) {
+      Eigen::MatrixXd columns(here->residuals.size(), here->base.cols() + here->relaxed.cols());
+      columns << here->base, here->relaxed;
+      const Eigen::VectorXd step = pivoted_least_squares(columns, here->residuals);
+      constexpr double little = 0.01;  // of a standard error, squared
+      if (!step.allFinite() || (columns * step).squaredNorm() < little * here->variance) break;
+      std::optional<Linearised> next;
+      Place moved;
+      for (double share = 1.0; share > 0.05; share *= 0.4) {
+        moved = stepped(at, share * step, taken);
+        next = linearised(moved, taken, false);
+        if (next && next->squares < here->squares) break;
+        next.reset();
+      }
+      if (!next) break;
+      at = std::move(moved);
+      here = std::move(next);
+    }
+  }
+
+  /// A fit out of step with the motion is at a minimum of its own, which no step leaves, whatever is relaxed. If
+  /// another constant comes much nearer, a fit with that constant free as well keeps in step, and from there the
+  /// constant is set back.
+  [[nodiscard]] Fitted by_way_of_constant(const Numbers& taken) {
+    const FreedFit* near = freed_.much_nearer();
+    for (std::size_t j = 0; near != nullptr && j < list_.ways.size(); ++j) {
+      if (!is_constant(j) || freed_.with(list_.ways[j].by) != near) continue;
+      Numbers both = taken;
+      both.push_back(j);
+      Fitted way{*freed(j), {}};
+      way.here = linearised(way.at, both, false);
+      descend(both, way);
+      Eigen::VectorXd back = Eigen::VectorXd::Zero(count_of_base() + static_cast<Eigen::Index>(both.size()));
+      back[back.size() - 1] = -way.at.g[static_cast<Eigen::Index>(j)];
+      way.at = stepped(way.at, back, both);
+      way.here = linearised(way.at, taken, false);
+      descend(taken, way);
+      return way;
+    }
+    return {start_, std::nullopt};
+  }
 
   [[nodiscard]] JointModel joint(const Place& at, const Numbers& taken, const Numbers& all) {
     JointModel model;
@@ -160,12 +189,11 @@ class Histories {
     const FreedFit* near = freed_.much_nearer();
     std::optional<Linearised> nearer;
     for (std::size_t j = 0; near != nullptr && !nearer && j < list_.ways.size(); ++j)
-      if (list_.ways[j].kind == Way::Kind::constant && freed_.with(list_.ways[j].by) == near)
-        nearer = linearised(*freed(j), {}, true);
+      if (is_constant(j) && freed_.with(list_.ways[j].by) == near) nearer = linearised(*freed(j), {}, true);
     if (!nearer) return linearised(at, all, true);
     std::optional<Linearised> found = linearised(at, all, true, nearer->errors);
     for (std::size_t j = 0; found && j < list_.ways.size(); ++j) {
-      const std::optional<Place> place = list_.ways[j].kind == Way::Kind::constant ? freed(j) : std::nullopt;
+      const std::optional<Place> place = is_constant(j) ? freed(j) : std::nullopt;
       const auto own = static_cast<Eigen::Index>(j);
       const std::optional<Linearised> there =
           place && place->g[own] != 0.0 ? linearised(*place, {}, true, nearer->errors) : std::nullopt;
@@ -194,8 +222,7 @@ class Histories {
   [[nodiscard]] ForceParameters force_at(const Place& at) const {
     ForceParameters force = fit_.layout().force(at.p);
     for (std::size_t j = 0; j < list_.ways.size(); ++j)
-      if (list_.ways[j].kind == Way::Kind::constant)
-        ForwardLayout::value(force, list_.ways[j].by) += at.g[static_cast<Eigen::Index>(j)];
+      if (is_constant(j)) ForwardLayout::value(force, list_.ways[j].by) += at.g[static_cast<Eigen::Index>(j)];
     return force;
   }
 
@@ -315,7 +342,7 @@ class Histories {
     const Eigen::VectorXd jerk = finely_differentiated(a, rate);
     const Eigen::MatrixXd columns_x = arranged(t, wanted, force, motion.derivatives.x);
     const Eigen::MatrixXd columns_v = arranged(t, wanted, force, motion.derivatives.v);
-    const Reader read{*this, at, wanted, t};
+    const HistoryReader read{list_.ways, zeros_, scale_.length, at, wanted, t};
     SensorRows rows;
     rows.x = read(MotionSensor::x, history.x, {motion.x, motion.v, a}, columns_x, columns_v);
     if (!history.v.empty())
@@ -360,45 +387,6 @@ class Histories {
     }
     return result;
   }
-
-  /// Rows of one reading, with the columns of what is free in its sensor.
-  struct Reader {
-    const Histories& owner;
-    const Place& at;
-    const Numbers& wanted;
-    std::size_t test;
-
-    Eigen::MatrixXd operator()(MotionSensor sensor, const std::vector<double>& measured, const SensorMotion& motion,
-                               const Eigen::MatrixXd& columns, const Eigen::MatrixXd& slopes) const {
-      const auto own = [&](auto act) {
-        for (std::size_t j = 0; j < wanted.size(); ++j)
-          if (const Way& way = owner.list_.ways[wanted[j]]; way.sensor == sensor)
-            act(way.kind, at.g[static_cast<Eigen::Index>(wanted[j])], static_cast<Eigen::Index>(j));
-      };
-      const double length = owner.scale_.length;
-      SensorErrors errors;
-      own([&](Way::Kind kind, double g, Eigen::Index) {
-        if (kind == Way::Kind::gain) errors.gain += g;
-        if (kind == Way::Kind::delay) errors.delay = g;
-        if (kind == Way::Kind::zero) errors.zero = g * length;
-        if (kind == Way::Kind::zero_drift) errors.drift = g * length;
-      });
-      const auto zero = std::ranges::find_if(
-          owner.zeros_, [&](const FreeZero& other) { return other.history == test && other.sensor == sensor; });
-      const Eigen::Index place = zero - owner.zeros_.begin();
-      if (zero != owner.zeros_.end()) errors.zero = zero->unit * at.zeros[place];
-      Eigen::MatrixXd rows = reading_rows(measured, motion, errors, columns, slopes);
-      if (zero != owner.zeros_.end()) rows.col(1 + at.p.size() + place).setConstant(zero->unit);
-      own([&](Way::Kind kind, double, Eigen::Index j) {
-        auto to = rows.col(1 + owner.count_of_base() + j);
-        if (kind == Way::Kind::gain) to = motion.late(errors.delay);
-        if (kind == Way::Kind::delay) to = errors.gain * (errors.delay * motion.curvature - motion.slope);
-        if (kind == Way::Kind::zero) to.setConstant(length);
-        if (kind == Way::Kind::zero_drift) to = length * course_of(rows.rows());
-      });
-      return rows;
-    }
-  };
 
   const Record& record_;  // outlives the tests
   KnownConstants constants_;

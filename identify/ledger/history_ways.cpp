@@ -88,4 +88,35 @@ HistoryWays history_ways(const std::vector<ForwardTest>& tests, const KnownConst
   return list;
 }
 
+Eigen::MatrixXd HistoryReader::operator()(MotionSensor sensor, const std::vector<double>& measured,
+                                          const SensorMotion& motion, const Eigen::MatrixXd& columns,
+                                          const Eigen::MatrixXd& slopes) const {
+  const auto own = [&](auto act) {
+    for (std::size_t j = 0; j < wanted.size(); ++j)
+      if (const Way& way = ways[wanted[j]]; way.sensor == sensor)
+        act(way.kind, at.g[static_cast<Eigen::Index>(wanted[j])], static_cast<Eigen::Index>(j));
+  };
+  SensorErrors errors;
+  own([&](Way::Kind kind, double g, Eigen::Index) {
+    if (kind == Way::Kind::gain) errors.gain += g;
+    if (kind == Way::Kind::delay) errors.delay = g;
+    if (kind == Way::Kind::zero) errors.zero = g * length;
+    if (kind == Way::Kind::zero_drift) errors.drift = g * length;
+  });
+  const auto zero = std::ranges::find_if(
+      zeros, [&](const FreeZero& other) { return other.history == test && other.sensor == sensor; });
+  const Eigen::Index place = zero - zeros.begin();
+  if (zero != zeros.end()) errors.zero = zero->unit * at.zeros[place];
+  Eigen::MatrixXd rows = reading_rows(measured, motion, errors, columns, slopes);
+  if (zero != zeros.end()) rows.col(1 + at.p.size() + place).setConstant(zero->unit);
+  own([&](Way::Kind kind, double, Eigen::Index j) {
+    auto to = rows.col(1 + at.p.size() + at.zeros.size() + j);
+    if (kind == Way::Kind::gain) to = motion.late(errors.delay);
+    if (kind == Way::Kind::delay) to = errors.gain * (errors.delay * motion.curvature - motion.slope);
+    if (kind == Way::Kind::zero) to.setConstant(length);
+    if (kind == Way::Kind::zero_drift) to = length * course_of(rows.rows());
+  });
+  return rows;
+}
+
 }  // namespace dualdamp::identify

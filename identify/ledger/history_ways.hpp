@@ -1,10 +1,12 @@
 #pragma once
 /// The ways in which the joint model of histories is relaxed: constants, forces, friction of single histories, and
-/// what is free in a sensor.
+/// what is free in a sensor; and what a sensor reads with them.
 
+#include <Eigen/Core>
 #include <cstddef>
 #include <vector>
 
+#include "identify/ledger/history_rows.hpp"
 #include "identify/ledger/history_terms.hpp"
 #include "identify/ledger/joint_model.hpp"
 #include "identify/methods/histories/forward_fit.hpp"
@@ -44,5 +46,29 @@ struct HistoryWays {
 
 /// Gain and delay of x are free only beside another signal: x alone, with its initial state free, tells neither.
 [[nodiscard]] HistoryWays history_ways(const std::vector<ForwardTest>& tests, const KnownConstants& constants);
+
+/// Where the model is linearised: the parameters of the fit, the zeros of v and a, and a coefficient for each
+/// relaxation.
+struct Place {
+  Eigen::VectorXd p;
+  Eigen::VectorXd zeros;
+  Eigen::VectorXd g;
+};
+
+/// Rows of the readings of one test, with the columns of what is free in their sensor. All are references: they
+/// outlive this.
+struct HistoryReader {
+  const std::vector<Way>& ways;
+  const std::vector<FreeZero>& zeros;
+  double length;  ///< of the motion [m]
+  const Place& at;
+  const std::vector<std::size_t>& wanted;  ///< relaxations that have a column
+  std::size_t test;
+
+  /// The columns are those of the motion: parameters, zeros, relaxations. `slopes`: d/dt of them.
+  [[nodiscard]] Eigen::MatrixXd operator()(MotionSensor sensor, const std::vector<double>& measured,
+                                           const SensorMotion& motion, const Eigen::MatrixXd& columns,
+                                           const Eigen::MatrixXd& slopes) const;
+};
 
 }  // namespace dualdamp::identify

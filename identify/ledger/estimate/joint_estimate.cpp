@@ -183,11 +183,6 @@ std::optional<UnseenRange> unseen_friction(const JointModel& model, const Relaxa
     Numbers further = taken;
     further.push_back(test.index);
     const FreedTerm freed(here, further, quantile, relaxation.sign);
-    if (std::getenv("DBG"))
-      std::fprintf(stderr, "%s zeta %.3f %.3f F0 %.3f %.3f (%.2f p %.2f)\n", relaxation.test.c_str(),
-                   freed.interval(0)[0] / here.value.zeta, freed.interval(0)[1] / here.value.zeta,
-                   freed.interval(1)[0] / here.value.F0, freed.interval(1)[1] / here.value.F0, test.t,
-                   test.p_alone);
     if (!freed.is_possible()) continue;
     const auto from = [&](double value, std::size_t parameter) {
       const Interval change = freed.interval(parameter);

@@ -65,6 +65,27 @@ TEST_CASE("Constants of a decay that are off by a large factor are charged, and 
   }
 }
 
+TEST_CASE("A swing out of step with a linear spring is charged to the spring, with its effect") {
+  Measured m;
+  m.rig = {.m = 0.061, .k = 2.2, .zeta = 0.011, .F0 = 0.013, .cubic = -1.0 / 6.0, .L = 1.0};  // a pendulum, in rad
+  constexpr double rate = 100.0;
+  const auto motion = motion_of(m.rig, [](double) { return 0.0; }, 21.0, rate, 1.0);
+  const dualdamp::core::RandomStream noise{7, 1};
+  History history{.sample_rate = rate};
+  for (std::size_t i = 0; i < motion.x.size(); ++i)
+    history.x.push_back(motion.x[i] + 0.0017 * noise.normal(static_cast<std::uint64_t>(i)));
+  m.record.histories.push_back(history);
+  m.constants = {m.rig.m, m.rig.k, unknown};
+  const Ledger ledger = ledger_of(m.record, m.constants);
+  const LedgerEntry& spring = ledger.entry(Assumption::spring);
+  CHECK(spring.standing == Standing::violated);
+  CHECK(std::abs(spring.zeta_change.value_or(0.0)) > 0.02);
+  CHECK_FALSE(ledger.is_violated(Assumption::constants));
+  REQUIRE(ledger.joint);
+  CHECK(ledger.joint->value.zeta == Approx(0.011).epsilon(0.02));
+  CHECK(ledger.joint->value.F0 == Approx(0.013).epsilon(0.02));
+}
+
 TEST_CASE("The history of the drive is asked for only where it is missing") {
   const auto about = [](Kind kind) {
     const Measured m = measured(kind, first_seed);

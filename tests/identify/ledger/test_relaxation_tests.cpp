@@ -139,3 +139,14 @@ TEST_CASE("A relaxation that can hardly be told from one already charged is no s
   REQUIRE(found.departures.size() == 1);
   CHECK(found.departures[0].explanations.size() == 2);
 }
+
+TEST_CASE("A fit that could not move from where it began still shows what a relaxation does to the base") {
+  const JointModel stuck = line_with(5.0, 0);
+  JointModel model = stuck;
+  model.refit = [stuck](const std::vector<std::size_t>&) { return stuck; };
+  const RelaxationTests found = test_relaxations(model);
+  REQUIRE_FALSE(found.departures.empty());
+  const RelaxationTest& test = found.departures[0].explanations[0];
+  CHECK(test.index == 0);
+  CHECK(test.F0_change == Approx(-5.0 * 0.356).epsilon(0.35));
+}
