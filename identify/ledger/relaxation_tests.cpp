@@ -290,6 +290,7 @@ std::vector<RelaxationTest> candidates(const JointModel& model, std::vector<Rela
 /// could not move from where it began has the whole effect of a relaxation in that step, and else would show none.
 Eigen::Vector2d friction_with(const JointModel& model, const std::vector<std::size_t>& taken) {
   const Eigen::Vector2d value(model.value.zeta, model.value.F0);
+  if (taken.empty()) return value;
   const Eigen::VectorXd step =
       pivoted_least_squares(free_columns(model.base, model.relaxed, taken), model.residuals);
   return step.allFinite() ? Eigen::Vector2d(value + step.head<2>()) : value;
