@@ -34,8 +34,6 @@ inline constexpr double family_level = 0.05;
 [[nodiscard]] std::string_view name_of(Assumption assumption);
 /// "the constants are as stated", ...
 [[nodiscard]] std::string_view statement_of(Assumption assumption);
-/// What the record would need to test the assumption: "phases, or a second frequency".
-[[nodiscard]] std::string_view what_would_tell(Assumption assumption);
 
 /// A set of assumptions, on which a method rests.
 class AssumptionSet {

@@ -1,6 +1,8 @@
 #include "identify/ledger/advice.hpp"
 
 #include <algorithm>
+#include <array>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -11,31 +13,46 @@ namespace dualdamp::identify {
 
 namespace {
 
+bool has_phases_over_frequency(const Recorded& recorded) { return recorded.phases && recorded.frequencies; }
+
 std::string of_sensors(const Recorded& recorded) {
   if (recorded.one_sensor)
     return "check the zero and the range of x, or record a second sensor on the mass, which x can be compared with";
   const std::string calibrate = "calibrate the sensors against each other";
-  return recorded.histories ? calibrate : calibrate + ", or record the phase";
+  if (recorded.histories || has_phases_over_frequency(recorded)) return calibrate;
+  return calibrate + (recorded.phases ? ", or record the phase at several frequencies" : ", or record the phase");
 }
 
 std::string of_stationarity(const Recorded& recorded) {
   if (recorded.histories)
     return "analyse the parts of the record one by one, or measure again when the rig is steady";
   if (recorded.free) return "measure several decays, and check the zero of x after each";
+  if (recorded.sweeps) return "analyse the sweeps one by one, or measure again when the rig is steady";
   return "give the sweeps their labels, or measure them one by one";
 }
 
 std::string of_spring(const Recorded& recorded) {
   std::string smaller = "measure at smaller amplitudes";
-  if (recorded.free || recorded.histories) return smaller;
+  if (recorded.free || recorded.histories || recorded.phases) return smaller;
   return smaller + ", or record the phase: the work of a forcing period does not depend on the spring";
+}
+
+/// Smaller amplitudes do not part the modes.
+std::string of_one_mode(const Recorded& recorded) {
+  std::string hold = "hold the part of the structure that moves by itself";
+  if (recorded.free) return hold;
+  hold += ", or measure further below its resonance";
+  if (recorded.histories || recorded.phases) return hold;
+  return hold + ", or record the phase: the work of a forcing period does not depend on the mass";
 }
 
 std::string of_friction(const Recorded& recorded) {
   std::string law = "fit a law that has such a term";
   if (recorded.histories) return law;
   if (recorded.free) return "record the whole history, and " + law;
-  return "record the phase at several frequencies, or a history, and " + law;
+  if (has_phases_over_frequency(recorded)) return law + ", or record a history";
+  const std::string phase = recorded.frequencies ? "record the phase" : "record the phase at several frequencies";
+  return phase + ", or a history, and " + law;
 }
 
 std::string what_would_help(Assumption assumption, const Recorded& recorded) {
@@ -48,10 +65,12 @@ std::string what_would_help(Assumption assumption, const Recorded& recorded) {
     case stationarity:
       return of_stationarity(recorded);
     case drive:
-      return "record the drive, or leave out where it is not steady";
+      return recorded.drive ? "leave out where the drive is not steady"
+                            : "record the drive, or leave out where it is not steady";
     case spring:
-    case one_mode:
       return of_spring(recorded);
+    case one_mode:
+      return of_one_mode(recorded);
     case friction_velocity:
     case friction_displacement:
       return of_friction(recorded);
@@ -61,7 +80,55 @@ std::string what_would_help(Assumption assumption, const Recorded& recorded) {
   return "more data, or less noise";
 }
 
+/// One thing that would test an assumption.
+struct Means {
+  Assumption assumption;
+  std::string_view name;
+  bool (*is_there)(const Recorded& recorded);
+};
+
+bool has_history(const Recorded& recorded) { return recorded.histories; }
+bool has_phases(const Recorded& recorded) { return recorded.phases; }
+bool has_frequencies(const Recorded& recorded) { return recorded.frequencies; }
+bool has_times(const Recorded& recorded) { return recorded.times; }
+bool has_sweeps(const Recorded& recorded) { return recorded.sweeps; }
+bool has_drive(const Recorded& recorded) { return recorded.drive; }
+bool has_directions(const Recorded& recorded) { return recorded.histories || recorded.free; }
+bool has_second_sensor(const Recorded& recorded) { return recorded.second_sensor; }
+
+using enum Assumption;
+constexpr std::array all_means = {
+    Means{constants, "phases", has_phases},
+    Means{constants, "several frequencies", has_frequencies},
+    Means{constants, "times of the extremes", has_times},
+    Means{constants, "a history", has_history},
+    Means{sensors, "a second sensor on the mass", has_second_sensor},
+    Means{sensors, "phases at several frequencies", has_phases_over_frequency},
+    Means{spring, "phases at several amplitudes", has_phases},
+    Means{spring, "times of the extremes", has_times},
+    Means{spring, "a history", has_history},
+    Means{one_mode, "phases at several frequencies", has_phases_over_frequency},
+    Means{one_mode, "a history", has_history},
+    Means{drive, "the history of the drive", has_drive},
+    Means{stationarity, "repeated sweeps with their labels", has_sweeps},
+    Means{stationarity, "a history", has_history},
+    Means{friction_velocity, "more levels, further apart", has_history},
+    Means{friction_velocity, "a history", has_history},
+    Means{friction_displacement, "phases", has_phases},
+    Means{friction_displacement, "a second frequency", has_frequencies},
+    Means{friction_displacement, "a history", has_history},
+    Means{symmetry, "a history", has_directions},
+    Means{symmetry, "signed extremes", has_directions},
+};
+
 }  // namespace
+
+std::string would_tell(Assumption assumption, const Recorded& recorded) {
+  std::vector<std::string> lacking;
+  for (const Means& means : all_means)
+    if (means.assumption == assumption && !means.is_there(recorded)) lacking.emplace_back(means.name);
+  return lacking.empty() ? "" : "; " + core::joined(lacking, " or ") + " would tell";
+}
 
 std::string what_would_help(const Ledger& ledger) {
   std::vector<std::string> helps;

@@ -1,5 +1,6 @@
 #pragma once
-/// What to measure or state where assumptions are violated, in words that fit the kind of record.
+/// What to measure or state where assumptions are violated or untested, in words that fit the record: nothing that
+/// it has already.
 
 #include <string>
 
@@ -9,6 +10,9 @@ namespace dualdamp::identify {
 
 /// For every departure that was found.
 [[nodiscard]] std::string what_would_help(const Ledger& ledger);
+
+/// "; phases, or a history would tell": what the record lacks to test an assumption; empty if it lacks nothing.
+[[nodiscard]] std::string would_tell(Assumption assumption, const Recorded& recorded);
 
 /// ", from 4 readings that leave no freedom for an interval": as many pairs or extremes as unknowns,
 /// which are fitted exactly; empty otherwise.

@@ -36,11 +36,23 @@ AssumptionSet rests_on(const Estimate& estimate) {
   return method == nullptr ? AssumptionSet() : method->rests_on;
 }
 
-/// A ledger that tested something else than the histories cannot speak against what a method found in them.
+/// A departure that was seen, moves zeta or F0, and violates nothing only because the stated uncertainties allow it
+/// still spoils a fit with the constants as stated.
+bool rests_on_departure(const Estimate& estimate, const Ledger& ledger) {
+  return std::ranges::any_of(ledger.entries, [&](const LedgerEntry& entry) {
+    const double change =
+        std::max(std::abs(entry.zeta_change.value_or(0.0)), std::abs(entry.F0_change.value_or(0.0)));
+    return entry.standing == Standing::holds && entry.p_value.value_or(1.0) < family_level &&
+           change >= LedgerOptions{}.least_change && rests_on(estimate).contains(entry.assumption);
+  });
+}
+
+/// What a method found stands where the ledger did not clear it: a ledger that tested something else than the
+/// histories cannot speak against what a method found in them, and one that saw a departure bears it out.
 bool keeps_its_findings(const Estimate& estimate, const Ledger& ledger) {
   const MethodEntry* method = find_method(estimate.method);
-  return method != nullptr && method->needs == RecordKind::history && !estimate.findings.empty() &&
-         !ledger.tests_histories;
+  if (method == nullptr || estimate.findings.empty()) return false;
+  return (method->needs == RecordKind::history && !ledger.tests_histories) || rests_on_departure(estimate, ledger);
 }
 
 std::string misfit_text(const Misfit& misfit) {
@@ -376,6 +388,9 @@ std::string verdict_of(const Identification& all) {
   const Estimate& best = all.estimates[*all.answer];
   const bool untested = all.ledger.data.empty();
   const std::string harmless = harmless_text(all.ledger);
+  if (!all.ledger.departures.empty() && best.method == "joint_fit")
+    if (const std::string& fitted = all.ledger.entry(Assumption::constants).fitted; !fitted.empty())
+      text += " zeta and F0 are those of " + fitted + ".";
   if (all.ledger.misfit) text += " As a whole, " + misfit_text(*all.ledger.misfit) + ".";
   text =
       numbers_of(best, all.ledger.coordinate) + ", by " + best.method + no_freedom(best) + ". " +
@@ -398,7 +413,9 @@ Identification concluded(std::vector<Estimate> estimates, Ledger ledger) {
   for (Estimate& estimate : all.estimates) {
     correct(estimate);
     judge(estimate, all.ledger);
-    beside = excluded(estimate, all.ledger.joint) || beside;
+    const bool borne_out =
+        !estimate.usable && !estimate.findings.empty() && rests_on_departure(estimate, all.ledger);
+    beside = excluded(estimate, all.ledger.joint) || borne_out || beside;
   }
   if (beside && all.ledger.joint) {
     all.estimates.push_back(*all.ledger.joint);

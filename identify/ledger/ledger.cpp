@@ -9,6 +9,7 @@
 #include <variant>
 
 #include "core/numbers.hpp"
+#include "identify/ledger/advice.hpp"
 #include "identify/ledger/amplitude_model.hpp"
 #include "identify/ledger/decay_model.hpp"
 #include "identify/ledger/estimate/joint_estimate.hpp"
@@ -82,6 +83,7 @@ class Writer {
 
   void write(Ledger& ledger) {
     for (const FoundDeparture& departure : tests_.departures) charge(departure, ledger);
+    for (const FoundDeparture& departure : tests_.departures) join_constants(departure, ledger);
     for (const RelaxationTest& test : tests_.tests) hold(test, ledger);
     for (LedgerEntry& entry : ledger.entries)
       if (entry.standing == Standing::untested) explain(ledger, entry);
@@ -119,6 +121,7 @@ class Writer {
     const bool stated = any([&](const RelaxationTest& t) { return is_as_stated(t); });
     const bool harms = !stated && any([&](const RelaxationTest& t) { return matters(t); });
     std::vector<Assumption> named;
+    const std::vector<ChangedConstant> of_joint = changed_constants(departure.explanations.front());
     for (const RelaxationTest& test : departure.explanations) {
       LedgerEntry& entry = ledger.entries[static_cast<std::size_t>(assumption_of(test))];
       if (entry.standing == Standing::violated) continue;
@@ -133,6 +136,7 @@ class Writer {
                         " of a part of the record is off its mean by " + in_percent(unevenness(test));
       if (harms && entry.assumption == Assumption::constants) {
         entry.wanted = wanted_constants(departure);
+        if (!of_joint.empty()) entry.fitted = of_joint.front().fitted;
         if (!entry.wanted.empty()) entry.reason = "these data want " + entry.wanted + "; " + entry.reason;
       }
       if (harms) named.push_back(assumption_of(test));
@@ -144,21 +148,63 @@ class Writer {
   /// the departure.
   [[nodiscard]] std::string wanted_constants(const FoundDeparture& departure) const {
     std::vector<std::string> texts;
-    const auto add = [&](const char* what, double wanted, double stated, const char* unit) {
-      constexpr double same = 1e-6;
-      if (!(std::abs(wanted - stated) > same * std::abs(stated))) return;
-      int digits = 4;
-      while (core::format_number(wanted, digits) == core::format_number(stated, digits)) ++digits;
-      const std::string in_unit = " " + stated_.unit(unit);
-      texts.push_back(what + core::format_number(wanted, digits) + in_unit + " instead of " +
-                      core::format_number(stated, digits) + in_unit);
-    };
-    for (const RelaxationTest& test : departure.explanations) {
-      if (assumption_of(test) != Assumption::constants) continue;
-      add("a stiffness of ", test.constants.stiffness, stated_.stiffness, "N/m");
-      add("a mass of ", test.constants.mass, stated_.mass, "kg");
-    }
+    for (const RelaxationTest& test : departure.explanations)
+      if (assumption_of(test) == Assumption::constants)
+        for (const ChangedConstant& changed : changed_constants(test))
+          texts.push_back(changed.fitted + " instead of " + changed.stated);
     return core::joined(texts, ", or ");
+  }
+
+  /// A constant as a fit has it, and as stated: "a mass of 1.1 kg", "1 kg".
+  struct ChangedConstant {
+    std::string fitted, stated;
+  };
+
+  [[nodiscard]] std::vector<ChangedConstant> changed_constants(const RelaxationTest& test) const {
+    std::vector<ChangedConstant> list;
+    const auto add = [&](const char* what, double fitted, double stated, const char* unit) {
+      constexpr double same = 1e-6;
+      if (!(std::abs(fitted - stated) > same * std::abs(stated))) return;
+      int digits = 4;
+      while (core::format_number(fitted, digits) == core::format_number(stated, digits)) ++digits;
+      const std::string in_unit = " " + stated_.unit(unit);
+      list.push_back(
+          {what + core::format_number(fitted, digits) + in_unit, core::format_number(stated, digits) + in_unit});
+    };
+    add("a stiffness of ", test.constants.stiffness, stated_.stiffness, "N/m");
+    add("a mass of ", test.constants.mass, stated_.mass, "kg");
+    return list;
+  }
+
+  /// A further mode adds to the mass, the more the nearer the frequency comes to its own. Where the data want a
+  /// lower natural frequency, and inertia that grows with the frequency beside it, both may be those of one further
+  /// mode.
+  void join_constants(const FoundDeparture& seen, Ledger& ledger) const {
+    const RelaxationTest& inertia = seen.explanations.front();
+    LedgerEntry& own = ledger.entries[static_cast<std::size_t>(Assumption::one_mode)];
+    const LedgerEntry& constants = ledger.entry(Assumption::constants);
+    const bool grows = assumption_of(inertia) == Assumption::one_mode && inertia.coefficient > 0.0;
+    if (!grows || own.standing != Standing::holds || constants.standing != Standing::violated) return;
+    const auto has_constants = [](const std::vector<Assumption>& named) {
+      return std::ranges::find(named, Assumption::constants) != named.end();
+    };
+    const auto charged = std::ranges::find_if(ledger.departures, has_constants);
+    const auto is_lower = [&](const FoundDeparture& other) {
+      return std::ranges::any_of(other.explanations, [&](const RelaxationTest& test) {
+        return assumption_of(test) == Assumption::constants &&
+               (test.constants.mass > stated_.mass || test.constants.stiffness < stated_.stiffness);
+      });
+    };
+    if (charged == ledger.departures.end() || std::ranges::none_of(tests_.departures, is_lower)) return;
+    charged->push_back(Assumption::one_mode);
+    own.standing = Standing::violated;
+    own.zeta_change = constants.zeta_change;
+    own.F0_change = constants.F0_change;
+    own.reason =
+        "beside another constant these data want inertia that grows with the frequency, as a further mode has "
+        "it: the mass that they want may be that of the mode; explained as well by: constants";
+    LedgerEntry& other = ledger.entries[static_cast<std::size_t>(Assumption::constants)];
+    other.reason = "these data want " + other.wanted + "; explained as well by: one_mode";
   }
 
   /// Do the stated uncertainties allow constants or gains to be off by as much? All uncertainties count for each of
@@ -215,6 +261,12 @@ class Writer {
     return ledger.recorded.free && !ledger.recorded.states ? "a free vibration has no drive" : "";
   }
 
+  /// A constant that is not stated is a parameter of the fit, and nothing is left that could test it.
+  [[nodiscard]] bool is_taken_from_record(Assumption assumption) const {
+    return (assumption == Assumption::constants || assumption == Assumption::one_mode) && model_.of_histories &&
+           (std::isnan(stated_.mass) || std::isnan(stated_.stiffness));
+  }
+
   void explain(const Ledger& ledger, LedgerEntry& entry) const {
     if (entry.assumption == Assumption::drive) {
       entry.reason = about_drive(ledger);
@@ -225,7 +277,11 @@ class Writer {
     entry.reason = is_alone != tests_.alone.end()
                        ? "in this record its effect cannot be told from that of zeta and F0"
                        : "this record cannot tell";
-    entry.reason += "; " + std::string(what_would_tell(entry.assumption)) + " would tell";
+    if (is_taken_from_record(entry.assumption))
+      entry.reason = std::string("no ") + (std::isnan(stated_.mass) ? "mass" : "stiffness") +
+                     " is stated, and the fit takes it from the record; one that is stated would tell";
+    else
+      entry.reason += would_tell(entry.assumption, ledger.recorded);
   }
 
  public:
@@ -239,7 +295,7 @@ class Writer {
       const std::string size = "a departure that moves zeta or F0 by " + in_percent(blind) + " would be seen";
       if (blind > most)
         entry = {.assumption = entry.assumption,
-                 .reason = "only " + size + "; " + std::string(what_would_tell(entry.assumption)) + " would tell"};
+                 .reason = "only " + size + would_tell(entry.assumption, ledger.recorded)};
       else
         entry.reason = size, entry.sight = blind;
     }
@@ -251,8 +307,8 @@ class Writer {
       if (entry.standing != Standing::holds) continue;
       entry = {.assumption = entry.assumption,
                .reason = "the joint model misses these data by " + rounded(misfit.times) +
-                         " times their noise, so this record cannot tell; " +
-                         std::string(what_would_tell(entry.assumption)) + " would tell"};
+                         " times their noise, so this record cannot tell" +
+                         would_tell(entry.assumption, ledger.recorded)};
     }
   }
 
@@ -289,7 +345,17 @@ Recorded recorded_in(const Record& record) {
   recorded.drive = any_has({&History::y, &History::force});
   recorded.states = record.pairs.has_value();
   recorded.free = recorded.histories ? !recorded.drive : !record.pairs && record.decay;
-  recorded.one_sensor = recorded.free && !any_has({&History::v, &History::a});
+  recorded.second_sensor = any_has({&History::v, &History::a});
+  recorded.one_sensor = recorded.free && !recorded.second_sensor;
+  recorded.times = recorded.free && (recorded.histories || !record.decay->times.empty());
+  if (!record.pairs) return recorded;
+  const std::vector<Pair>& pairs = record.pairs->pairs;
+  const auto differ = [&](auto of) {
+    return std::ranges::any_of(pairs, [&](const Pair& pair) { return of(pair) != of(pairs.front()); });
+  };
+  recorded.phases = std::ranges::any_of(pairs, [](const Pair& pair) { return !std::isnan(pair.phase); });
+  recorded.frequencies = differ([](const Pair& pair) { return std::isnan(pair.omega) ? 0.0 : pair.omega; });
+  recorded.sweeps = differ([](const Pair& pair) { return pair.sweep; });
   return recorded;
 }
 

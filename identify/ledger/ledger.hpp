@@ -48,6 +48,7 @@ struct LedgerEntry {
   /// where the assumption was not tested, or violated.
   std::optional<double> sight;
   std::string wanted;  ///< the constants that explain a departure: "a stiffness of 1421 N/m instead of 1563 N/m"
+  std::string fitted;  ///< the constant that the joint estimate has: "a stiffness of 1421 N/m"
 };
 
 /// The joint model misses the record by more than its noise.
@@ -66,10 +67,15 @@ struct LedgerOptions {
 /// What was recorded, for advice.
 struct Recorded {
   bool histories = false;
-  bool free = false;        ///< free vibrations alone
-  bool drive = false;       ///< histories with their drive
-  bool states = false;      ///< steady states, or histories from which they were taken
-  bool one_sensor = false;  ///< x alone
+  bool free = false;           ///< free vibrations alone
+  bool drive = false;          ///< histories with their drive
+  bool states = false;         ///< steady states, or histories from which they were taken
+  bool one_sensor = false;     ///< x alone
+  bool second_sensor = false;  ///< v or a beside x
+  bool phases = false;         ///< of states
+  bool frequencies = false;    ///< states at several frequencies
+  bool sweeps = false;         ///< states of several sweeps with labels
+  bool times = false;          ///< of the extremes
 };
 
 /// The range of an estimate: what may be true beside it, for all that the record tells.

@@ -191,7 +191,7 @@ void judge(const FilterRun& run, const std::optional<FilterRun>& wider, Estimate
            std::vector<std::string>& faults) {
   constexpr double surprising = 2.0;
   if (run.surprise > surprising)
-    estimate.warnings.push_back("the filter misses the motion by " +
+    estimate.findings.push_back("the filter misses the motion by " +
                                 core::format_number(std::sqrt(run.surprise), 2) +
                                 " times what it expects: the law, a constant or the noise is wrong");
   const double F0 = estimate.value.F0;

@@ -216,3 +216,23 @@ TEST_CASE("A fit of steady states with a relaxation free is never worse than the
     }
   }
 }
+
+TEST_CASE("A mass that grows with the frequency names a further mode with the constants, and the mass that fits") {
+  Measured m = measured(Kind::response, 100,
+                        [](Rig& rig) {
+                          rig.zeta = 0.035;
+                          rig.second_mass = 0.08;
+                          rig.second_ratio = 3.0;
+                        },
+                        {.noise = 0.3});
+  m.constants.mass *= 1.0 - m.rig.second_mass;  // the part that moves by itself was not weighed
+  const Ledger ledger = ledger_of(m.record, m.constants);
+  CHECK(ledger.is_violated(Assumption::constants));
+  CHECK(ledger.is_violated(Assumption::one_mode));
+  CHECK(ledger.entry(Assumption::constants).fitted.starts_with("a "));
+  // A stiffness that is off alone has no such inertia.
+  const Measured alone = measured(Kind::response, 100, nullptr, {.stiffness = 0.03});
+  const Ledger of_constants = ledger_of(alone.record, alone.constants);
+  CHECK(of_constants.is_violated(Assumption::constants));
+  CHECK_FALSE(of_constants.is_violated(Assumption::one_mode));
+}

@@ -96,6 +96,14 @@ TEST_CASE("The history of the drive is asked for only where it is missing") {
   CHECK(about(Kind::xy).find("the history of the drive would tell") != std::string::npos);
 }
 
+TEST_CASE("A history without a stated mass is told to state one, not to record a history") {
+  Measured m = measured(Kind::decay, first_seed);
+  m.constants.mass = unknown;
+  const Ledger ledger = ledger_of(m.record, m.constants);
+  for (const Assumption assumption : {Assumption::constants, Assumption::one_mode})
+    CHECK(ledger.entry(assumption).reason.starts_with("no mass is stated"));
+}
+
 TEST_CASE("A simulated motion that misses the record tests nothing") {
   Measured m = measured(Kind::random, first_seed);
   std::ranges::reverse(m.record.histories[0].x);  // a motion that the force does not make
