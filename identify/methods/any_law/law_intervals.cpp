@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/constants.hpp"
+#include "core/diagnostics.hpp"
 #include "core/numbers.hpp"
 #include "identify/statistics/distributions.hpp"
 
@@ -254,6 +255,17 @@ class Summary {
   double scale_ = 1.0;
 };
 
+/// Why the fits of these laws give no range: some searches ended before all fits were made. Empty: none did.
+std::string why_cut_short(const std::vector<LawFits>& laws) {
+  std::vector<std::string> names;
+  for (const LawFits& law : laws)
+    if (law.cut_short) names.push_back(law.law.name());
+  if (names.empty()) return {};
+  return "the search was cut short: where it came nearest to the data, steady states take too long to compute under " +
+         core::joined(names, ", ") +
+         "; as a rule such data contradict the stated constants or sensors; 'without' leaves a law out";
+}
+
 }  // namespace
 
 LawIntervals intervals_of(const ReadingModel& model, const KnownConstants& constants, const PlainFit& plain,
@@ -289,6 +301,8 @@ std::variant<LawStudy, std::string> study_laws(const ReadingModel& model, const 
            "damping";
   LawStudy study{.plain = std::move(*plain)};
   study.laws = fit_library(model, options, study.plain);
+  // The part of a law's region that was not searched might be the end of the range.
+  if (std::string why = why_cut_short(study.laws); !why.empty()) return why;
   study.intervals = intervals_of(model, constants, study.plain, study.laws);
   return study;
 }

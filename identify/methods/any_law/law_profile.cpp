@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "identify/methods/any_law/severity_refinement.hpp"
 #include "identify/statistics/decompositions.hpp"
@@ -340,13 +341,14 @@ std::optional<PlainFit> with_law_error(const ReadingModel& model, PlainFit plain
   return plain;
 }
 
-std::vector<SeverityFit> law_profile(const ReadingModel& model, const rigs::Departure& departure, double largest,
-                                     const ChannelNoise& noise, const SeverityFit& plain, double furthest) {
+LawProfile law_profile(const ReadingModel& model, const rigs::Departure& departure, double largest,
+                       const ChannelNoise& noise, const SeverityFit& plain, double furthest) {
   constexpr int count = 5;
   constexpr double out_of_reach = 60.0;
   const SeverityScale scale(&departure);
   std::vector<SeverityFit> fits = {plain};
   const std::unique_ptr<NearbyOrbits> near = model.no_orbits(noise.deviations);
+  near->most_work = model.most_work();
   double least = plain.chi2;
   bool own_slopes = true;
   for (const double severity : scale.first_severities(largest, count)) {
@@ -362,7 +364,7 @@ std::vector<SeverityFit> law_profile(const ReadingModel& model, const rigs::Depa
   if (fits.back().severity == largest && is_open(fits, least))
     follow(model, departure, noise, furthest, *near, fits);
   refine(model, departure, noise, *near, fits);
-  return fits;
+  return {std::move(fits), near->is_exhausted()};
 }
 
 }  // namespace dualdamp::identify

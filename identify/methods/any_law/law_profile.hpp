@@ -70,13 +70,18 @@ struct PlainFit {
 /// nothing.
 [[nodiscard]] std::optional<PlainFit> with_law_error(const ReadingModel& model, PlainFit plain, double share);
 
+/// The fits of a law over its severity.
+struct LawProfile {
+  std::vector<SeverityFit> fits{};
+  bool cut_short = false;  ///< the search has done the most work that it may (`ReadingModel::most_work`)
+};
+
 /// Fits over the severities of one departure, the mildest first: a few over the whole range, and further ones where
 /// the curve through them is not yet known (severity_refinement.hpp); `plain` is the fit at severity zero. Ends
 /// early once a severity fits so much worse than a milder one that no region reaches it. Negative `largest`:
 /// severities of the other sign. If the law fits best at `largest`, and far better than plain friction, it is
 /// followed on to `furthest`, of the same sign; zero: it is not followed on.
-[[nodiscard]] std::vector<SeverityFit> law_profile(const ReadingModel& model, const rigs::Departure& departure,
-                                                   double largest, const ChannelNoise& noise,
-                                                   const SeverityFit& plain, double furthest = 0.0);
+[[nodiscard]] LawProfile law_profile(const ReadingModel& model, const rigs::Departure& departure, double largest,
+                                     const ChannelNoise& noise, const SeverityFit& plain, double furthest = 0.0);
 
 }  // namespace dualdamp::identify

@@ -115,13 +115,16 @@ const std::vector<rigs::Departure>& all_laws() {
 }
 
 LawFits fits_of(const ReadingModel& model, const LibraryLaw& law, const PlainFit& plain) {
-  LawFits all{law, law_profile(model, *law.departure, law.largest, plain.noise, plain.fit, law.furthest)};
+  LawProfile positive = law_profile(model, *law.departure, law.largest, plain.noise, plain.fit, law.furthest);
+  LawFits all{law, std::move(positive.fits), positive.cut_short};
   if (law.largest_below == 0.0) return all;
-  std::vector<SeverityFit> negative =
+  LawProfile below =
       law_profile(model, *law.departure, law.largest_below, plain.noise, plain.fit, law.furthest_below);
+  std::vector<SeverityFit>& negative = below.fits;
   std::ranges::reverse(negative);
   negative.pop_back();
   all.fits.insert(all.fits.begin(), negative.begin(), negative.end());
+  all.cut_short = all.cut_short || below.cut_short;
   return all;
 }
 

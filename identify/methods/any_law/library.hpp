@@ -48,6 +48,7 @@ struct LibraryLaw {
 struct LawFits {
   LibraryLaw law{};
   std::vector<SeverityFit> fits{};
+  bool cut_short = false;  ///< the search ended before all fits were made
 
   [[nodiscard]] bool solved() const { return law.departure == nullptr || fits.size() > 1; }
   [[nodiscard]] const SeverityFit& best() const;

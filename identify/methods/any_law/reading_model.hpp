@@ -31,9 +31,16 @@ struct Nuisance {
   double deviation = 0.0;  ///< standard deviation of its prior, about zero; 0: none, the record decides
 };
 
-/// Orbits of the last prediction. Orbits of a similar prediction are found quickly next to them.
+/// Orbits of the last prediction. Orbits of a similar prediction are found quickly next to them. Where a search has
+/// a limit of work, it keeps to it.
 struct NearbyOrbits {
   virtual ~NearbyOrbits() = default;
+
+  /// Searches for events and their panels (core::SearchCount) of all predictions so far: the same on every machine.
+  long work = 0;
+  /// Beyond this work there are no predictions.
+  long most_work = std::numeric_limits<long>::max();
+  [[nodiscard]] bool is_exhausted() const { return work > most_work; }
 };
 
 /// Whether the search can begin at this plain friction: neither F0 nor c is negative by more than its error, and
@@ -81,12 +88,14 @@ class ReadingModel {
   }
   /// Whether a base drives the mass. Otherwise departures of the drive are left out.
   [[nodiscard]] bool is_driven() const { return driven_; }
+  /// Most work (`NearbyOrbits::work`) of the search for one law.
+  [[nodiscard]] long most_work() const { return most_work_; }
   [[nodiscard]] const std::vector<int>& numbers() const { return numbers_; }  ///< of the data used
   [[nodiscard]] const std::string& data() const { return data_; }             ///< "8 steady states with phases"
 
   /// No orbits yet, for the first prediction. `deviations`: of each channel; predictions are accurate beside them.
   [[nodiscard]] virtual std::unique_ptr<NearbyOrbits> no_orbits(const std::vector<double>& deviations) const = 0;
-  /// Readings less their predictions. Nothing if the law has no such motion there.
+  /// Readings less their predictions. Nothing if the law has no such motion there, or `near` is exhausted.
   [[nodiscard]] virtual std::optional<Eigen::VectorXd> residuals(const LawAt& law, const Eigen::VectorXd& unknowns,
                                                                  NearbyOrbits& near) const = 0;
   /// Derivatives of the predictions by the unknowns. `residuals`: the last ones, at these `unknowns`.
@@ -125,6 +134,7 @@ class ReadingModel {
   std::vector<double> least_deviations_;
   Eigen::MatrixXd smooth_curve_;
   bool driven_ = true;
+  long most_work_ = std::numeric_limits<long>::max();
   std::vector<int> numbers_;
   std::string data_;
 };

@@ -1,6 +1,7 @@
 #include "identify/methods/any_law/law_profile.hpp"
 
 #include <algorithm>
+#include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <memory>
@@ -10,6 +11,7 @@
 #include <variant>
 #include <vector>
 
+#include "identify/methods/any_law/any_law.hpp"
 #include "identify/methods/any_law/law_intervals.hpp"
 #include "identify/methods/any_law/steady_readings.hpp"
 #include "sim/orbits/steady_state.hpp"
@@ -99,7 +101,7 @@ TEST_CASE("any_law: fits that share derivatives are those that take their own") 
     const identify::rigs::Departure& departure = *identify::rigs::find_departure(law);
     constexpr double largest = 0.3;
     const std::vector<SeverityFit> fits =
-        law_profile(*one.model, departure, largest, one.plain.noise, one.plain.fit);
+        law_profile(*one.model, departure, largest, one.plain.noise, one.plain.fit).fits;
     REQUIRE(fits.size() > 3);
     for (std::size_t i = 1; i < fits.size(); ++i) {
       INFO(law << " at severity " << fits[i].severity);
@@ -208,4 +210,52 @@ TEST_CASE("any_law: a film that levels off is held by other viscous laws when it
   CHECK(held_without({"viscous_saturating"}));
   // No other law has the damping of low speeds and a damping that falls with speed.
   CHECK_FALSE(held_without({"film_beside_damper", "viscous_saturating"}));
+}
+
+TEST_CASE("any_law: a law whose motions hardly decay near the data ends the search, and the reason names it") {
+  // A resonance curve read with twice its gain: the best fits have next to no friction and little damping. Without
+  // the limit of work this search took two minutes.
+  constexpr std::array rpm = {478.42, 495.50, 512.59, 529.68, 546.76, 563.85, 580.93, 598.02,
+                              615.11, 632.19, 649.28, 666.37, 683.45, 700.54, 717.62};
+  constexpr std::array mm = {7.3569,  8.3421,  9.6663,  11.7138, 14.6705, 19.6337, 26.9511, 33.0963,
+                             25.9630, 17.8933, 13.1177, 10.2868, 8.2356,  6.9241,  5.8529};
+  Record record;
+  record.pairs.emplace();
+  for (std::size_t i = 0; i < rpm.size(); ++i)
+    record.pairs->pairs.push_back({.Y = 1.4e-3,
+                                   .x = 1e-3 * mm[i],
+                                   .number = static_cast<int>(i) + 1,
+                                   .omega = rpm[i] * std::numbers::pi / 30.0});
+  const KnownConstants constants{.mass = 0.742, .stiffness = 2910.0};
+  AnyLawOptions options;
+  options.without = library_names();
+  std::erase(options.without, "generalized_maxwell_slip");
+  const Estimate estimate = any_law(record, constants, options);
+  CHECK_FALSE(estimate.outcome.ok());
+  CHECK(estimate.laws == nullptr);
+  CHECK_THAT(estimate.outcome.reason,
+             Catch::Contains("the search was cut short") && Catch::Contains("under generalized_maxwell_slip;"));
+}
+
+TEST_CASE("any_law: the search for a law does no more work than it may, by less than one motion") {
+  const Case one = case_of("contact_compliance", 0.1);
+  const auto near = one.model->no_orbits(one.plain.noise.deviations);
+  const identify::rigs::Departure& departure = *identify::rigs::find_departure("dahl");
+  const LawAt law{&departure, 0.1};
+  const auto here = one.model->residuals(law, one.plain.fit.unknowns, *near);
+  REQUIRE(here);
+  const long of_one = near->work;
+  CHECK(of_one > 0);
+  CHECK(of_one < one.model->most_work());
+  // Derivatives count too.
+  REQUIRE(one.model->derivatives(law, one.plain.fit.unknowns, *here, *near));
+  CHECK(near->work > of_one);
+  near->most_work = near->work;
+  REQUIRE_FALSE(near->is_exhausted());
+  CHECK_FALSE(one.model->residuals(law, one.plain.fit.unknowns, *near));
+  CHECK(near->is_exhausted());
+  const long spent = near->work;
+  CHECK(spent < near->most_work + of_one);
+  CHECK_FALSE(one.model->residuals(law, one.plain.fit.unknowns, *near));
+  CHECK(near->work == spent);
 }
