@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "core/constants.hpp"
-#include "core/diagnostics.hpp"
 #include "core/numbers.hpp"
 #include "identify/statistics/distributions.hpp"
 
@@ -257,13 +256,12 @@ class Summary {
 
 /// Why the fits of these laws give no range: some searches ended before all fits were made. Empty: none did.
 std::string why_cut_short(const std::vector<LawFits>& laws) {
-  std::vector<std::string> names;
-  for (const LawFits& law : laws)
-    if (law.cut_short) names.push_back(law.law.name());
-  if (names.empty()) return {};
+  const auto first = std::ranges::find_if(laws, &LawFits::cut_short);
+  if (first == laws.end()) return {};
   return "the search was cut short: where it came nearest to the data, steady states take too long to compute under " +
-         core::joined(names, ", ") +
-         "; as a rule such data contradict the stated constants or sensors; 'without' leaves a law out";
+         first->law.name() +
+         ", and perhaps under further laws; as a rule such data contradict the stated constants or sensors; 'without' "
+         "leaves a law out";
 }
 
 }  // namespace

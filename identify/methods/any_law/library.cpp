@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <iterator>
 #include <string_view>
@@ -175,8 +176,17 @@ std::vector<LawFits> fit_library(const ReadingModel& model, const LawIntervalOpt
   const std::vector<LibraryLaw> laws = law_library(model, options);
   std::vector<LawFits> all(laws.size() + 1);
   all[0].fits = {plain.fit};
+  // Where one law is cut short there is no range, and the laws behind it need no fits. The first law that is cut
+  // short is fitted whatever the order of the threads.
+  std::atomic<std::size_t> cut_short = laws.size();
   sim::in_parts(laws.size(), 1, 0, [&](std::size_t first, std::size_t count) {
-    for (std::size_t i = first; i < first + count; ++i) all[i + 1] = fits_of(model, laws[i], plain);
+    for (std::size_t i = first; i < first + count; ++i) {
+      const bool behind = cut_short < i;
+      all[i + 1] = behind ? LawFits{laws[i], {plain.fit}, true} : fits_of(model, laws[i], plain);
+      std::size_t seen = cut_short;
+      while (all[i + 1].cut_short && i < seen && !cut_short.compare_exchange_weak(seen, i)) {
+      }
+    }
   });
   return all;
 }

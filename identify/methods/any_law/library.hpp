@@ -48,7 +48,7 @@ struct LibraryLaw {
 struct LawFits {
   LibraryLaw law{};
   std::vector<SeverityFit> fits{};
-  bool cut_short = false;  ///< the search ended before all fits were made
+  bool cut_short = false;  ///< the search ended before all fits were made, or one for a law before it did
 
   [[nodiscard]] bool solved() const { return law.departure == nullptr || fits.size() > 1; }
   [[nodiscard]] const SeverityFit& best() const;

@@ -234,7 +234,7 @@ TEST_CASE("any_law: a law whose motions hardly decay near the data ends the sear
   CHECK_FALSE(estimate.outcome.ok());
   CHECK(estimate.laws == nullptr);
   CHECK_THAT(estimate.outcome.reason,
-             Catch::Contains("the search was cut short") && Catch::Contains("under generalized_maxwell_slip;"));
+             Catch::Contains("the search was cut short") && Catch::Contains("under generalized_maxwell_slip,"));
 }
 
 TEST_CASE("any_law: the search for a law does no more work than it may, by less than one motion") {
