@@ -78,9 +78,9 @@ class Motions {
     compare_variant("force and length by a power of two", scaled(scenario_, even), even, 1.0);
     // The intensity of a noise is the square of a force and would overflow.
     const bool is_square = scenario_.at("excitation").contains("intensity");
-    const double least = is_square ? 0x1p-400 : 0x1p-560;
+    const double least = is_square ? 0x1p-80 : 0x1p-150;
     const Scales tiny = {.force = least, .length = least, .time = 1.0};
-    if (is_exact_) compare_variant("force and length by 2^-560", scaled(scenario_, tiny), tiny, 1.0);
+    if (is_exact_) compare_variant("force and length by 2^-150", scaled(scenario_, tiny), tiny, 1.0);
     return std::move(findings_);
   }
 
