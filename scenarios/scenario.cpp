@@ -5,6 +5,7 @@
 #include <map>
 #include <tuple>
 
+#include "core/numbers.hpp"
 #include "core/provenance.hpp"
 #include "friction_models/registry.hpp"
 #include "identify/record.hpp"

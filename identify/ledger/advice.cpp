@@ -18,7 +18,7 @@ bool has_phases_over_frequency(const Recorded& recorded) { return recorded.phase
 std::string of_sensors(const Recorded& recorded) {
   if (recorded.one_sensor)
     return "check the zero and the range of x, or record a second sensor on the mass, which x can be compared with";
-  const std::string calibrate = "calibrate the sensors against each other";
+  std::string calibrate = "calibrate the sensors against each other";
   if (recorded.histories || has_phases_over_frequency(recorded)) return calibrate;
   return calibrate + (recorded.phases ? ", or record the phase at several frequencies" : ", or record the phase");
 }

@@ -289,11 +289,12 @@ std::vector<RelaxationTest> candidates(const JointModel& model, std::vector<Rela
 /// zeta and F0 with these relaxations free. The step that the fit leaves to its linear model counts: a fit that
 /// could not move from where it began has the whole effect of a relaxation in that step, and else would show none.
 Eigen::Vector2d friction_with(const JointModel& model, const std::vector<std::size_t>& taken) {
-  const Eigen::Vector2d value(model.value.zeta, model.value.F0);
+  Eigen::Vector2d value(model.value.zeta, model.value.F0);
   if (taken.empty()) return value;
   const Eigen::VectorXd step =
       pivoted_least_squares(free_columns(model.base, model.relaxed, taken), model.residuals);
-  return step.allFinite() ? Eigen::Vector2d(value + step.head<2>()) : value;
+  if (step.allFinite()) value += step.head<2>();
+  return value;
 }
 
 void set_changes(const Eigen::Vector2d& before, const Eigen::Vector2d& after, RelaxationTest& test) {
