@@ -286,20 +286,21 @@ std::vector<RelaxationTest> candidates(const JointModel& model, std::vector<Rela
   return list;
 }
 
-/// zeta and F0 with these relaxations free. The step that the fit leaves to its linear model counts: a fit that
-/// could not move from where it began has the whole effect of a relaxation in that step, and else would show none.
-Eigen::Vector2d friction_with(const JointModel& model, const std::vector<std::size_t>& taken) {
-  Eigen::Vector2d value(model.value.zeta, model.value.F0);
-  if (taken.empty()) return value;
+/// What these relaxations change zeta and F0 by. A fit that could not move from where it began leaves the whole
+/// effect to the step of its linear model, and else would show none.
+Eigen::Vector2d change_between(const JointModel& before, const JointModel& after,
+                               const std::vector<std::size_t>& taken) {
+  Eigen::Vector2d change(after.value.zeta - before.value.zeta, after.value.F0 - before.value.F0);
+  if (!change.isZero(0.0)) return change;
   const Eigen::VectorXd step =
-      pivoted_least_squares(free_columns(model.base, model.relaxed, taken), model.residuals);
-  if (step.allFinite()) value += step.head<2>();
-  return value;
+      pivoted_least_squares(free_columns(after.base, after.relaxed, taken), after.residuals);
+  if (step.allFinite()) change = step.head<2>();
+  return change;
 }
 
-void set_changes(const Eigen::Vector2d& before, const Eigen::Vector2d& after, RelaxationTest& test) {
-  test.zeta_change = after[0] - before[0];
-  test.F0_change = after[1] - before[1];
+void set_change(const Eigen::Vector2d& change, RelaxationTest& test) {
+  test.zeta_change = change[0];
+  test.F0_change = change[1];
 }
 
 /// What is left for the other relaxations once the model is fitted with a candidate and those taken.
@@ -307,7 +308,7 @@ struct Rest {
   double p_value = 1.0;
   double misfit = 0.0;             ///< of the fit; if its likelihood is not known, the gain by one more relaxation
   std::vector<std::size_t> alike;  ///< relaxations that cannot be told from the candidate and those taken
-  Eigen::Vector2d friction = {unknown, unknown};  ///< zeta, F0
+  Eigen::Vector2d change = {unknown, unknown};  ///< of zeta and F0
   KnownConstants constants;
 };
 
@@ -315,7 +316,7 @@ Rest rest_of(const JointModel& model, std::vector<std::size_t> taken, std::size_
   taken.push_back(candidate);
   const JointModel fitted = model.refit(taken);
   Rest rest;
-  rest.friction = friction_with(fitted, taken);
+  rest.change = change_between(model, fitted, taken);
   rest.constants = fitted.constants;
   const Projection projection = project(fitted, taken);
   rest.alike = projection.alike;
@@ -339,10 +340,9 @@ FoundDeparture charged(const JointModel& model, const std::vector<std::size_t>& 
   std::vector<RelaxationTest> list = candidates(model, tests, missed);
   if (!model.refit || list.size() <= 1) return {list};
   std::vector<Rest> rests;
-  const Eigen::Vector2d before = friction_with(model, taken);
   for (RelaxationTest& test : list) {
     rests.push_back(rest_of(model, taken, test.index, least_change));
-    set_changes(before, rests.back().friction, test);
+    set_change(rests.back().change, test);
     test.constants = rests.back().constants;
   }
   // A relaxation that acts in the second order only is never charged alone, but beside a departure of friction.
@@ -407,7 +407,7 @@ RelaxationTests test_relaxations(const JointModel& model, double least_change) {
     const double p_value = rejects ? least->p_value : result.misfit->p_value;
     for (RelaxationTest& test : found.explanations) test.p_value = p_value;
     if (relaxed) {
-      set_changes(friction_with(here, taken), friction_with(*relaxed, further), best);
+      set_change(change_between(here, *relaxed, further), best);
       best.constants = relaxed->constants;
       result.relaxed = std::move(relaxed);
     }
