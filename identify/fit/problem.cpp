@@ -209,7 +209,7 @@ std::optional<sim::Model> FitProblem::model_at(const Eigen::VectorXd& values) co
   return model_of(std::move(*rig));
 }
 
-bool FitProblem::outputs(const Eigen::VectorXd& q, Eigen::VectorXd& result, const Trail* trail) const {
+bool FitProblem::predict_each(const Eigen::VectorXd& q, Eigen::VectorXd& result, const Prediction& predict) const {
   if (is_exhausted()) return false;
   const Eigen::VectorXd p = values(q);
   return guarded([&] {
@@ -220,16 +220,19 @@ bool FitProblem::outputs(const Eigen::VectorXd& q, Eigen::VectorXd& result, cons
     std::atomic<bool> ok = true;
     sim::in_parts(experiments_.size(), 1, 0, [&](std::size_t e, std::size_t) {
       Eigen::VectorXd part;
-      const Neighbours* near = leader(trail, e);
-      if (!within_limit(e, [&] {
-            return near != nullptr ? near->predict(*model, owned[e], part)
-                                   : experiments_[e]->predict(*model, owned[e], part);
-          }))
+      if (!within_limit(e, [&] { return predict(e, *model, owned[e], part); }))
         ok = false;
       else
         result.segment(begins_[e], part.size()) = part;
     });
     return ok.load();
+  });
+}
+
+bool FitProblem::outputs(const Eigen::VectorXd& q, Eigen::VectorXd& result, const Trail* trail) const {
+  return predict_each(q, result, [&](std::size_t e, const sim::Model& model, const OwnValues& own, auto& part) {
+    const Neighbours* near = leader(trail, e);
+    return near != nullptr ? near->predict(model, own, part) : experiments_[e]->predict(model, own, part);
   });
 }
 
@@ -286,27 +289,12 @@ const Neighbours* FitProblem::leader(const Trail* trail, std::size_t e) {
 
 std::optional<FitProblem::All> FitProblem::neighbours(const Eigen::VectorXd& q, const Trail* trail,
                                                       Eigen::VectorXd& result) const {
-  if (is_exhausted()) return std::nullopt;
-  const Eigen::VectorXd p = values(q);
   All found(experiments_.size());
-  const bool is_possible = guarded([&] {
-    const std::optional<sim::Model> model = model_at(p);
-    if (!model) return false;
-    const std::vector<OwnValues> owned = own(p);
-    result.resize(rows_);
-    std::atomic<bool> ok = true;
-    sim::in_parts(experiments_.size(), 1, 0, [&](std::size_t e, std::size_t) {
-      Eigen::VectorXd part;
-      if (!within_limit(e, [&] {
-            found[e] = experiments_[e]->neighbours(*model, owned[e], leader(trail, e), part);
-            return found[e] != nullptr;
-          }))
-        ok = false;
-      else
-        result.segment(begins_[e], part.size()) = part;
-    });
-    return ok.load();
-  });
+  const bool is_possible =
+      predict_each(q, result, [&](std::size_t e, const sim::Model& model, const OwnValues& own, auto& part) {
+        found[e] = experiments_[e]->neighbours(model, own, leader(trail, e), part);
+        return found[e] != nullptr;
+      });
   if (!is_possible) return std::nullopt;
   return found;
 }

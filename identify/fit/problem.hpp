@@ -117,6 +117,12 @@ class FitProblem {
   /// The motions at `q` and what finds those near it; nothing: there are none.
   [[nodiscard]] std::optional<All> neighbours(const Eigen::VectorXd& q, const Trail* trail,
                                               Eigen::VectorXd& result) const;
+  /// Predicts the outputs of one experiment; false if the model has no such motion.
+  using Prediction = std::function<bool(std::size_t experiment, const sim::Model& model, const OwnValues& own,
+                                        Eigen::VectorXd& part)>;
+  /// The outputs of all experiments at `q`, side by side. False if one has none.
+  [[nodiscard]] bool predict_each(const Eigen::VectorXd& q, Eigen::VectorXd& result,
+                                  const Prediction& predict) const;
   [[nodiscard]] static const Neighbours* leader(const Trail* trail, std::size_t experiment);
   void mend_jumps(const Eigen::VectorXd& below, const Eigen::VectorXd& above, Eigen::VectorXd& slope) const;
   [[nodiscard]] std::optional<sim::Model> model_at(const Eigen::VectorXd& values) const;

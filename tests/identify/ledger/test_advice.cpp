@@ -3,49 +3,18 @@
 #include <catch2/catch.hpp>
 
 #include "identify/ledger/answer.hpp"
+#include "tests/identify/ledger/findings.hpp"
 #include "tests/identify/methods/histories/bearing.hpp"
 
 using namespace dualdamp::identify;
 using namespace dualdamp::identify::testing;
 
-namespace {
-
-Estimate read_by(const std::string& method, double zeta, double F0, double spread) {
-  Estimate e;
-  e.method = method;
-  e.sound = e.usable = true;
-  e.value = {zeta, 100.0 * zeta, F0 / 1000.0, F0};
-  const auto around = [spread](double value) { return Interval{value * (1.0 - spread), value * (1.0 + spread)}; };
-  e.interval95 = {around(zeta), around(100.0 * zeta), around(F0 / 1000.0), around(F0)};
-  return e;
-}
-
-Ledger tested_with(const std::vector<Assumption>& violated) {
-  Ledger ledger;
-  ledger.data = "24 steady states";
-  for (const Assumption assumption : assumptions()) {
-    LedgerEntry& entry = ledger.entries.emplace_back();
-    entry.assumption = assumption;
-    entry.standing = Standing::holds;
-  }
-  for (const Assumption assumption : violated) {
-    LedgerEntry& entry = ledger.entries[static_cast<std::size_t>(assumption)];
-    entry.standing = Standing::violated;
-    entry.test = "something free";
-    entry.p_value = 0.003;
-  }
-  if (!violated.empty()) ledger.departures.push_back(violated);
-  return ledger;
-}
-
-}  // namespace
-
 TEST_CASE("Advice names nothing that the record has already") {
   using enum Assumption;
   const auto advice = [](Assumption violated, const Recorded& recorded) {
-    Ledger tested = tested_with({violated});
+    Ledger tested = ledger({violated});
     tested.recorded = recorded;
-    return concluded({read_by("energy_balance", 0.1, 4.0, 0.05)}, tested).reason;
+    return concluded({estimate("energy_balance", 0.1, 4.0, 0.05)}, tested).reason;
   };
   const Recorded response{.states = true, .phases = true, .frequencies = true, .sweeps = true};
   for (const Assumption assumption : assumptions()) {
@@ -70,20 +39,20 @@ TEST_CASE("Advice names nothing that the record has already") {
 }
 
 TEST_CASE("What a method found stands where a departure was seen that the stated uncertainties allow") {
-  Estimate contradicted = read_by("extended_kalman", 0.1, 4.0, 0.2);
+  Estimate contradicted = estimate("extended_kalman", 0.1, 4.0, 0.2);
   contradicted.usable = false;
   contradicted.findings = {"the filter misses the motion by 15 times what it expects"};
   contradicted.reason = contradicted.findings.front();
-  Ledger tested = tested_with({});
+  Ledger tested = ledger({});
   tested.tests_histories = true;
-  tested.joint = read_by("joint_fit", 0.1, 4.0, 0.1);
+  tested.joint = estimate("joint_fit", 0.1, 4.0, 0.1);
   CHECK(concluded({contradicted}, tested).estimates[0].usable);
   LedgerEntry& constants = tested.entries[static_cast<std::size_t>(Assumption::constants)];
   constants.p_value = 1e-9;
   constants.zeta_change = -0.01;
   CHECK(concluded({contradicted}, tested).estimates[0].usable);
   constants.zeta_change = -0.2;
-  const Identification found = concluded({contradicted, read_by("free_decay", 0.1, 4.0, 0.1)}, tested);
+  const Identification found = concluded({contradicted, estimate("free_decay", 0.1, 4.0, 0.1)}, tested);
   CHECK_FALSE(found.estimates[0].usable);
   CHECK(mentions(found.estimates[0].reason, "the filter misses the motion"));
   CHECK(found.estimates[1].usable);
@@ -94,9 +63,9 @@ TEST_CASE("What a method found stands where a departure was seen that the stated
 }
 
 TEST_CASE("An answer with a constant free says which constant it refers to") {
-  Ledger tested = tested_with({Assumption::constants});
+  Ledger tested = ledger({Assumption::constants});
   tested.entries[static_cast<std::size_t>(Assumption::constants)].fitted = "a mass of 0.8091 kg";
-  tested.joint = read_by("joint_fit", 0.1, 4.0, 0.1);
-  const Identification found = concluded({read_by("receptance", 0.2, 4.0, 0.1), *tested.joint}, tested);
+  tested.joint = estimate("joint_fit", 0.1, 4.0, 0.1);
+  const Identification found = concluded({estimate("receptance", 0.2, 4.0, 0.1), *tested.joint}, tested);
   CHECK(mentions(found.verdict, "zeta and F0 are those of a mass of 0.8091 kg."));
 }

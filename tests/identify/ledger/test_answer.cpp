@@ -4,40 +4,13 @@
 #include <memory>
 
 #include "identify/methods/any_law/law_intervals.hpp"
+#include "tests/identify/ledger/findings.hpp"
 #include "tests/identify/methods/histories/bearing.hpp"
 
 using namespace dualdamp::identify;
 using namespace dualdamp::identify::testing;
 
 namespace {
-
-Estimate estimate(const std::string& method, double zeta, double F0, double spread) {
-  Estimate e;
-  e.method = method;
-  e.sound = e.usable = true;
-  e.value = {zeta, 100.0 * zeta, F0 / 1000.0, F0};
-  const auto around = [spread](double value) { return Interval{value * (1.0 - spread), value * (1.0 + spread)}; };
-  e.interval95 = {around(zeta), around(100.0 * zeta), around(F0 / 1000.0), around(F0)};
-  return e;
-}
-
-Ledger ledger(const std::vector<Assumption>& violated) {
-  Ledger ledger;
-  ledger.data = "24 steady states";
-  for (const Assumption assumption : assumptions()) {
-    LedgerEntry& entry = ledger.entries.emplace_back();
-    entry.assumption = assumption;
-    entry.standing = Standing::holds;
-  }
-  for (const Assumption assumption : violated) {
-    LedgerEntry& entry = ledger.entries[static_cast<std::size_t>(assumption)];
-    entry.standing = Standing::violated;
-    entry.test = "something free";
-    entry.p_value = 0.003;
-  }
-  if (!violated.empty()) ledger.departures.push_back(violated);
-  return ledger;
-}
 
 const std::string& answering(const Identification& found) {
   REQUIRE(found.answer);
