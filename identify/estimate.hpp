@@ -4,7 +4,7 @@
 /// Two questions are separate. `outcome`: is there an estimate? If it is not ok(), the record did not allow one,
 /// and `value` has no meaning. `usable`: does anything speak against the estimate? An estimate that is not usable
 /// keeps its value, which is reported with the reason. Whether the assumptions hold in this record is decided by
-/// the ledger, not by one method (answer.hpp).
+/// the ledger, not by one method (answer/answer.hpp).
 
 #include <Eigen/Core>
 #include <array>
@@ -135,7 +135,7 @@ struct Estimate {
   bool sound = false;
   std::vector<std::string>
       findings;  ///< results of the method's own tests against its assumptions, each a sentence
-  // Until concluded() (ledger/answer.hpp) the next three are the method's own; then `usable` and `reason` are those
+  // Until concluded() (answer/answer.hpp) the next three are the method's own; then `usable` and `reason` are those
   // of the ledger, and a value that the method did not correct for its bias is corrected.
   bool usable = false;  ///< sound and without findings
   std::string reason;   ///< why it is not usable, or which data it is from

@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "identify/ledger/answer.hpp"
+#include "identify/answer/answer.hpp"
 #include "identify/ledger/ledger.hpp"
 #include "identify/methods.hpp"
 

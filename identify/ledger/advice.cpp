@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "core/diagnostics.hpp"
-#include "identify/methods.hpp"
 
 namespace dualdamp::identify {
 
@@ -137,15 +136,6 @@ std::string what_would_help(const Ledger& ledger) {
     if (std::ranges::find(helps, help) == helps.end()) helps.push_back(std::move(help));
   }
   return core::joined(helps, "; and ");
-}
-
-std::string no_freedom(const Estimate& estimate) {
-  constexpr std::size_t most_unknowns = 4;  // of a method that reads pairs or extremes
-  const MethodEntry* method = find_method(estimate.method);
-  const std::size_t count = estimate.used.size();
-  const bool reads_few = method != nullptr && method->needs != RecordKind::history && count <= most_unknowns;
-  if (!reads_few || count == 0 || estimate.interval95 || estimate.laws) return {};
-  return ", from " + std::to_string(count) + " readings that leave no freedom for an interval";
 }
 
 }  // namespace dualdamp::identify

@@ -14,8 +14,4 @@ namespace dualdamp::identify {
 /// "; phases, or a history would tell": what the record lacks to test an assumption; empty if it lacks nothing.
 [[nodiscard]] std::string would_tell(Assumption assumption, const Recorded& recorded);
 
-/// ", from 4 readings that leave no freedom for an interval": as many pairs or extremes as unknowns,
-/// which are fitted exactly; empty otherwise.
-[[nodiscard]] std::string no_freedom(const Estimate& estimate);
-
 }  // namespace dualdamp::identify

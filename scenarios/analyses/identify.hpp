@@ -7,7 +7,7 @@
 #include <variant>
 #include <vector>
 
-#include "identify/ledger/answer.hpp"
+#include "identify/answer/answer.hpp"
 #include "identify/ledger/ledger.hpp"
 #include "identify/methods.hpp"
 #include "identify/records/sensors.hpp"

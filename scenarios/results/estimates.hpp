@@ -4,7 +4,7 @@
 #include <string>
 
 #include "identify/estimate.hpp"
-#include "identify/ledger/answer.hpp"
+#include "identify/answer/answer.hpp"
 #include "identify/record.hpp"
 #include "scenarios/results/answer.hpp"
 #include "scenarios/results/motion.hpp"

@@ -1,7 +1,7 @@
 #pragma once
 /// The answer of an identification and its ledger of assumptions: JSON and tables.
 
-#include "identify/ledger/answer.hpp"
+#include "identify/answer/answer.hpp"
 #include "scenarios/results/answer.hpp"
 #include "scenarios/results/estimates.hpp"
 

@@ -63,6 +63,7 @@ ROOMS = {
         "experiments": [".", "statistics", "records"],
         "fit": [".", "statistics", "records", "experiments"],
         "ledger": [".", "statistics", "records", "models", "uncertainty", "methods"],
+        "answer": [".", "statistics", "methods", "ledger"],
         "design": [".", "statistics", "methods"],
     },
     "bench": {

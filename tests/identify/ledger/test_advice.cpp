@@ -2,7 +2,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "identify/ledger/answer.hpp"
+#include "identify/answer/answer.hpp"
 #include "tests/identify/ledger/findings.hpp"
 #include "tests/identify/methods/histories/bearing.hpp"
 

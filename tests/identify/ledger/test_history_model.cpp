@@ -7,7 +7,7 @@
 #include <variant>
 
 #include "core/random.hpp"
-#include "identify/ledger/answer.hpp"
+#include "identify/answer/answer.hpp"
 #include "identify/ledger/ledger.hpp"
 #include "identify/methods/histories/friction_force.hpp"
 #include "identify/methods/histories/output_error.hpp"

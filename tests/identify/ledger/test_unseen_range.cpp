@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "identify/ledger/answer.hpp"
+#include "identify/answer/answer.hpp"
 #include "identify/ledger/estimate/joint_estimate.hpp"
 #include "identify/ledger/estimate/unstated_constants.hpp"
 #include "tests/identify/ledger/laboratory.hpp"

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "identify/ledger/answer.hpp"
+#include "identify/answer/answer.hpp"
 #include "identify/ledger/ledger.hpp"
 #include "identify/methods.hpp"
 #include "identify/records/derived_records.hpp"

@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "identify/ledger/amplitude_model.hpp"
-#include "identify/ledger/answer.hpp"
+#include "identify/answer/answer.hpp"
 #include "identify/ledger/decay_model.hpp"
 #include "identify/ledger/estimate/unstated_constants.hpp"
 #include "identify/ledger/history_model.hpp"

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "identify/ledger/answer.hpp"
+#include "identify/answer/answer.hpp"
 #include "identify/methods.hpp"
 #include "identify/records/derived_records.hpp"
 

@@ -1,4 +1,4 @@
-#include "identify/ledger/preferred.hpp"
+#include "identify/answer/preferred.hpp"
 
 #include <algorithm>
 #include <cmath>

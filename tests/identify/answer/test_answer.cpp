@@ -1,4 +1,4 @@
-#include "identify/ledger/answer.hpp"
+#include "identify/answer/answer.hpp"
 
 #include <catch2/catch.hpp>
 #include <memory>

@@ -1,0 +1,228 @@
+#include "identify/answer/answer.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "core/diagnostics.hpp"
+#include "identify/answer/preferred.hpp"
+#include "identify/answer/verdict.hpp"
+#include "identify/ledger/misfit.hpp"
+#include "identify/methods.hpp"
+#include "identify/methods/any_law/law_intervals.hpp"
+#include "identify/statistics/distributions.hpp"
+
+namespace dualdamp::identify {
+
+namespace {
+
+/// What an estimate rests on; nothing for the joint model, in which violated assumptions are relaxed.
+AssumptionSet rests_on(const Estimate& estimate) {
+  const MethodEntry* method = find_method(estimate.method);
+  return method == nullptr ? AssumptionSet() : method->rests_on;
+}
+
+/// A departure that was seen, moves zeta or F0, and violates nothing only because the stated uncertainties allow it
+/// still spoils a fit with the constants as stated.
+bool rests_on_departure(const Estimate& estimate, const Ledger& ledger) {
+  return std::ranges::any_of(ledger.entries, [&](const LedgerEntry& entry) {
+    const double change =
+        std::max(std::abs(entry.zeta_change.value_or(0.0)), std::abs(entry.F0_change.value_or(0.0)));
+    return entry.standing == Standing::holds && entry.p_value.value_or(1.0) < family_level &&
+           change >= LedgerOptions{}.least_change && rests_on(estimate).contains(entry.assumption);
+  });
+}
+
+/// What a method found stands where the ledger did not clear it: a ledger that tested something else than the
+/// histories cannot speak against what a method found in them, and one that saw a departure bears it out.
+bool keeps_its_findings(const Estimate& estimate, const Ledger& ledger) {
+  const MethodEntry* method = find_method(estimate.method);
+  if (method == nullptr || estimate.findings.empty()) return false;
+  return (method->needs == RecordKind::history && !ledger.tests_histories) || rests_on_departure(estimate, ledger);
+}
+
+/// A range over laws of which none fits, and any other estimate where the joint model misses the record, is a
+/// number that does not describe it.
+bool misses(Estimate& estimate, const Ledger& ledger) {
+  if (!estimate.sound) return false;
+  if (const std::string none = estimate.laws ? no_law_fits(*estimate.laws) : std::string(); !none.empty())
+    estimate.reason = none;
+  else if (ledger.misfit && !estimate.laws)
+    estimate.reason = misfit_size(*ledger.misfit);
+  else if (const std::string negative = negative_friction(ledger); !negative.empty() && !estimate.laws)
+    estimate.reason = negative;
+  else
+    return false;
+  estimate.usable = false;
+  return true;
+}
+
+void judge(Estimate& estimate, const Ledger& ledger) {
+  if (!estimate.outcome.ok() || misses(estimate, ledger) || ledger.data.empty() || !estimate.sound) return;
+  std::vector<Assumption> violated;
+  for (const LedgerEntry& entry : ledger.entries)
+    if (entry.standing == Standing::violated && rests_on(estimate).contains(entry.assumption))
+      violated.push_back(entry.assumption);
+  const bool contradicted = !estimate.usable;
+  const bool clears = !keeps_its_findings(estimate, ledger);
+  estimate.usable = violated.empty() && (clears || !contradicted);
+  if (!violated.empty())
+    estimate.reason = "the data contradict that " + statements_of(violated, " or that ");
+  else if (contradicted && clears)
+    estimate.reason = "the assumptions it rests on hold in this record";
+}
+
+/// A method that knows its bias corrects only its interval for it: the middle of the interval is the corrected
+/// value. Methods that read histories are always corrected. The value of a line at resonance is reported as its
+/// formula gives it, unless the interval excludes it.
+void correct(Estimate& estimate) {
+  if (!estimate.outcome.ok() || !estimate.interval95) return;
+  const MethodEntry* method = find_method(estimate.method);
+  const bool always = method != nullptr && method->needs == RecordKind::history;
+  for (const ReportedParameter& parameter : reported_parameters) {
+    double& value = estimate.value.*parameter.value;
+    const auto& [low, high] = (*estimate.interval95).*parameter.interval;
+    if (always || value < low || value > high) value = 0.5 * (low + high);
+  }
+}
+
+/// An answer is not negative, nor does its interval reach below zero, the nearest value that friction can have.
+void keep_physical(Estimate& estimate) {
+  for (const ReportedParameter& parameter : reported_parameters) {
+    double& value = estimate.value.*parameter.value;
+    if (value < 0.0 && (parameter.name == "zeta" || parameter.name == "F0"))
+      estimate.warnings.push_back(std::string(parameter.name) + " is fitted best by a negative value (" +
+                                  four_digits(value) +
+                                  " in SI units), and is answered as zero: the data do not tell it from zero");
+    value = value < 0.0 ? 0.0 : value;
+    if (!estimate.interval95) continue;
+    double& low = ((*estimate.interval95).*parameter.interval)[0];
+    low = low < 0.0 ? 0.0 : low;
+  }
+}
+
+/// The departures of friction that the ledger can relax: a range over laws answers for them.
+std::vector<const LedgerEntry*> friction_departures(const Ledger& ledger) {
+  std::vector<const LedgerEntry*> found;
+  for (const Assumption assumption : {Assumption::friction_velocity, Assumption::friction_displacement}) {
+    const LedgerEntry& entry = ledger.entry(assumption);
+    if (entry.standing == Standing::violated && entry.zeta_change && entry.F0_change) found.push_back(&entry);
+  }
+  return found;
+}
+
+/// The interval extended to the 95 % interval of a value that a relaxation changes by the share `change`. The value
+/// without it and the change have independent errors; that of the change, the larger one, follows from the test.
+/// Friction is not below zero.
+Interval reached(const Interval& interval, double plain, double change, double p_value) {
+  const double error = std::abs(plain * change) * normal95() / normal_score(p_value);
+  const double value = plain * (1.0 + change);
+  return {std::min(interval[0], std::max(0.0, value - error)), std::max(interval[1], value + error)};
+}
+
+/// The library of laws reads extremes, and its departures end at a largest severity; the ledger reads the whole
+/// record. A range over laws that lacks the estimate with the departure relaxed is extended to it. Returns the
+/// tests of these relaxations.
+std::vector<std::string> extend_to_relaxed(Estimate& estimate, const Ledger& ledger) {
+  std::vector<std::string> tests;
+  if (!estimate.usable || !estimate.laws || !estimate.interval95) return tests;
+  for (const LedgerEntry* entry : friction_departures(ledger)) {
+    ParameterIntervals& at = *estimate.interval95;
+    const ParameterIntervals before = at;
+    at.zeta = reached(at.zeta, ledger.plain.zeta, *entry->zeta_change, *entry->p_value);
+    at.c = reached(at.c, ledger.plain.c, *entry->zeta_change, *entry->p_value);
+    at.x_f = reached(at.x_f, ledger.plain.x_f, *entry->F0_change, *entry->p_value);
+    at.F0 = reached(at.F0, ledger.plain.F0, *entry->F0_change, *entry->p_value);
+    if (at.zeta != before.zeta || at.F0 != before.F0) tests.push_back(entry->test);
+  }
+  return tests;
+}
+
+/// An estimate cannot be used if the joint model excludes it, which has all of the same data and no known
+/// departure. Ranges over laws are wider than the joint model on purpose, and are never excluded.
+bool excluded(Estimate& estimate, const std::optional<Estimate>& joint) {
+  if (!joint || !joint->usable || estimate.laws || !disagree(*joint, estimate)) return false;
+  estimate.usable = false;
+  estimate.reason = "joint_fit, which has all data, excludes it: zeta = " + four_digits(joint->value.zeta) +
+                    ", F0 = " + four_digits(joint->value.F0);
+  return true;
+}
+
+/// Did the method find against the law of friction? A method that claims no interval says so among its findings,
+/// and says nothing about the law.
+bool finds_departure(const Estimate& estimate) {
+  if (!estimate.outcome.ok() || estimate.laws) return false;
+  return (estimate.lack_of_fit && estimate.lack_of_fit->fired) ||
+         (estimate.interval95 && !estimate.findings.empty());
+}
+
+/// Where the ledger tested nothing, what one method finds against the law counts against all that rest on it.
+void share_findings(std::vector<Estimate>& estimates) {
+  const auto finder = std::ranges::find_if(estimates, finds_departure);
+  if (finder == estimates.end() || finder->findings.empty()) return;
+  const std::string reason =
+      finder->method + " finds a departure from the law that both rest on: " + finder->findings.front();
+  for (Estimate& estimate : estimates) {
+    if (!estimate.usable || estimate.laws) continue;
+    estimate.usable = false;
+    estimate.reason = reason;
+  }
+}
+
+/// The interval of the answer and what is not excluded beyond it. A range over laws holds departures already.
+std::optional<UnseenRange> range_of(const Estimate& best, const Ledger& ledger) {
+  if (!best.interval95 || (!best.laws && !ledger.unseen)) return std::nullopt;
+  UnseenRange range{.ends = *best.interval95};
+  if (best.laws) return range;
+  for (const ReportedParameter& parameter : reported_parameters) {
+    Interval& own = range.ends.*parameter.interval;
+    const Interval& other = ledger.unseen->ends.*parameter.interval;
+    own = {std::min(own[0], other[0]), std::max(own[1], other[1])};
+  }
+  const auto name_ends = [&](Interval ParameterIntervals::* member, auto by) {
+    for (std::size_t end = 0; end < 2; ++end)
+      if ((range.ends.*member)[end] != ((*best.interval95).*member)[end])
+        (range.*by)[end] = ((*ledger.unseen).*by)[end];
+  };
+  name_ends(&ParameterIntervals::zeta, &UnseenRange::zeta_by);
+  name_ends(&ParameterIntervals::F0, &UnseenRange::F0_by);
+  return range;
+}
+
+}  // namespace
+
+Identification concluded(std::vector<Estimate> estimates, Ledger ledger) {
+  Identification all{.estimates = std::move(estimates), .ledger = std::move(ledger)};
+  bool beside = all.estimates.size() > 1;  // a single method that was asked for answers alone, if it can
+  for (Estimate& estimate : all.estimates) {
+    correct(estimate);
+    judge(estimate, all.ledger);
+    const bool borne_out =
+        !estimate.usable && !estimate.findings.empty() && rests_on_departure(estimate, all.ledger);
+    beside = excluded(estimate, all.ledger.joint) || borne_out || beside;
+  }
+  if (beside && all.ledger.joint) {
+    all.estimates.push_back(*all.ledger.joint);
+    correct(all.estimates.back());
+    judge(all.estimates.back(), all.ledger);
+  }
+  if (all.ledger.data.empty()) share_findings(all.estimates);
+  std::vector<std::string> reached_by;
+  for (Estimate& estimate : all.estimates)
+    if (estimate.laws) reached_by = extend_to_relaxed(estimate, all.ledger);
+  all.answer = preferred(all.estimates, all.ledger);
+  if (all.answer) {
+    keep_physical(all.estimates[*all.answer]);
+    all.range = range_of(all.estimates[*all.answer], all.ledger);
+  }
+  all.reason = all.answer ? why_preferred(all) : why_none(all);
+  const bool any = std::ranges::any_of(all.estimates, [](const Estimate& e) { return e.outcome.ok(); });
+  if (any) all.verdict = verdict_of(all);
+  if (!reached_by.empty())
+    all.verdict += " The interval of any_law also holds the estimate with " +
+                   core::joined(reached_by, " and with ") + " free, which lies outside this range.";
+  return all;
+}
+
+}  // namespace dualdamp::identify

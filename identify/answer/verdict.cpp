@@ -1,0 +1,250 @@
+#include "identify/answer/verdict.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "core/diagnostics.hpp"
+#include "core/numbers.hpp"
+#include "identify/answer/answer.hpp"
+#include "identify/answer/preferred.hpp"
+#include "identify/ledger/advice.hpp"
+#include "identify/ledger/misfit.hpp"
+#include "identify/methods.hpp"
+#include "identify/methods/any_law/law_intervals.hpp"
+
+namespace dualdamp::identify {
+
+namespace {
+
+std::string misfit_text(const Misfit& misfit) {
+  return misfit_size(misfit) +
+         ", and no single assumption that is given up explains them: friction, the spring and a further mode may "
+         "depart together, or in a way that is not tested";
+}
+
+std::vector<std::string> names_of(const Ledger& ledger, Standing standing) {
+  std::vector<std::string> names;
+  for (const LedgerEntry& entry : ledger.entries)
+    if (entry.standing == standing) names.emplace_back(name_of(entry.assumption));
+  return names;
+}
+
+bool departs_in_friction(const Ledger& ledger) {
+  return ledger.is_violated(Assumption::friction_velocity) || ledger.is_violated(Assumption::friction_displacement);
+}
+
+/// Why none of the estimates is used: every departure, and what would help with each.
+std::string why_contradicted(const Ledger& ledger) {
+  std::vector<std::string> held;
+  for (const std::vector<Assumption>& departure : ledger.departures)
+    held.push_back(statements_of(departure, ", or that "));
+  return "the data contradict that " + core::joined(held, "; they contradict that ") +
+         "; what would help: " + what_would_help(ledger);
+}
+
+/// Why the readings of a record are too few to test; nothing if a single method was asked for, which speaks for
+/// itself, or beside histories, of which methods find more than the ledger.
+std::string why_untested(const Identification& all) {
+  if (!has_few_readings(all.ledger) || all.estimates.size() < 2 || all.ledger.entries.empty()) return {};
+  return all.ledger.entries.front().reason;
+}
+
+std::string with_interval(double value, const std::optional<ParameterIntervals>& intervals,
+                          Interval ParameterIntervals::* member, const std::string& unit) {
+  std::string text = four_digits(value) + unit;
+  if (intervals) {
+    const auto& [low, high] = (*intervals).*member;
+    text += " (95 %: " + four_digits(low) + " to " + four_digits(high) + unit + ")";
+  }
+  return text;
+}
+
+/// ", from 4 readings that leave no freedom for an interval": as many pairs or extremes as unknowns,
+/// which are fitted exactly; empty otherwise.
+std::string no_freedom(const Estimate& estimate) {
+  constexpr std::size_t most_unknowns = 4;  // of a method that reads pairs or extremes
+  const MethodEntry* method = find_method(estimate.method);
+  const std::size_t count = estimate.used.size();
+  const bool reads_few = method != nullptr && method->needs != RecordKind::history && count <= most_unknowns;
+  if (!reads_few || count == 0 || estimate.interval95 || estimate.laws) return {};
+  return ", from " + std::to_string(count) + " readings that leave no freedom for an interval";
+}
+
+/// "c = 203.5 N.s/m" where there is no spring to make it a damping ratio.
+std::string numbers_of(const Estimate& estimate, core::Coordinate coordinate) {
+  const auto unit = [&](const char* name) { return " " + core::unit_for(coordinate, name); };
+  const bool spring = std::isfinite(estimate.value.zeta);
+  const std::string damping =
+      spring ? "zeta = " + with_interval(estimate.value.zeta, estimate.interval95, &ParameterIntervals::zeta, "")
+             : "c = " + with_interval(estimate.value.c, estimate.interval95, &ParameterIntervals::c, unit("N.s/m"));
+  return damping +
+         ", F0 = " + with_interval(estimate.value.F0, estimate.interval95, &ParameterIntervals::F0, unit("N"));
+}
+
+/// "These data contradict that ... (cubic stiffness, p = 0.002).", for each departure.
+std::string departures_text(const Ledger& ledger) {
+  std::string text;
+  for (const std::vector<Assumption>& departure : ledger.departures) {
+    const LedgerEntry& first = ledger.entry(departure.front());
+    text += " These data contradict that " + statements_of(departure, ", or that ") + " (" + first.test +
+            ", p = " + core::format_number(*first.p_value, 2) + ")";
+    const std::string& wanted = ledger.entry(Assumption::constants).wanted;
+    const bool of_constants = std::ranges::count(departure, Assumption::constants) > 0;
+    text += of_constants && !wanted.empty() ? ": they want " + wanted + "." : ".";
+  }
+  return text;
+}
+
+/// "zero of x free (p = 1e-20)", of departures that are seen and violate nothing. Entries with the same p are one
+/// departure.
+std::string harmless_text(const Ledger& ledger) {
+  std::vector<std::string> texts;
+  std::vector<double> seen;
+  for (const LedgerEntry& entry : ledger.entries) {
+    if (entry.standing != Standing::holds || entry.p_value.value_or(1.0) >= family_level) continue;
+    const auto known = std::ranges::find(seen, *entry.p_value);
+    if (known != seen.end()) {
+      texts[static_cast<std::size_t>(known - seen.begin())].insert(0, entry.test + " or ");
+      continue;
+    }
+    seen.push_back(*entry.p_value);
+    texts.push_back(entry.test + " (p = " + core::format_number(*entry.p_value, 2) + ")");
+  }
+  return core::joined(texts, "; ");
+}
+
+std::string trend_text(const std::vector<Estimate>& estimates, core::Coordinate coordinate) {
+  const auto trend = std::ranges::find_if(estimates, [](const Estimate& e) { return e.subsets.size() > 1; });
+  if (trend == estimates.end()) return {};
+  const auto range = [&](double ParameterSet::* member) {
+    return four_digits(trend->subsets.front().value.*member) + " to " +
+           four_digits(trend->subsets.back().value.*member);
+  };
+  return " From " + trend->subsets.front().label + " to " + trend->subsets.back().label +
+         " of the data zeta goes from " + range(&ParameterSet::zeta) + " and F0 from " + range(&ParameterSet::F0) +
+         " " + core::unit_for(coordinate, "N") + ".";
+}
+
+/// The ranges over all laws, and which laws end them, or why they are not to be used.
+std::string over_laws(const Identification& all) {
+  const auto found = std::ranges::find_if(all.estimates, [](const Estimate& e) { return e.laws != nullptr; });
+  if (found == all.estimates.end()) return {};
+  // Where nothing is usable, the reason of all says it.
+  if (!found->usable)
+    return all.answer ? " The range over laws is not to be used: " + found->reason + "." : std::string();
+  const LawIntervals& laws = *found->laws;
+  const auto range = [](const Interval& ends) { return four_digits(ends[0]) + " to " + four_digits(ends[1]); };
+  const auto ends = [](const std::array<std::string, 2>& names) {
+    return names[0] == names[1] ? "'" + names[0] + "' ends it" : "'" + names[0] + "' and '" + names[1] + "' end it";
+  };
+  const auto allowed = std::ranges::count_if(laws.laws, [](const LawAnswer& law) { return !law.rejected; });
+  return " Over the " + std::to_string(allowed) + " laws that these data allow: zeta " + range(laws.zeta_hull) +
+         " (" + ends(laws.zeta_ends) + "), F0 " + range(laws.F0_hull) + " " +
+         core::unit_for(all.ledger.coordinate, "N") + " (" + ends(laws.F0_ends) + ").";
+}
+
+/// " What no test of these data excludes allows zeta from 0.018 to 0.024 (quadratic term over speed)."
+std::string range_text(const Identification& all) {
+  if (!all.range) return {};
+  const auto ends = [](const Interval& range, const std::array<std::string, 2>& by, const std::string& unit) {
+    const auto named = [](const std::string& name) { return name.empty() ? "" : " (" + name + ")"; };
+    return four_digits(range[0]) + (by[0] == by[1] ? "" : named(by[0])) + " to " + four_digits(range[1]) + unit +
+           named(by[1]);
+  };
+  const auto moved = [](const std::array<std::string, 2>& by) { return !by[0].empty() || !by[1].empty(); };
+  std::vector<std::string> texts;
+  if (moved(all.range->zeta_by)) texts.push_back("zeta from " + ends(all.range->ends.zeta, all.range->zeta_by, ""));
+  if (moved(all.range->F0_by))
+    texts.push_back("F0 from " +
+                    ends(all.range->ends.F0, all.range->F0_by, " " + core::unit_for(all.ledger.coordinate, "N")));
+  if (texts.empty()) return {};
+  return " What no test of these data excludes allows " + core::joined(texts, " and ") + ".";
+}
+
+}  // namespace
+
+std::string four_digits(double value) {
+  constexpr int digits = 4;
+  return core::format_number(value, digits);
+}
+
+std::string statements_of(const std::vector<Assumption>& list, const std::string& last) {
+  std::vector<std::string> texts;
+  for (const Assumption assumption : list) texts.emplace_back(statement_of(assumption));
+  return core::joined(texts, last);
+}
+
+std::string why_preferred(const Identification& all) {
+  const auto rivals =
+      std::ranges::count_if(all.estimates, [](const Estimate& e) { return std::isfinite(area(e)); });
+  std::string text = all.ledger.data.empty() ? "no assumption could be tested in this record"
+                                             : "none of the assumptions it rests on is violated";
+  const auto usable = std::ranges::count_if(all.estimates, &Estimate::usable);
+  if (rivals == 0 && usable > 1)
+    text += ", and " + std::to_string(usable) +
+            " methods agree; the record has no more readings than parameters, so there is no interval";
+  if (rivals > 1 && all.estimates[*all.answer].method == "joint_fit")
+    text += ", and it has all data; a narrower interval beside it is narrower by chance";
+  else if (rivals > 1 && has_few_readings(all.ledger) && !all.estimates[*all.answer].laws)
+    text +=
+        ", and of " + std::to_string(rivals) +
+        " such estimates its intervals are the widest that agree: of so few readings a narrower one is narrow by "
+        "chance";
+  else if (rivals > 1)
+    text += ", and of " + std::to_string(rivals) + " such estimates its intervals are the narrowest";
+  const std::vector<std::string> untested = names_of(all.ledger, Standing::untested);
+  if (!all.ledger.data.empty() && !untested.empty()) text += "; untested: " + core::joined(untested, ", ");
+  if (all.estimates[*all.answer].laws && departs_in_friction(all.ledger))
+    text += "; it is a range over laws, and what would narrow it: " + what_would_help(all.ledger);
+  return text;
+}
+
+std::string why_none(const Identification& all) {
+  if (all.ledger.misfit)
+    return misfit_text(*all.ledger.misfit) +
+           (all.ledger.departures.empty() ? "" : "; " + why_contradicted(all.ledger));
+  if (!all.ledger.departures.empty()) return why_contradicted(all.ledger);
+  if (std::string negative = negative_friction(all.ledger); !negative.empty()) return negative;
+  const auto there = std::ranges::find_if(all.estimates, [](const Estimate& e) { return e.outcome.ok(); });
+  if (there == all.estimates.end())
+    return all.estimates.empty() ? "" : all.estimates.front().method + ": " + all.estimates.front().outcome.reason;
+  const auto usable = std::ranges::find_if(all.estimates, &Estimate::usable);
+  if (usable != all.estimates.end())
+    return "the usable estimates have no intervals and do not agree; what would help: more data";
+  if (std::string untested = why_untested(all); !untested.empty()) return untested;
+  return there->method + ": " + there->reason;
+}
+
+std::string verdict_of(const Identification& all) {
+  std::string text = departures_text(all.ledger);
+  const bool of_friction = departs_in_friction(all.ledger);
+  if (!all.answer)
+    return (text.empty()
+                ? ""
+                : text.substr(1) + (of_friction ? trend_text(all.estimates, all.ledger.coordinate) : "") + " ") +
+           "No estimate is to be used: " + all.reason + "." + over_laws(all);
+  const Estimate& best = all.estimates[*all.answer];
+  const bool untested = all.ledger.data.empty();
+  const std::string harmless = harmless_text(all.ledger);
+  if (!all.ledger.departures.empty() && best.method == "joint_fit")
+    if (const std::string& fitted = all.ledger.entry(Assumption::constants).fitted; !fitted.empty())
+      text += " zeta and F0 are those of " + fitted + ".";
+  if (all.ledger.misfit) text += " As a whole, " + misfit_text(*all.ledger.misfit) + ".";
+  text =
+      numbers_of(best, all.ledger.coordinate) + ", by " + best.method + no_freedom(best) + ". " +
+      (!text.empty()       ? text.substr(1)
+       : untested          ? "These data cannot tell whether friction is Coulomb + viscous."
+       : !harmless.empty() ? "These data contradict no assumption in a way that matters; seen is: " + harmless + "."
+                           : "These data do not contradict any assumption that they can test.");
+  for (const Estimate& other : all.estimates)
+    if (disagree(best, other))
+      text += " " + other.method + " disagrees: " + numbers_of(other, all.ledger.coordinate) + ".";
+  text += range_text(all);
+  return text + over_laws(all);
+}
+
+}  // namespace dualdamp::identify
