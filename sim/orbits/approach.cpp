@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <numeric>
 #include <utility>
 #include <vector>
@@ -37,6 +38,20 @@ constexpr std::size_t least_periods_of_divergence = 20;
 /// Mean logarithmic growth of a perturbation in one forcing period above which the motion is aperiodic: neither
 /// rounding nor a slow transient grows so fast.
 constexpr double diverging = 0.03;
+
+/// The largest speed |v| of a forcing period, at begin, middle and end of its intervals.
+class Fastest : public PeriodObserver {
+ public:
+  void begin(const State& start) override { speed_ = std::abs(start.v); }
+  void observe(const Interval& interval, double /*x*/) override {
+    for (const double part : {0.0, 0.5, 1.0})
+      speed_ = std::max(speed_, std::abs(interval.at(part * interval.duration).v));
+  }
+  [[nodiscard]] double speed() const { return speed_; }
+
+ private:
+  double speed_ = 0.0;
+};
 
 constexpr const char* neighbours =
     "not unique: a Floquet multiplier lies on the unit circle, so that neighbouring orbits are steady too; this is "
@@ -131,7 +146,8 @@ bool Approach::is_time_to_tell() const {
 
 /// The orbit, if the motion has come back within rounding. After one forcing period it need not attract.
 std::optional<Orbit> Approach::closed(const State& state) {
-  const int periods = recurrence_.shortest((has_past_ ? 1.0 : 10.0) * options_.tolerance);
+  int periods = recurrence_.shortest((has_past_ ? 1.0 : 10.0) * options_.tolerance);
+  if (periods == 0 && is_closed_within_rounding(state)) periods = 1;
   if (periods == 0 || (periods > 1 && (motions_ != Motions::may_part || passed_ < next_closing_)))
     return std::nullopt;
   // The state of a motion that depends on its past cannot be displaced.
@@ -147,6 +163,21 @@ std::optional<Orbit> Approach::closed(const State& state) {
     return std::nullopt;
   }
   return orbit;
+}
+
+/// Whether the last forcing period closed as well as rounding lets it. The time of an event is rounded as the time
+/// since the period began, and meanwhile the mass goes on by its speed: a mass that rests at one place, then at
+/// another, and goes over in a thousandth of the period comes back to a thousand times the rounding of its
+/// position.
+bool Approach::is_closed_within_rounding(const State& state) {
+  const double closure = recurrence_.closure(1);
+  if (has_past_ || !(closure <= arrived) || passed_ < next_rounding_) return false;
+  next_rounding_ = passed_ + 1 + passed_ / 8;
+  constexpr double errors = 8.0;  // of one event each
+  Fastest fastest;
+  const ForcingPeriod period = solver_.patient_map_over(1).from(state, Monodromy::without, &fastest);
+  const double instant = core::two_pi / omega_ * std::numeric_limits<double>::epsilon();
+  return closure * period.size <= errors * instant * fastest.speed();
 }
 
 /// Gives the motion to the candidate, once in each of its periods; true if the motion approaches the candidate.

@@ -40,6 +40,7 @@ class Approach {
 
   [[nodiscard]] std::optional<Orbit> look(const ForcingPeriod& period, SteadyState& result);
   [[nodiscard]] std::optional<Orbit> closed(const State& state);
+  [[nodiscard]] bool is_closed_within_rounding(const State& state);
   [[nodiscard]] bool has_arrived(const State& state);
   [[nodiscard]] bool holds_ahead(const Candidate& candidate);
   [[nodiscard]] int worth_trying();
@@ -76,6 +77,7 @@ class Approach {
   long next_trial_work_;      ///< the same as work of the motion
   long next_look_ahead_ = 0;  ///< when a motion that seemed to approach the candidate is examined again
   long next_closing_ = 0;     ///< when a motion that came back over several periods is examined again
+  long next_rounding_ = 0;    ///< when a motion that nearly came back is compared with rounding again
   double divergence_ = 0.0;
   bool is_told_ = false;  ///< divergence_ has been computed
 };
