@@ -224,6 +224,16 @@ std::vector<double> resolution(const Walk& a, const Walk& b) {
   return result;
 }
 
+std::vector<double> approach(const Walk& motion, const Walk& other, const Walk& tighter) {
+  constexpr double closer = 3.0;
+  std::vector<double> result = deviation(motion, other);
+  const std::vector<double> near = deviation(motion, tighter);
+  result.resize(std::min(result.size(), near.size()));
+  for (std::size_t i = 0; i < result.size(); ++i)
+    if (!(closer * near[i] <= result[i])) result[i] = 0.0;
+  return result;
+}
+
 void widen(Sensitivity& sensitivity, const Walk& motion, const Walk& perturbed) {
   const std::vector<double> other = deviation(motion, perturbed);
   std::vector<double>& known = sensitivity.deviation;
@@ -238,6 +248,13 @@ void widen(Sensitivity& sensitivity, const Walk& motion, const Walk& perturbed) 
     sensitivity.event_shift =
         std::max(sensitivity.event_shift, std::abs(motion.events[i].t - perturbed.events[i].t));
   }
+}
+
+std::size_t first_parted(const Sensitivity& sensitivity) {
+  const std::vector<double>& list = sensitivity.deviation;
+  const auto parted =
+      std::ranges::find_if(list, [](double share) { return !(amplification * share < most_allowed); });
+  return static_cast<std::size_t>(parted - list.begin());
 }
 
 Difference difference(const Walk& a, const Walk& b, const Sensitivity& sensitivity, double tolerance) {
@@ -281,6 +298,7 @@ Difference difference(const Walk& a, const Walk& b, const Sensitivity& sensitivi
   const double length = a.samples.empty() ? 0.0 : a.samples.back().t;
   const double window = std::max(same_instant * length, amplification * sensitivity.event_shift);
   Events(a, b, std::min(window, most_allowed * length), std::move(speeds)).compare(result);
+  result.same_events = result.fault.empty();
   if (worst_share > 1.0 || std::isnan(worst_share))
     result.fault = fmt::format("apart by {:.2e} of the motion at t = {:.10g} s, {:.1e} is allowed", result.worst,
                                result.at, result.allowed) +

@@ -4,10 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
 
 #include "bench/crosscheck/derivative.hpp"
 #include "bench/crosscheck/patience.hpp"
 #include "sim/engine/engine.hpp"
+#include "sim/neutral_margin.hpp"
 #include "sim/orbits/steady_state.hpp"
 #include "sim/orbits/transient.hpp"
 
@@ -16,6 +20,8 @@ namespace dualdamp::crosscheck {
 namespace {
 
 constexpr double closure_tolerance = 1e-7;
+/// Rest of a transient, relative to the size of the motion, that the comparison leaves out of account.
+constexpr double settled = 0.1 * closure_tolerance;
 /// Lengths of a transient in forcing periods; the second one if by the Floquet multipliers it should be over and is
 /// not.
 constexpr int usual_periods = 2'000;
@@ -44,14 +50,27 @@ bool contradicts(const sim::SteadyState& state, const sim::Transient& motion) {
   return is_slower_than_multiplier(state, motion) && state.transient_periods < motion.periods;
 }
 
+/// Whether a transient in small steps would not settle within the usual periods, by the largest Floquet multiplier.
+bool is_too_slow(const sim::Model& model, const sim::SteadyState& state) {
+  const double multiplier = largest_multiplier(state);
+  return state.outcome.ok() && !sim::is_exact(model) && multiplier < 1.0 - sim::neutral_margin &&
+         std::pow(multiplier, usual_periods / state.period_ratio) > settled;
+}
+
 /// The transient, tested for closure over the periods of the steady state, since a subharmonic does not close over
 /// one forcing period. Floquet multipliers hold near the orbit. A motion from far away, of whose energy friction
 /// takes little in each period, needs more time.
 sim::Transient transient(const sim::Model& model, const sim::SteadyState& state) {
+  if (is_too_slow(model, state)) {
+    sim::Transient none;
+    none.outcome = {core::OutcomeKind::event_limit, "the transient is too long"};
+    return none;
+  }
   const Patience patience;
   const auto follow = [&](int periods) {
     return sim::follow_transient(model, {.max_periods = periods,
                                          .period_ratio = state.outcome.ok() ? state.period_ratio : 1,
+                                         .settled = settled,
                                          .most_work = most_work,
                                          .give_up = [&] { return patience.is_over(); }});
   };
@@ -102,20 +121,38 @@ std::string reason_against_map(const sim::Model& model) {
   return {};
 }
 
+/// The steady state, and the transient beside it. A search that is cut short and finds none is repeated with all
+/// the work that a user's search may take if the transient settles, because then there is an orbit; if the
+/// transient does not settle, a longer search decides nothing here.
+std::pair<sim::SteadyState, std::optional<sim::Transient>> orbit_and_transient(const sim::Model& model,
+                                                                               double tolerance, bool has_map) {
+  sim::SteadyStateOptions options;
+  options.tolerance = tolerance;
+  // A model without a map: that the search ends is all that is seen.
+  options.most_work = has_map ? most_work : most_work / 6;
+  sim::SteadyState state = sim::steady_state(model, options);
+  if (!has_map) return {std::move(state), std::nullopt};
+  sim::Transient motion = transient(model, state);
+  if (!state.outcome.ok() && motion.settled) {
+    options.most_work = std::numeric_limits<long>::max();
+    state = sim::steady_state(model, options);
+    if (state.outcome.ok()) motion = transient(model, state);
+  }
+  return {std::move(state), std::move(motion)};
+}
+
 }  // namespace
 
 Findings compare_orbits(const scenarios::Scenario& scenario) {
   const sim::Model& model = scenario.model;
   Findings findings;
   const std::string reason = reason_against_map(model);
-  sim::SteadyStateOptions options;
-  options.tolerance = scenario.tolerance;
-  const sim::SteadyState state = sim::steady_state(model, options);
-  if (!reason.empty()) {
+  const auto [state, motion] = orbit_and_transient(model, scenario.tolerance, reason.empty());
+  if (!motion) {
     findings.push_back({"steady state against transient", Verdict::not_compared, 0.0, reason});
     return findings;
   }
-  findings.push_back(compare_transient(state, transient(model, state)));
+  findings.push_back(compare_transient(state, *motion));
   const double omega = sim::natural_frequency(model.oscillator);
   sim::PeriodMap map(model);
   map.limit(most_work);

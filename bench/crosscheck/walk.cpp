@@ -83,7 +83,7 @@ Walk walk(const sim::Model& model, const WalkOptions& options) {
   Extent size;
   const double spacing = options.duration / walk_samples;
   const int pieces = engine->accuracy() > 0.0 ? 1 : 8;
-  while (const sim::Interval* interval = engine->next(options.duration)) {
+  while (const sim::Interval* interval = engine->next(std::min(options.duration, options.until))) {
     if (options.with_energy) {
       audit.observe(*interval);
       size.add(interval->at(0.0));

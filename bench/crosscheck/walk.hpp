@@ -1,6 +1,7 @@
 #pragma once
 /// The data of a motion for a comparison: its events, equally spaced samples, its energy account.
 
+#include <limits>
 #include <vector>
 
 #include "core/outcome.hpp"
@@ -9,7 +10,8 @@
 namespace dualdamp::crosscheck {
 
 struct WalkOptions {
-  double duration = 0.0;  ///< s
+  double duration = 0.0;                                   ///< s
+  double until = std::numeric_limits<double>::infinity();  ///< no sample after this time is needed [s]
   /// A walk that takes more work (`sim::Engine::work`) ends early. So a stiff motion has a bounded cost, and ends
   /// at the same time on every machine.
   long most_work = 150'000;

@@ -73,7 +73,7 @@ Approach::Approach(const Model& model, const SteadyStateOptions& options, Period
       has_past_(map.engine().has_past()),
       recurrence_(omega_),
       growth_(options.max_periods),
-      patience_(patience_with(map.engine().accuracy())),
+      patience_(patience_with(map.engine().accuracy(), options.most_work)),
       begun_at_(map.engine().work()),
       next_trial_(first_trial),
       next_trial_work_(patience_.work / first_trial_of_work) {

@@ -14,6 +14,7 @@
 /// forcing periods.
 
 #include <algorithm>
+#include <limits>
 #include <vector>
 
 namespace dualdamp::sim {
@@ -23,9 +24,10 @@ struct Patience {
   long work;     ///< of the motion; all attempts to find an orbit near it may take as much again
 };
 
-/// `accuracy`: Engine::accuracy(), 0 for the exact engine.
-constexpr Patience patience_with(double accuracy) {
-  return accuracy > 0.0 ? Patience{1000, 3'000'000} : Patience{8000, 2'000'000};
+/// `accuracy`: Engine::accuracy(), 0 for the exact engine; `most_work`: a smaller limit of work.
+constexpr Patience patience_with(double accuracy, long most_work = std::numeric_limits<long>::max()) {
+  return accuracy > 0.0 ? Patience{1000, std::min(3'000'000L, most_work)}
+                        : Patience{8000, std::min(2'000'000L, most_work)};
 }
 
 class Growth {

@@ -60,7 +60,7 @@ class OrbitFinder {
     const Closure closure = closure_within(options_.tolerance, accuracy);
     options_.tolerance = closure.tolerance;
     rounding_closure_ = closure.rounding;
-    map_.limit(patience_with(accuracy).work);
+    map_.limit(patience_with(accuracy, options_.most_work).work);
   }
 
   void find(SteadyState& result);

@@ -3,6 +3,7 @@
 /// approaches. Its period is the forcing period or up to 64 of them (subharmonic motion).
 
 #include <complex>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -66,6 +67,9 @@ struct SteadyState {
 struct SteadyStateOptions {
   double tolerance = 1e-14;  ///< closure of the orbit relative to its size
   int max_periods = 20'000;  ///< of transient integrated before giving up
+  /// Work (`Engine::work`) of the motion before giving up, if less than that of `patience_with`; attempts to find
+  /// an orbit near the motion may take as much again.
+  long most_work = std::numeric_limits<long>::max();
   /// Whether to compute phase, fundamental, speeds and energy, which cost more than the orbit; else they stay zero.
   bool full_account = true;
   /// If no law holds the mass (smooth laws, compliant contacts), the mass never quite sticks. With this a rest is a
