@@ -1,12 +1,13 @@
 #include "sim/curves/continuation_steps.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <complex>
 #include <limits>
 #include <utility>
+#include <vector>
 
+#include "friction_models/state_sizes.hpp"
 #include "sim/engine/drive.hpp"
 
 namespace dualdamp::sim {
@@ -70,11 +71,7 @@ bool may_fold_between(const ForcingPeriod& a, const ForcingPeriod& b) {
 
 }  // namespace
 
-double driven_displacement(const Model& model) {
-  const double w = model.excitation.frequency;
-  const double stiffness = std::max(model.oscillator.stiffness, model.oscillator.mass * w * w);
-  return Drive(model.oscillator, model.excitation).force_scale() / stiffness;
-}
+double driven_displacement(const Model& model) { return driven_displacement(model.oscillator, model.excitation); }
 
 /// No orbit, slope, step or place is finer than the error of the engine allows.
 void Continuation::limit_by_accuracy(double accuracy) {
@@ -136,7 +133,15 @@ VectorXd Continuation::scale(const Node& node) const {
   const double size = std::max(
       {node.period.size, std::abs(z[1]) / omega(node.parameter), least * driven_displacement(at(node.parameter))});
   VectorXd result = VectorXd::Constant(z.size() + 1, size);
-  result[1] = size * omega(node.parameter);
+  const double speed = size * omega(node.parameter);
+  result[1] = speed;
+  Index next = 2;
+  for (std::size_t i = 0; i < model_.friction.size(); ++i) {
+    const friction::Memory& memory = node.period.begin.memories[i];
+    std::vector<double> sizes(memory.state.size());
+    model_.friction[i].scales(memory, sizes);
+    for (const double own : sizes) result[next++] = own == friction::size_of_velocity ? speed : size;
+  }
   result[z.size()] = parameter_scale(node.parameter);
   return result;
 }
@@ -179,13 +184,24 @@ std::optional<VectorXd> Continuation::tangent_near(const Node& node, const Vecto
   const Index n = node.period.monodromy.cols();
   if (!slope || along.size() != n + 1) return std::nullopt;
   const VectorXd size = scale(node);
+  const Solution direction = along_branch(node, *slope, along.cwiseQuotient(size), VectorXd::Unit(n + 1, n));
+  if (!direction.is_unique) return std::nullopt;
+  return VectorXd(direction.value.cwiseQuotient(size).normalized());
+}
+
+/// Solves for a change of the coordinates and the parameter: the change of (end - begin) and the product with
+/// `across`.
+Solution Continuation::along_branch(const Node& node, const VectorXd& slope, const VectorXd& across,
+                                    const VectorXd& right) const {
+  const Index n = node.period.monodromy.cols();
   MatrixXd system(n + 1, n + 1);
-  system.topRows(n) = closing(node.period, *slope) * size.asDiagonal();
-  system.row(n) = along.transpose();
-  const Eigen::FullPivLU<MatrixXd> lu(system);
-  if (!lu.isInvertible()) return std::nullopt;
-  const VectorXd direction = lu.solve(VectorXd::Unit(n + 1, n));
-  return VectorXd(direction.normalized());
+  system.topRows(n) = closing(node.period, slope);
+  system.row(n) = across.transpose();
+  VectorXd rows(n + 1);
+  rows << sizes_of_coordinates(node.period, omega(node.parameter)), 1.0;
+  VectorXd unknowns = rows;
+  unknowns[n] = std::ldexp(1.0, std::ilogb(parameter_scale(node.parameter)));
+  return solve_in_sizes(system, right, rows, unknowns);
 }
 
 /// The orbit at a fixed parameter nearest to `guess`.
@@ -196,7 +212,7 @@ std::optional<Node> Continuation::orbit(double parameter, const State& guess) {
   for (int i = 0; i < max_corrections && map.outcome().ok(); ++i) {
     if (closes(node, before)) return node;
     before = node.period.closure(omega(parameter));
-    const VectorXd step = newton_step(node.period);
+    const VectorXd step = newton_step(node.period, omega(parameter));
     node.period = map.from(step.size() > 0 ? displaced(node.period.begin, step) : node.period.end, Monodromy::with);
   }
   return std::nullopt;
@@ -237,13 +253,10 @@ std::optional<Node> Continuation::correct(const Node& from, double step) {
     VectorXd distance(n + 1);
     distance.head(n) = coordinates(start) - coordinates(from.period.begin);
     distance[n] = node.parameter - from.parameter;
-    MatrixXd system(n + 1, n + 1);
-    system.topRows(n) = closing(node.period, *slope);
-    system.row(n) = from.tangent.cwiseQuotient(size).transpose();
     VectorXd right(n + 1);
     right.head(n) = -gap;
     right[n] = step - from.tangent.dot(distance.cwiseQuotient(size));
-    const VectorXd change = Eigen::FullPivLU<MatrixXd>(system).solve(right);
+    const VectorXd change = along_branch(node, *slope, from.tangent.cwiseQuotient(size), right).value;
     if (!change.allFinite()) return std::nullopt;
     start = displaced(start, change.head(n));
     node.parameter += change[n];

@@ -89,6 +89,8 @@ class Continuation {
   [[nodiscard]] std::optional<Eigen::VectorXd> tangent(const Node& node, const Eigen::VectorXd& along);
   [[nodiscard]] std::optional<Eigen::VectorXd> tangent_near(const Node& node, const Eigen::VectorXd& along,
                                                             const Eigen::VectorXd& guess);
+  [[nodiscard]] Solution along_branch(const Node& node, const Eigen::VectorXd& slope, const Eigen::VectorXd& across,
+                                      const Eigen::VectorXd& right) const;
   [[nodiscard]] std::optional<Node> orbit(double parameter, const State& guess);
   [[nodiscard]] std::optional<Node> correct(const Node& from, double step);
   [[nodiscard]] std::optional<Node> cross_modes(const Node& from, double step);

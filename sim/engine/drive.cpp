@@ -124,4 +124,9 @@ Drive::Value Drive::at(double s) const {
   return base_ ? Value{level, rate, 0.0} : Value{0.0, 0.0, level};
 }
 
+double driven_displacement(const Oscillator& oscillator, const Excitation& excitation) {
+  const double w = excitation.frequency;
+  return Drive(oscillator, excitation).force_scale() / std::max(oscillator.stiffness, oscillator.mass * w * w);
+}
+
 }  // namespace dualdamp::sim

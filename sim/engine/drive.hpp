@@ -83,4 +83,7 @@ class Drive {
   bool base_ = false;
 };
 
+/// The displacement by the drive's force against the spring or the inertia, whichever is less [m].
+[[nodiscard]] double driven_displacement(const Oscillator& oscillator, const Excitation& excitation);
+
 }  // namespace dualdamp::sim

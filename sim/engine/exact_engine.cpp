@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 
 #include "core/crossing/first_crossing.hpp"
+#include "friction_models/state_sizes.hpp"
 #include "sim/engine/closed_form.hpp"
 #include "sim/engine/sticking_gate.hpp"
 #include "sim/validate.hpp"
@@ -155,10 +157,25 @@ void ExactEngine::begin_motion() {
 
 void ExactEngine::reset_sensitivity() {
   const Oscillator& rig = model_.oscillator;
-  double size = std::max(std::abs(x_), std::abs(v_) * std::sqrt(rig.mass / std::abs(rig.stiffness)));
-  for (const friction::Memory& memory : memories_)
-    for (const double state : memory.state) size = std::max(size, std::abs(state));
-  sensitivity_.begin(memories_, some_memory_, size);
+  const double omega = std::sqrt(std::abs(rig.stiffness) / rig.mass);
+  double size = std::max({std::abs(x_), std::abs(v_) / omega, drive_.force_scale() / std::abs(rig.stiffness)});
+  std::vector<double>& units = units_of_perturbations_;
+  units.assign(2, 1.0);
+  for (std::size_t i = 0; i < memories_.size(); ++i) {
+    const std::size_t first = units.size();
+    const std::vector<double>& state = memories_[i].state;
+    units.resize(first + state.size(), 0.0);
+    model_.friction[i].scales(memories_[i], std::span(units).subspan(first));
+    for (std::size_t k = 0; k < state.size(); ++k) {
+      const bool is_velocity = units[first + k] == friction::size_of_velocity;
+      units[first + k] = is_velocity ? omega : 1.0;
+      size = std::max(size, std::abs(state[k]) / units[first + k]);
+    }
+  }
+  units[1] = omega;
+  const double length = size > 0.0 && std::isfinite(size) ? size : 1.0;
+  for (double& unit : units) unit = std::ldexp(1.0, std::ilogb(length * unit) + 1);
+  sensitivity_.begin(memories_, some_memory_, units);
 }
 
 /// The end of a slip: stick or slip.

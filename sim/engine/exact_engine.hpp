@@ -138,6 +138,7 @@ class ExactEngine final : public Engine {
   std::optional<std::size_t> changed_law_;  ///< whose guard ended the interval before
 
   Sensitivity sensitivity_;
+  std::vector<double> units_of_perturbations_;
   std::vector<friction::Memory> memories_before_;  ///< at the start of the interval, while tracking
   std::vector<Eigen::Vector2d> responses_;
   std::unique_ptr<ExactInterval> interval_;

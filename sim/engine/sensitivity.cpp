@@ -17,18 +17,19 @@ Eigen::Index at(std::size_t i) { return static_cast<Eigen::Index>(i); }
 
 }  // namespace
 
-void Sensitivity::begin(const Memories& memories, bool with_memory, double size) {
-  unit_ = size > 1.0 && std::isfinite(size) ? std::exp2(std::ceil(std::log2(size))) : 1.0;
+void Sensitivity::begin(const Memories& memories, bool with_memory, const std::vector<double>& units) {
+  units_ = units;
   std::size_t columns = 2;
   for (const Memory& memory : memories) columns += memory.state.size();
   motion_.assign(columns, Eigen::Vector2d::Zero());
-  motion_[0].x() = motion_[1].y() = unit_;
+  motion_[0].x() = units_[0];
+  motion_[1].y() = units_[1];
   states_.resize(memories.size());
   std::size_t first = 2;
   for (std::size_t i = 0; i < memories.size(); ++i) {
     const std::size_t count = memories[i].state.size();
     states_[i].setZero(at(count), at(columns));
-    for (std::size_t k = 0; k < count; ++k) states_[i](at(k), at(first + k)) = unit_;
+    for (std::size_t k = 0; k < count; ++k) states_[i](at(k), at(first + k)) = units_[first + k];
     first += count;
   }
   guard_.assign(columns, 0.0);
@@ -175,7 +176,8 @@ Eigen::MatrixXd Sensitivity::matrix() const {
     result.middleRows(row, states.rows()) = states;
     row += states.rows();
   }
-  return result / unit_;
+  for (std::size_t c = 0; c < motion_.size(); ++c) result.col(at(c)) /= units_[c];
+  return result;
 }
 
 }  // namespace dualdamp::sim

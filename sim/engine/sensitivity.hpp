@@ -35,8 +35,9 @@ class Sensitivity {
   };
 
   /// Sets the derivative to identity for a motion that begins with these memories. `with_memory`: some law may have
-  /// states now or later. `size`: of the motion; a perturbation far below it would be lost in its rounding.
-  void begin(const Memories& memories, bool with_memory, double size);
+  /// states now or later. `units`: the perturbation of each coordinate, a power of two of the size of the motion:
+  /// one far below it would be lost in rounding, and beside one far above it the motion would be.
+  void begin(const Memories& memories, bool with_memory, const std::vector<double>& units);
 
   /// Computes the forces that perturbed states exert in the interval that begins now. `decays`: of the transients.
   void lay(Laws laws, const Memories& memories, const friction::Instant& now, friction::Direction direction,
@@ -86,7 +87,7 @@ class Sensitivity {
   void flow(double factor, Laws laws, const Memories& memories, const friction::Instant& now,
             friction::Direction direction);
 
-  double unit_ = 1.0;                    ///< size of the perturbation at the start, a power of two
+  std::vector<double> units_;            ///< of the perturbations at the start, powers of two
   std::vector<Eigen::Vector2d> motion_;  ///< of each column
   std::vector<Eigen::Vector2d> begin_;   ///< motion_ at the start of the interval
   std::vector<Eigen::MatrixXd> states_;  ///< of each law: state by column

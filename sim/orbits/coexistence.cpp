@@ -31,11 +31,12 @@ class HarmonicBalance {
     base_ = model.excitation.moves_base() ? drive.phasor(0) : Complex(0.0);
     const Complex damper = o_.damper_to == DamperTo::base ? Complex(0.0) : Complex(0.0, o_.damping * omega_);
     force_ = model.excitation.moves_base() ? (o_.mass * omega_ * omega_ - damper) * base_ : drive.phasor(0);
+    const double slow = 1e-3 * omega_ * driven_displacement(o_, model.excitation);
     for (const friction::Law& law : model.friction) {
       const friction::Memory memory = law.start({});
       if (law.has_memory()) continue;
-      friction_ += 0.5 * (law.force(memory, {.v = 1e-3}, Direction::forward) -
-                          law.force(memory, {.v = -1e-3}, Direction::backward));
+      friction_ += 0.5 * (law.force(memory, {.v = slow}, Direction::forward) -
+                          law.force(memory, {.v = -slow}, Direction::backward));
     }
   }
 

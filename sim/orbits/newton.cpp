@@ -12,7 +12,7 @@ Closure closure_within(double tolerance, double accuracy) {
 }
 
 double correction_left(const ForcingPeriod& period, double omega) {
-  const Eigen::VectorXd step = newton_step(period);
+  const Eigen::VectorXd step = newton_step(period, omega);
   if (step.size() == 0) return std::numeric_limits<double>::infinity();
   return distance(period.begin, displaced(period.begin, step), period.size, omega);
 }
@@ -26,7 +26,7 @@ NewtonResult close_orbit(PeriodMap& map, const NewtonOptions& options, ForcingPe
       result.found = true;
       return result;
     }
-    const Eigen::VectorXd step = newton_step(period);
+    const Eigen::VectorXd step = newton_step(period, options.omega);
     ++result.steps;
     const State fallback = period.end;
     if (step.size() > 0) {

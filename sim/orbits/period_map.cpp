@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "sim/engine/eigenvalues.hpp"
 
@@ -131,7 +132,36 @@ State displaced(const State& state, const Eigen::VectorXd& change) {
   return result;
 }
 
-Eigen::VectorXd newton_step(const ForcingPeriod& period) {
+namespace {
+
+/// The power of two below |value|; 1 for zero and for what is no number.
+double power_of_two(double value) {
+  return value != 0.0 && std::isfinite(value) ? std::ldexp(1.0, std::ilogb(value)) : 1.0;
+}
+
+}  // namespace
+
+Eigen::VectorXd sizes_of_coordinates(const ForcingPeriod& period, double omega) {
+  const Eigen::MatrixXd& matrix = period.monodromy;
+  const double length = power_of_two(std::max(period.size, std::abs(period.begin.v) / omega));
+  Eigen::VectorXd sizes = Eigen::VectorXd::Constant(matrix.cols(), length);
+  sizes[1] = length * power_of_two(omega);
+  for (Eigen::Index i = 2; i < sizes.size(); ++i) {
+    const double caused = std::abs(matrix(i, 0)) * sizes[0] + std::abs(matrix(i, 1)) * sizes[1];
+    const double effect = std::abs(matrix(0, i)) / sizes[0] + std::abs(matrix(1, i)) / sizes[1];
+    const bool acts = effect > 0.0 && caused > 0.0;
+    sizes[i] = power_of_two(acts ? std::sqrt(caused / effect) : effect > 0.0 ? 1.0 / effect : caused);
+  }
+  return sizes;
+}
+
+Solution solve_in_sizes(const Eigen::MatrixXd& system, const Eigen::VectorXd& right, const Eigen::VectorXd& rows,
+                        const Eigen::VectorXd& unknowns) {
+  const Eigen::FullPivLU<Eigen::MatrixXd> lu(rows.cwiseInverse().asDiagonal() * system * unknowns.asDiagonal());
+  return {lu.solve(right.cwiseQuotient(rows)).cwiseProduct(unknowns), lu.isInvertible()};
+}
+
+Eigen::VectorXd newton_step(const ForcingPeriod& period, double omega) {
   if (!period.ends_in_its_mode()) return {};
   const Eigen::VectorXd gap = coordinates(period.end) - coordinates(period.begin);
   const Eigen::Index n = gap.size();
@@ -141,11 +171,10 @@ Eigen::VectorXd newton_step(const ForcingPeriod& period) {
   for (Eigen::Index row = 2; row < n; ++row) {
     if (gap[row] == 0.0 && period.holds(row)) system(row, row) = 1.0;
   }
-  const Eigen::FullPivLU<Eigen::MatrixXd> lu(system);
-  if (!lu.isInvertible()) return {};
-  Eigen::VectorXd step = lu.solve(gap);
-  if (!step.allFinite()) return {};
-  return step;
+  const Eigen::VectorXd sizes = sizes_of_coordinates(period, omega);
+  Solution step = solve_in_sizes(system, gap, sizes, sizes);
+  if (!step.is_unique || !step.value.allFinite()) return {};
+  return std::move(step.value);
 }
 
 }  // namespace dualdamp::sim

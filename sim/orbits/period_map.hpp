@@ -96,9 +96,24 @@ class PeriodMap {
 /// direction unless it turns freely.
 [[nodiscard]] State displaced(const State& state, const Eigen::VectorXd& change);
 
-/// The change of the start by which Newton's method makes end = begin. Empty if the period ends in another mode or
-/// the equations are singular. A coordinate that the period does not change and that depends on itself alone (a
-/// slider that never slips) stays as it is.
-[[nodiscard]] Eigen::VectorXd newton_step(const ForcingPeriod& period);
+/// Sizes of the coordinates, powers of two: x as the motion, v as omega [rad/s] times that, and a law state such
+/// that it acts on the motion as the motion acts on it. In them the entries of the monodromy matrix are of one
+/// order whatever the units of length, force and time, and a change of these units by powers of two changes no
+/// digit.
+[[nodiscard]] Eigen::VectorXd sizes_of_coordinates(const ForcingPeriod& period, double omega);
+
+struct Solution {
+  Eigen::VectorXd value;
+  bool is_unique = false;  ///< the equations are regular
+};
+
+/// Solves linear equations whose rows and unknowns have these sizes.
+[[nodiscard]] Solution solve_in_sizes(const Eigen::MatrixXd& system, const Eigen::VectorXd& right,
+                                      const Eigen::VectorXd& rows, const Eigen::VectorXd& unknowns);
+
+/// The change of the start by which Newton's method makes end = begin; `omega` [rad/s]: of the drive. Empty if the
+/// period ends in another mode or the equations are singular. A coordinate that the period does not change and that
+/// depends on itself alone (a slider that never slips) stays as it is.
+[[nodiscard]] Eigen::VectorXd newton_step(const ForcingPeriod& period, double omega);
 
 }  // namespace dualdamp::sim

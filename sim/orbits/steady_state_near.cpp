@@ -36,7 +36,7 @@ bool correct(PeriodMap& map, const KnownOrbit& near, const Model& model, const S
     closes = closure <= tolerance;
     before = closure;
     period.monodromy = near.monodromy;
-    const Eigen::VectorXd step = newton_step(period);
+    const Eigen::VectorXd step = newton_step(period, model.excitation.frequency);
     if (step.size() == 0) return false;
     start = displaced(start, step);
   }

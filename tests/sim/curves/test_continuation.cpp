@@ -334,3 +334,44 @@ TEST_CASE("an undamped resonance ends a branch because its amplitude grows witho
   REQUIRE(branch.warnings.size() == 1);
   CHECK(branch.warnings[0].find("grows without bound") != std::string::npos);
 }
+
+TEST_CASE("a branch is the same in any units of length, force and time") {
+  // Powers of two change no digit of a motion. A length of 1e-16 m or 1e16 m had stopped a branch at its first
+  // point; in microseconds the entries of the monodromy matrix were 1e-8 off.
+  struct Units {
+    double force, length, time;
+  };
+  const bool is_damped_contact = GENERATE(false, true);
+  const BranchParameter parameter = GENERATE(BranchParameter::amplitude, BranchParameter::frequency);
+  const bool by_frequency = parameter == BranchParameter::frequency;
+  const auto branch_in = [&](const Units& u) {
+    sim::Model model;
+    model.oscillator = {.mass = u.force * u.time * u.time / u.length,
+                        .stiffness = 100.0 * u.force / u.length,
+                        .damping = 4.0 * u.force * u.time / u.length};
+    model.excitation = {
+        .type = sim::ExcitationType::base_harmonic, .amplitude = 0.1 * u.length, .frequency = 10.0 / u.time};
+    if (is_damped_contact)
+      model.friction.emplace_back(friction::ContactCompliance(
+          2.0 * u.force, 2.5 * u.force, 1000.0 * u.force / u.length, u.force * u.time / u.length));
+    else
+      model.friction.emplace_back(friction::Coulomb(2.0 * u.force, 2.0 * u.force));
+    return by_frequency ? continue_branch(model, parameter, 3.0 / u.time, 20.0 / u.time)
+                        : continue_branch(model, parameter, 0.05 * u.length, 0.2 * u.length);
+  };
+  const sim::Branch first = branch_in({1.0, 1.0, 1.0});
+  REQUIRE(first.end == sim::BranchEnd::range);
+  for (const Units u : {Units{1.0, 0x1p-53, 1.0}, Units{1.0, 0x1p53, 1.0}, Units{0x1p60, 1.0, 1.0},
+                        Units{1.0, 1.0, 0x1p-20}, Units{1.0, 1.0, 0x1p30}, Units{0x1p20, 0x1p-30, 0x1p-15}}) {
+    CAPTURE(is_damped_contact, by_frequency, u.force, u.length, u.time);
+    const sim::Branch other = branch_in(u);
+    CHECK(other.end == first.end);
+    REQUIRE(other.points.size() == first.points.size());
+    CHECK(other.changes.size() == first.changes.size());
+    for (std::size_t i = 0; i < first.points.size(); ++i) {
+      const double unit = by_frequency ? 1.0 / u.time : u.length;
+      CHECK(other.points[i].parameter / unit == Approx(first.points[i].parameter).epsilon(1e-9));
+      CHECK(other.points[i].state.peak / u.length == Approx(first.points[i].state.peak).epsilon(1e-9));
+    }
+  }
+}

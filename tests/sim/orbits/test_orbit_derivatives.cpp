@@ -188,3 +188,39 @@ TEST_CASE("a derivative that is not finite does not attract") {
   period.monodromy(2, 0) = std::numeric_limits<double>::quiet_NaN();
   CHECK_FALSE(period.radius() < 1.0);
 }
+
+TEST_CASE("the derivative over a period has the same digits in any units of length, force and time") {
+  struct Units {
+    double force, length, time;
+  };
+  const auto period_in = [](const Units& u) {
+    sim::Model model;
+    model.oscillator = {.mass = u.force * u.time * u.time / u.length,
+                        .stiffness = 100.0 * u.force / u.length,
+                        .damping = 4.0 * u.force * u.time / u.length};
+    model.excitation = {
+        .type = sim::ExcitationType::base_harmonic, .amplitude = 0.1 * u.length, .frequency = 3.0 / u.time};
+    add_law(model, "contact_compliance",
+            {{"kinetic", 2.0 * u.force},
+             {"static", 2.5 * u.force},
+             {"contact_stiffness", 1000.0 * u.force / u.length},
+             {"contact_damping", u.force * u.time / u.length}});
+    sim::PeriodMap map(model);
+    static_cast<void>(map.from_start(0.0, 0.0, Monodromy::without));
+    return map.next(Monodromy::with);
+  };
+  const ForcingPeriod first = period_in({1.0, 1.0, 1.0});
+  REQUIRE(first.monodromy.cols() == 3);
+  // In microseconds the unit perturbations of position and speed were so different that entries were 1e-8 off.
+  for (const Units u :
+       {Units{1.0, 0x1p-53, 1.0}, Units{0x1p60, 0x1p53, 1.0}, Units{1.0, 1.0, 0x1p-20}, Units{1.0, 1.0, 0x1p30}}) {
+    CAPTURE(u.force, u.length, u.time);
+    const ForcingPeriod other = period_in(u);
+    CHECK(other.end.x / u.length == first.end.x);
+    const auto size = sim::sizes_of_coordinates(first, 3.0);
+    const auto other_size = sim::sizes_of_coordinates(other, 3.0 / u.time);
+    for (Eigen::Index i = 0; i < 3; ++i)
+      for (Eigen::Index j = 0; j < 3; ++j)
+        CHECK(other.monodromy(i, j) * other_size[j] / other_size[i] == first.monodromy(i, j) * size[j] / size[i]);
+  }
+}
