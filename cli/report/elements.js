@@ -29,8 +29,10 @@ function grid(head, rows, { tall = false, caption } = {}) {
   const cell = (content, tag, isText) => {
     const item = typeof content === "object" && content !== null && !(content instanceof Node) ? content : { text: content };
     const text = typeof item.text === "number" ? short(item.text) : item.text ?? "–";
+    // Names of files may be longer than a window is wide.
+    const isLong = tag === "td" && typeof text === "string" && text.length > 40;
     return make(tag, {
-      class: [isText ? "text" : "", item.class ?? ""].join(" ").trim() || null, style: item.style, title: item.title,
+      class: [isText ? "text" : "", item.class ?? "", isLong && item.class !== "long" ? "long" : ""].join(" ").trim() || null, style: item.style, title: item.title,
       "data-path": item.path, "data-value": item.path ? JSON.stringify(item.value ?? item.text) : null,
       scope: tag === "th" ? "col" : null,
     }, tag === "th" ? breakable(text) : text);
