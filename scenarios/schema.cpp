@@ -85,6 +85,14 @@ Json list_schema(const Field& field, Json item) {
   return schema;
 }
 
+/// Names that commas separate; `words`: those that are possible, empty: any.
+std::string names_pattern(const std::vector<std::string>& words) {
+  std::string name;
+  for (const std::string& word : words) name += (name.empty() ? "" : "|") + literal(word);
+  name = words.empty() ? "[^,]*[^, ][^,]*" : " *(" + name + ") *";
+  return "^" + name + "(," + name + ")*$";
+}
+
 /// A map whose key selects the section: first the key, then the section with its name. So editors report faults of
 /// that section only, not of all.
 Json choice_schema(const Choice& choice, const std::string& name) {
@@ -142,7 +150,9 @@ Json field_form(const Field& field) {
     case Kind::integers:
       return list_schema(field, integer_schema(field.range));
     case Kind::word_list:
-      return list_schema(field, {{"enum", field.words}});
+      return {{"anyOf",
+               {list_schema(field, field.words.empty() ? Json{{"type", "string"}} : Json{{"enum", field.words}}),
+                {{"type", "string"}, {"pattern", names_pattern(field.words)}}}}};
     case Kind::scalar:
       return {{"anyOf", {number_schema({}), {{"type", "boolean"}}, {{"type", "string"}}}}};
     case Kind::sweep:

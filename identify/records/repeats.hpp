@@ -17,6 +17,14 @@ namespace dualdamp::identify {
 /// force.
 [[nodiscard]] bool share_readings(const Record& a, const Record& b, bool are_loops);
 
+/// Numbers by which readings are known again where the record itself is no longer at hand: for each signal its
+/// number of values, the logarithm of the largest one, and three sums with fixed weights in units of the largest.
+/// Loops: of the force; else of x, v, a, the extremes and the pairs.
+[[nodiscard]] std::vector<double> marks_of(const Record& record, bool is_loop);
+
+/// Whether two such lists have a signal in common, except for the rounding of units.
+[[nodiscard]] bool share_marks(const std::vector<double>& a, const std::vector<double>& b);
+
 /// Warnings about readings that appear twice in a record.
 [[nodiscard]] std::vector<std::string> repeated_readings(const Record& record);
 

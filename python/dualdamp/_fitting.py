@@ -13,6 +13,9 @@ from ._run import run_source, source_of
 from ._scenario import flow, plain
 from ._systems import as_mapping
 
+# What may be said of a record, as keywords of `fit` and `predict`: of all records.
+OF_RECORDS = ("drive", "loop", "units", "columns", "scale", "decimal", "no_header", "sigma_x", "sigma_v", "sigma_a", "sigma_force", "sigma_phase")
+
 
 def fit(
     law,
@@ -56,11 +59,12 @@ def fit(
     record : mapping or list of mapping, optional
         Statements about the records: ``{"units": {"x": "mm"}, "sigma_x": "2 um", "loop": True}``; ``{"drive": "force"}`` for a
         record that its column ``force`` drives. One mapping applies to all records.
-        A list has one mapping for each record, first those of `data`, then those of `validate`.
+        A list has one mapping for each record, first those of `data`, then those of `validate`. Its keys may also stand alone, for all
+        records that do not state them: ``drive="force"``, ``loop=True``, ``sigma_x="2 um"``.
     out, threads
         As in `run`.
     **options
-        Further keys of the analysis ``fit``: ``free="stiffness"``, ``bounds``, ``starts``, ``robust``, ``profile``.
+        Further keys of the analysis ``fit``: ``free=["mass", "stiffness"]``, ``bounds``, ``starts``, ``robust``, ``profile``.
 
     Returns
     -------
@@ -88,7 +92,8 @@ def fit(
     texts = {}
     system = {"mass": mass, "stiffness": stiffness, "damping": damping}
     fitted, kept = _listed(data), _listed(validate)
-    records = _records(fitted + kept, record, texts)
+    for_all = {name: options.pop(name) for name in OF_RECORDS if name in options}
+    records = _records(fitted + kept, record, for_all, texts)
     analysis = {"type": "fit", "data": records[: len(fitted)], **options}
     if validate is not None:
         analysis["validate"] = records[len(fitted) :]
@@ -100,7 +105,7 @@ def fit(
     return run_source(source_of(scenario, data=texts), out=out, threads=threads)
 
 
-def predict(fitted, data, *, excitation=None, record=None, out=None, threads=0):
+def predict(fitted, data, *, excitation=None, record=None, out=None, threads=0, **options):
     """Predict other records of a rig with the parameters of a fit, and say whether they contradict the fit.
 
     Parameters
@@ -115,6 +120,8 @@ def predict(fitted, data, *, excitation=None, record=None, out=None, threads=0):
         had none.
     out, threads
         As in `run`.
+    **options
+        Keys of `record` that hold for all records, as in `fit`: ``drive="force"``.
 
     Returns
     -------
@@ -123,13 +130,18 @@ def predict(fitted, data, *, excitation=None, record=None, out=None, threads=0):
 
     Raises
     ------
-    InvalidScenario, NumericalFailure
+    InvalidScenario
+        As `run`; also for a record that was fitted: the fit describes it, and predicts nothing.
+    NumericalFailure
         As `run`.
     """
+    for name in options:
+        if name not in OF_RECORDS:
+            raise TypeError(f"predict has no option {name!r}; of records it takes: {', '.join(OF_RECORDS)}")
     if getattr(fitted, "analysis", None) != "fit":
         raise TypeError(f"predict takes the result of a fit, not of {getattr(fitted, 'analysis', repr(fitted))}")
     texts = {}
-    analysis = {**json.loads(core.prediction_keys(fitted._run)), "data": _records(_listed(data), record, texts)}
+    analysis = {**json.loads(core.prediction_keys(fitted._run)), "data": _records(_listed(data), record, options, texts)}
     if excitation is None:
         analysis["drive_of_fit"] = True
     changes = {"analysis": analysis, **({} if excitation is None else {"excitation": as_mapping(excitation)})}
@@ -143,8 +155,8 @@ def _listed(data):
     return [] if data is None else list(data) if isinstance(data, (list, tuple)) else [data]
 
 
-def _records(data, record, texts):
-    """The value of the key `data`. The text of data in memory is added to `texts`."""
+def _records(data, record, for_all, texts):
+    """The value of the key `data`. The text of data in memory is added to `texts`. `for_all`: what is said of all records."""
     said = list(record) if isinstance(record, (list, tuple)) else [record] * len(data)
     if len(said) != len(data):
         raise ValueError(f"there are {len(data)} records, and 'record' says something of {len(said)}")
@@ -158,5 +170,5 @@ def _records(data, record, texts):
             name = f"data {len(texts) + 1}"
             texts[name] = in_memory(one)
         refuse_twice("record", more or {}, ("file",))
-        items.append({"file": name, **(more or {})})
+        items.append({"file": name, **for_all, **(more or {})})
     return items

@@ -32,9 +32,9 @@ Field law_list() {
 Section fit_keys() {
   return {{data_list("data", "data files of the rig: pairs, responses, decays, histories, loops").required(),
            data_list("validate", "further data files, which the fitted rig has to predict"), law_list(),
-           text("free",
-                "names of numbers to fit in addition to those that the system leaves out, separated by commas: "
-                "\"kinetic, mass\"; the search begins at the values that the system states"),
+           name_list("free",
+                     "names of numbers to fit in addition to those that the system leaves out: [kinetic, mass]; "
+                     "the search begins at the values that the system states"),
            section_list("bounds",
                         {{text("name", "name of a fitted number").required(), text("low", "its smallest value"),
                           text("high", "its largest value")}},
@@ -112,9 +112,14 @@ void check_fit(CheckedFile& file) {
   read_data_list(file, "validate");
   take_recorded_drives(file, leaves_drive_open(file));
   const bool laws = file.has("analysis", "laws");
-  if (laws && file.stands_in_file("system", "friction"))
-    file.complain("analysis.laws", "'analysis.laws' stands beside 'system.friction', which it replaces",
-                  "one of the two");
+  if (laws && file.stands_in_file("system", "friction")) {
+    file.withdraw("system.friction");
+    file.complain(
+        "analysis.laws",
+        "'analysis.laws' stands beside 'system.friction', which it replaces: of laws that are compared, every "
+        "parameter is sought, and none is stated",
+        "one of the two; a parameter can be stated in a fit of one law");
+  }
   if (file.has("system", "damping_ratio"))
     file.complain("system.damping_ratio", "a damping ratio needs the mass and the stiffness",
                   "damping, or both constants");
@@ -151,7 +156,8 @@ std::unique_ptr<const Question> ask_fit(CheckedValues&& values) {
                                        identify::FitOptions{.robust = values.analysis.value("robust", false),
                                                             .profile = values.analysis.value("profile", true),
                                                             .starts = values.analysis.value("starts", 0)},
-                                       values.excitation, std::move(setup.excitations), std::move(warnings));
+                                       values.excitation, std::move(setup.excitations),
+                                       marks_of_files(values.analysis, values.files), std::move(warnings));
 }
 
 /// `unit`: of the rms.
@@ -221,6 +227,7 @@ Answer FitQuestion::run(const RunContext& /*context*/) const {
     if (prediction.outcome.ok()) add_curves(prediction.fit, validation_, "prediction", answer);
     answer.result["verdict"] = prediction.text;
   }
+  answer.result["fitted_readings"] = marks_;
   answer.result["rig"] = rig_text(best, {laws_text(best.rig) + " fitted to " + data_.front()->label, excitation_});
   std::vector<RigText> texts;
   answer.result["scenarios"] = Json::array();

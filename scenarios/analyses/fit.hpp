@@ -18,13 +18,14 @@ class FitQuestion final : public Question {
 
   FitQuestion(std::vector<Candidate> candidates, identify::Experiments data, identify::Experiments validation,
               identify::FitOptions options, Json excitation, std::vector<Json> excitations,
-              std::vector<std::string> warnings)
+              std::vector<double> marks, std::vector<std::string> warnings)
       : candidates_(std::move(candidates)),
         data_(std::move(data)),
         validation_(std::move(validation)),
         options_(std::move(options)),
         excitation_(std::move(excitation)),
         excitations_(std::move(excitations)),
+        marks_(std::move(marks)),
         warnings_(std::move(warnings)) {}
 
   [[nodiscard]] Answer run(const RunContext& context) const override;
@@ -36,6 +37,7 @@ class FitQuestion final : public Question {
   identify::FitOptions options_;
   Json excitation_;                ///< of the scenario: the drive of records without their own
   std::vector<Json> excitations_;  ///< of scenarios of each experiment of `data_`
+  std::vector<double> marks_;      ///< of the readings that are fitted (`identify::marks_of`)
   std::vector<std::string> warnings_;
 };
 

@@ -23,23 +23,29 @@ namespace dualdamp::scenarios {
 namespace {
 
 constexpr std::size_t most_parameters = 100;
+constexpr std::size_t most_marks = 100'000;
 
 Section predict_keys() {
-  return {{data_list("data", "data files that the rig has to predict").required(),
-           text("free",
-                "names of the numbers that were fitted, separated by commas; they are fitted to the data to find "
-                "the error that the same laws can attain"),
-           quantities("covariance", {"1"},
-                      "covariance of these numbers, row by row, SI; it gives the error that their uncertainty "
-                      "explains")
-               .items(1, most_parameters * most_parameters),
-           quantities("undetermined", {"1"},
-                      "changes of these numbers that the fit does not determine, one after the other, SI; their "
-                      "size does not matter")
-               .items(1, most_parameters * most_parameters),
-           boolean("drive_of_fit",
-                   "the drive is that of the fit, and nothing states that these records had it: the prediction is "
-                   "refused if they show that they had not")}};
+  return {
+      {data_list("data", "data files that the rig has to predict").required(),
+       name_list("free",
+                 "names of the numbers that were fitted; they are fitted to the data to find the error that the "
+                 "same laws can attain"),
+       quantities("covariance", {"1"},
+                  "covariance of these numbers, row by row, SI; it gives the error that their uncertainty "
+                  "explains")
+           .items(1, most_parameters * most_parameters),
+       quantities("undetermined", {"1"},
+                  "changes of these numbers that the fit does not determine, one after the other, SI; their "
+                  "size does not matter")
+           .items(1, most_parameters * most_parameters),
+       quantities("fitted_readings", {"1"},
+                  "marks of the readings that were fitted, 'fitted_readings' of the fit: data with the same "
+                  "readings are refused")
+           .items(1, most_marks),
+       boolean("drive_of_fit",
+               "the drive is that of the fit, and nothing states that these records had it: the prediction is "
+               "refused if they show that they had not")}};
 }
 
 std::vector<identify::FitParameter> fitted_parameters(const identify::Rig& rig, const Json& analysis,
@@ -98,6 +104,11 @@ void check_laws(CheckedFile& file) {
 
 void check_predict(CheckedFile& file) {
   read_data_list(file, "data");
+  if (file.has("analysis", "fitted_readings")) {
+    std::vector<double> marks;
+    for (const Json& mark : file.values().at("analysis").at("fitted_readings")) marks.push_back(number(mark));
+    refuse_fitted(file, marks);
+  }
   const bool assumes_drive = file.values().at("analysis").value("drive_of_fit", false);
   take_recorded_drives(file, assumes_drive || leaves_drive_open(file));
   check_laws(file);

@@ -45,6 +45,12 @@ void CheckedFile::complain(const std::string& path, std::string message, std::st
   complain(place_of(path), std::move(message), std::move(allowed), std::move(found), std::move(suggestion));
 }
 
+void CheckedFile::withdraw(const std::string& path) {
+  std::erase_if(reading_.problems, [start = "'" + path](const core::Diagnostic& problem) {
+    return problem.message.starts_with(start);
+  });
+}
+
 void CheckedFile::take_over(const std::vector<core::Diagnostic>& problems) {
   reading_.problems.insert(reading_.problems.end(), problems.begin(), problems.end());
 }

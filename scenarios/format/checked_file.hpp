@@ -102,6 +102,9 @@ class CheckedFile {
   void complain(const std::string& path, std::string message, std::string allowed = {}, std::string found = {},
                 std::string suggestion = {});
 
+  /// Takes back the problems whose messages begin with a path, where another message gives the reason of all.
+  void withdraw(const std::string& path);
+
   /// Adds problems that were found and located elsewhere.
   void take_over(const std::vector<core::Diagnostic>& problems);
 

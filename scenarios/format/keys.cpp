@@ -174,6 +174,11 @@ Field word_list(std::string name, std::vector<std::string> list, std::string mea
   return make(Kind::word_list, std::move(name), std::move(meaning)).or_words(std::move(list)).items(1, count);
 }
 
+Field name_list(std::string name, std::string meaning) {
+  constexpr std::size_t most = 100;
+  return make(Kind::word_list, std::move(name), std::move(meaning)).items(1, most);
+}
+
 Field scalar(std::string name, std::string meaning) {
   return make(Kind::scalar, std::move(name), std::move(meaning));
 }
@@ -279,7 +284,8 @@ std::string describe_values(const Field& field, core::Coordinate coordinate) {
     case Kind::integers:
       return list("whole numbers" + (bounded ? ", each " + bounds : ""));
     case Kind::word_list:
-      return "a list of " + core::joined(field.words);
+      return "a list of " + (field.words.empty() ? "names" : core::joined(field.words)) +
+             "; or a text that separates them by commas";
     case Kind::scalar:
       return "a number, true, false or a text";
     case Kind::sweep:

@@ -29,7 +29,7 @@ enum class Kind {
   quantities,  ///< a list of them
   grid,        ///< a list of them, or {from, to, count, spacing}
   integers,    ///< a list of whole numbers
-  word_list,   ///< a list of distinct `words`
+  word_list,   ///< distinct `words`, or any names if there are none: a list, or a text with commas
   scalar,      ///< a number, true, false or a text
   choice,      ///< a map, or (when `listed`) a list of maps
   sweep,       ///< a map of paths of other keys and their values (swept_keys.hpp)
@@ -115,6 +115,8 @@ struct Choice {
 [[nodiscard]] Field integer(std::string name, std::string meaning);
 [[nodiscard]] Field integers(std::string name, std::string meaning);
 [[nodiscard]] Field word_list(std::string name, std::vector<std::string> list, std::string meaning);
+/// A list of any names.
+[[nodiscard]] Field name_list(std::string name, std::string meaning);
 [[nodiscard]] Field scalar(std::string name, std::string meaning);
 [[nodiscard]] Field quantity(std::string name, std::vector<std::string> units, std::string meaning);
 /// "mass_uncertainty"

@@ -144,7 +144,7 @@ class Reader {
       case Kind::quantities:
       case Kind::integers:
       case Kind::word_list:
-        return list(node, field, path);
+        return list(field.kind == Kind::word_list ? list_of_names(node) : node, field, path);
       default:
         break;
     }
@@ -171,7 +171,7 @@ class Reader {
   }
 
   Json word(const Node& node, const Field& field, const std::string& path) {
-    if (std::ranges::find(field.words, node.text) != field.words.end()) return node.text;
+    if (field.words.empty() || std::ranges::find(field.words, node.text) != field.words.end()) return node.text;
     complain(node.place, "'" + path + "' cannot be '" + shown(node) + "'", core::joined(field.words), shown(node),
              nearest(node.text, field.words));
     return nullptr;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <charconv>
 #include <optional>
+#include <sstream>
+#include <utility>
 
 #include "core/utf8.hpp"
 #include "scenarios/format/text_checks.hpp"
@@ -20,6 +22,25 @@ Node map_of(const std::string& key, const Node& value) {
   map.place = value.place;
   map.entries.push_back({key, value.place, value});
   return map;
+}
+
+Node list_of_names(const Node& node) {
+  if (node.kind != Node::Kind::scalar) return node;
+  Node list;
+  list.kind = Node::Kind::sequence;
+  list.place = node.place;
+  list.key_place = node.key_place;
+  std::istringstream in(node.text);
+  for (std::string name; std::getline(in, name, ',');) {
+    const std::size_t first = name.find_first_not_of(" \t");
+    if (first == std::string::npos) continue;
+    Node item;
+    item.kind = Node::Kind::scalar;
+    item.place = node.place;
+    item.text = name.substr(first, name.find_last_not_of(" \t") - first + 1);
+    list.items.push_back(std::move(item));
+  }
+  return list;
 }
 
 const Entry* Node::find(std::string_view key) const {

@@ -58,6 +58,9 @@ struct Entry {
   Node value;
 };
 
+/// The list of the names in a text, which commas separate. Another node remains as it is.
+[[nodiscard]] Node list_of_names(const Node& node);
+
 /// The map {key: value}, at the place of the value.
 [[nodiscard]] Node map_of(const std::string& key, const Node& value);
 

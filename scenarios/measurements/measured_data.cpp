@@ -205,16 +205,21 @@ double stated_frequency(const CheckedFile& file) {
   return known ? *file.number_at("excitation", "frequency") : identify::unknown;
 }
 
+/// Whether the file is a friction loop.
+bool is_loop(const Json& analysis, const DataFile& file) {
+  const Json& list = analysis.at(file.key);
+  const Json& keys = list.is_array() ? list.at(file.item) : list;
+  return keys.is_object() && keys.value("loop", false);
+}
+
 /// Refuses the same readings twice: they would count twice, or predict themselves.
 void refuse_repeated(CheckedFile& file, const std::string& key, const identify::MeasuredRecord& data,
                      const Json& item) {
-  const bool is_loop = item.value("loop", false);
+  const bool loop = item.value("loop", false);
   for (const DataFile& other : file.files) {
-    const Json& list = file.values().at("analysis").at(other.key);
-    const Json& keys = list.is_array() ? list[other.item] : list;
     // In a loop the force is compared, in a history the motion under the force.
-    const bool other_is_loop = keys.is_object() && keys.value("loop", false);
-    if (is_loop != other_is_loop || !identify::share_readings(other.data.record, data.record, is_loop)) continue;
+    const bool other_is_loop = is_loop(file.values().at("analysis"), other);
+    if (loop != other_is_loop || !identify::share_readings(other.data.record, data.record, loop)) continue;
     file.complain(key, "'" + key + "' holds the same data as " + other.name + " of 'analysis." + other.key + "'",
                   other.key == "data" && key.starts_with("analysis.validate") ? "a record that was not fitted"
                                                                               : "each record once");
@@ -248,6 +253,25 @@ void read_data_list(CheckedFile& file, const std::string& name) {
     } catch (const core::InputError& error) {
       file.take_over(error.diagnostics());
     }
+  }
+}
+
+std::vector<double> marks_of_files(const Json& analysis, const std::vector<DataFile>& files) {
+  std::vector<double> marks;
+  for (const DataFile& file : files)
+    if (file.key == "data")
+      std::ranges::copy(identify::marks_of(file.data.record, is_loop(analysis, file)), std::back_inserter(marks));
+  return marks;
+}
+
+void refuse_fitted(CheckedFile& file, const std::vector<double>& marks) {
+  const Json& analysis = file.values().at("analysis");
+  for (const DataFile& one : file.files) {
+    if (!identify::share_marks(marks, identify::marks_of(one.data.record, is_loop(analysis, one)))) continue;
+    const bool is_list = analysis.at(one.key).is_array();
+    const std::string key = "analysis." + one.key + (is_list ? "[" + std::to_string(one.item) + "]" : "");
+    file.complain(key, one.name + " holds readings that were fitted: the fit describes them, and predicts nothing",
+                  "a record that was not fitted");
   }
 }
 

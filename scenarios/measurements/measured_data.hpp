@@ -18,6 +18,13 @@ namespace dualdamp::scenarios {
 /// Reads the records of such a list into `file.files`.
 void read_data_list(CheckedFile& file, const std::string& name);
 
+/// Marks of the readings of the files of `analysis.data`, by which a prediction knows them again
+/// (`identify::marks_of`).
+[[nodiscard]] std::vector<double> marks_of_files(const Json& analysis, const std::vector<DataFile>& files);
+
+/// Refuses files of `analysis.data` whose readings are among these marks: a record that was fitted predicts itself.
+void refuse_fitted(CheckedFile& file, const std::vector<double>& marks);
+
 /// Reads the record of `analysis.data`, if it is there, into `file.data`.
 void read_data(CheckedFile& file);
 

@@ -180,6 +180,8 @@ ResultFields fit_fields() {
       {"covariance[][]", "",
        "covariance of the parameters, in their order, without changes along 'undetermined'; 0: no covariance"},
       {"undetermined[][]", "", "changes of the parameters, in their order, that the data do not show at any size"},
+      {"fitted_readings[]", "1",
+       "marks of the fitted readings, five numbers for each signal, by which 'predict' knows them again"},
       {"starts", "1", "starts that were tried"},
       {"laws[].law", "", "laws that were compared, best first"},
       {"laws[].parameters", "1", "number of fitted parameters"},

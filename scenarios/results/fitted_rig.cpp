@@ -174,6 +174,11 @@ bool is_recorded(const identify::Experiment& experiment, const RigText& text) {
   return text.excitation.is_object() && samples_of(text.excitation.value("type", "")) == SamplesIn::data_file;
 }
 
+/// Name of the table with the drive of an experiment.
+std::string drive_name(std::size_t experiments, std::size_t index) {
+  return "drive" + (experiments == 1 ? "" : "_" + std::to_string(index));
+}
+
 /// The samples of a drive. Their times begin at 0, as those of the scenario.
 Table drive_table(const std::string& name, const sim::Excitation& drive, core::Coordinate coordinate) {
   const bool of_base = drive.moves_base();
@@ -205,6 +210,15 @@ std::string scenario_text(const identify::Fit& fit, const identify::Experiments&
   Json scenario = rig_json(fit, text, experiment.drive ? *experiment.drive : fit.rig.known.excitation);
   const bool is_friction_alone = fill_in_constants(scenario["system"]);
   const identify::OwnValues& own = fit.own[index];
+  std::string remark;
+  if (is_recorded(experiment, text) && !scenario["excitation"].contains("times") &&
+      !scenario["excitation"].contains("file")) {
+    const std::string file = drive_name(experiments.size(), index) + ".csv";
+    scenario["excitation"]["file"] = file;
+    remark =
+        "# The drive has too many samples for a list: give the fit a directory (out), and run this text beside " +
+        file + " there.\n";
+  }
   switch (experiment.kind) {
     case ExperimentKind::steady_states:
       ask_for_states(experiment, scenario);
@@ -224,7 +238,8 @@ std::string scenario_text(const identify::Fit& fit, const identify::Experiments&
       scenario["analysis"] = {{"type", "free_decay"}, {"peaks", 10}};
       break;
   }
-  return (is_friction_alone
+  return remark +
+         (is_friction_alone
               ? "# A loop shows the friction alone: replace mass, stiffness and initial by those of your rig.\n"
               : "") +
          yaml(scenario);
@@ -237,8 +252,9 @@ void add_scenario_files(const identify::Fit& fit, const identify::Experiments& e
     RigText text = texts[e];
     if (is_recorded(*experiments[e], text)) {
       const sim::Excitation& drive = experiments[e]->drive ? *experiments[e]->drive : fit.rig.known.excitation;
-      answer.tables.push_back(drive_table("drive" + number, drive, fit.rig.known.oscillator.coordinate));
-      text.excitation = section_of("drive" + number + ".csv", drive);
+      const std::string name = drive_name(experiments.size(), e);
+      answer.tables.push_back(drive_table(name, drive, fit.rig.known.oscillator.coordinate));
+      text.excitation = section_of(name + ".csv", drive);
     }
     answer.files.push_back({"fitted" + number + ".yaml", scenario_text(fit, experiments, e, text)});
   }

@@ -19,16 +19,18 @@ bool is_of_one_record(const std::string& name) {
 }  // namespace
 
 Json prediction_keys(const Json& result) {
-  std::string names;
+  Json names = Json::array();
   std::vector<std::size_t> shared;
   const Json& parameters = result.at("parameters");
   for (std::size_t i = 0; i < parameters.size(); ++i) {
     const auto name = parameters.at(i).at("name").get<std::string>();
     if (is_of_one_record(name)) continue;
-    names += (names.empty() ? "" : ", ") + name;
+    names.push_back(name);
     shared.push_back(i);
   }
   Json keys = {{"type", "predict"}};
+  const Json marks = result.value("fitted_readings", Json::array());
+  if (!marks.empty()) keys["fitted_readings"] = marks;
   if (shared.empty()) return keys;
   const auto add_shared = [&shared](const Json& row, Json& list) {
     for (const std::size_t j : shared) list.push_back(row.at(j).get<double>());

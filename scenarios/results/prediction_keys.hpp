@@ -5,9 +5,9 @@
 
 namespace dualdamp::scenarios {
 
-/// {type, free, covariance, undetermined}: the parameters that all records share, and their uncertainty. A
-/// prediction fits those of a single record anew. `result`: of the analysis `fit`. Errors: `Json::exception` if a
-/// key of a fit is missing or has another type.
+/// {type, fitted_readings, free, covariance, undetermined}: what was fitted, the parameters that all records
+/// share, and their uncertainty. A prediction fits those of a single record anew. `result`: of the analysis `fit`.
+/// Errors: `Json::exception` if a key of a fit is missing or has another type.
 [[nodiscard]] Json prediction_keys(const Json& result);
 
 }  // namespace dualdamp::scenarios

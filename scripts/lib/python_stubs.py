@@ -231,7 +231,7 @@ TYPES = {
     "list": "Sequence[Quantity]",
     "grid": "Grid",
     "integers": "Sequence[int]",
-    "words": "Sequence[str]",
+    "words": "str | Sequence[str]",
     "scalar": "str | float | bool",
     "mapping": "Mapping[str, Any]",
     "mappings": "Sequence[Mapping[str, Any]]",
@@ -245,6 +245,15 @@ COMMON = {
     "out": "Path",
     "threads": "int",
     "progress": "Progress",
+}
+# What may be said of all records of a fit (`dualdamp._fitting`).
+OF_RECORDS = {
+    "drive": 'Literal["y", "force", "none"]',
+    "loop": "bool",
+    **{name: "Mapping[str, str]" for name in ("units", "columns", "scale")},
+    "decimal": 'Literal[".", ","]',
+    "no_header": "bool",
+    **{f"sigma_{signal}": "Quantity" for signal in ("x", "v", "a", "force", "phase")},
 }
 
 
@@ -285,7 +294,7 @@ def identify_function():
     keys = [key for key in entry("analyses", "identify")["keys"] if key["name"] not in own]
     named = ["mass: Quantity | None = None", "stiffness: Quantity | None = None", "frequency: str | None = None"]
     named += ["gravity_stiffness: Quantity | None = None", 'coordinate: Literal["displacement", "angle"] | None = None']
-    named += ["methods: Sequence[str] | None = None"]
+    named += ["methods: str | Sequence[str] | None = None"]
     named += [f"{name}: Mapping[str, str] | None = None" for name in ("units", "columns", "scale")]
     named += ["out: Path | None = None", "threads: int = 0", *parameters_of(keys)]
     return function("identify", ["data: Path | Mapping[str, Any] | NDArray[Any] | Any"], named, "Result")
@@ -307,9 +316,10 @@ def fit_functions():
     named += ["frequency: str | None = None", "amplitude: Quantity | None = None"]
     after = ["record: Mapping[str, Any] | Sequence[Mapping[str, Any] | None] | None = None", "out: Path | None = None", "threads: int = 0"]
     drive = "excitation: Excitation | Mapping[str, Any] | None = None"
-    named += [drive, "initial: Mapping[str, Any] | None = None", "validate: Any = None", *after, *parameters_of(keys)]
+    of_records = [f"{name}: {kind} | None = None" for name, kind in OF_RECORDS.items()]
+    named += [drive, "initial: Mapping[str, Any] | None = None", "validate: Any = None", *after, *parameters_of(keys), *of_records]
     yield function("fit", ["law: str | Law | Mapping[str, Any] | Sequence[str]", "data: Any"], named, "Result")
-    yield function("predict", ["fitted: Result", "data: Any"], [drive, *after], "Result")
+    yield function("predict", ["fitted: Result", "data: Any"], [drive, *after, *of_records], "Result")
 
 
 def system_class():

@@ -77,6 +77,20 @@ class Prediction(case.Case):
         refused = self.run_program("predict", "fit", motion, "--frequency", "4 Hz", "--amplitude", "5 mm", status=3).stderr
         self.assertIn("'system' lacks mass, stiffness", refused)
 
+    def test_a_record_that_was_fitted_is_no_prediction(self):
+        """Also under another name, in another unit, beside a record that was not fitted, and as one of several that were."""
+        drive = "{type: base_harmonic, amplitude: 5 mm, frequency: 4 Hz}"
+        driven = ("--frequency", "4 Hz", "--amplitude", "5 mm")
+        first, second, third = (self.record(f"{n}.csv", drive, initial=0.001 * n) for n in range(3))
+        rows = [line.split(",") for line in first.read_text().splitlines()]
+        in_mm = self.write("in_mm.csv", "\n".join(["t [s],x [mm]", *(f"{t},{float(x) * 1e3!r}" for t, x in rows[1:])]) + "\n")
+        self.run_program("fit", "coulomb", first, second, *CONSTANTS, *driven, "--no-profile", "--out", "fit")
+        for given in ([first], [second], [in_mm], [third, first]):
+            refused = self.run_program("predict", "fit", *given, *driven, status=3).stderr
+            self.assertIn(f"{given[-1]} holds readings that were fitted", refused)
+            self.assertIn("a record that was not fitted", refused)
+        self.assert_right(self.predicted("fit", third, *driven))
+
     def test_a_record_that_holds_another_drive_is_refused(self):
         def moved(millimetres):
             return lambda t: millimetres * 1e-3 * math.cos(8.0 * math.pi * t)
@@ -133,11 +147,12 @@ class Prediction(case.Case):
         self.assertFalse(result["validation"]["wrong"])
         for scenario in result["scenarios"]:
             self.run_program("run", self.write("again.yaml", scenario), "--out", "again")
-        predicted = json.loads(self.run_program("predict", "fit", *files[1:], "--json").stdout)["result"]["validation"]
+        again = self.record("again.csv", drive % 4, base=lambda t: 5e-3 * math.cos(8.0 * math.pi * t), initial=0.001).name
+        predicted = json.loads(self.run_program("predict", "fit", again, files[2], "--json").stdout)["result"]["validation"]
         self.assertFalse(predicted["wrong"])
         # A force beside a motion of the base: of the files with this column only.
-        self.assertIn("--drive force", self.run_program("predict", "fit", files[0], forced, status=3).stderr)
-        self.run_program("predict", "fit", files[0], forced, "--drive", "force")
+        self.assertIn("--drive force", self.run_program("predict", "fit", again, forced, status=3).stderr)
+        self.run_program("predict", "fit", again, forced, "--drive", "force")
         self.run_program("fit", "coulomb", files[0], forced, *CONSTANTS, "--no-profile", "--drive", "force", "--out", "both")
         self.assertIn("excludes", self.run_program("fit", "coulomb", forced, *CONSTANTS, "--drive", "force", "--loop", status=2).stderr)
 
@@ -157,6 +172,7 @@ class Prediction(case.Case):
         drive = "{type: base_harmonic, amplitude: %s mm, frequency: 4 Hz}"
         told = ("--frequency", "4 Hz", "--amplitude", "5 mm")
         first, second = self.record("driven.csv", drive % 5), self.record("larger.csv", drive % 8)
+        repeated = self.record("repeated.csv", drive % 5, initial=0.002)
         decay = self.record("decay.csv", "{type: none}", initial=0.04)
         sampled = self.record("base.csv", drive % 5, base=lambda t: 5e-3 * math.cos(8.0 * math.pi * t))
         measured = ("--set", "excitation={type: measured_base, file: base.csv, column: y, interpolation: cubic}")
@@ -168,7 +184,7 @@ class Prediction(case.Case):
             self.assertIn("--set excitation='{type: none}'", refused)
             self.assertNotIn("wrong", refused)
             self.assert_right(self.predicted(name, decay, *none))
-            told_back = self.predicted(name, first)
+            told_back = self.predicted(name, repeated)
             self.assert_right(told_back)
             self.assertIn("this holds if the record had the drive of the fit, which was assumed: " + assumed, told_back["text"])
         # Another amplitude: the record goes with neither drive.

@@ -163,7 +163,73 @@ def test_prediction_by_a_fitted_phase():
     phase = next(row.value for row in found.result.parameters if row.name == "phase")
     with_its_own = dd.predict(found, second, excitation={**drives[1], "phase": phase})
     assert with_its_own.result.validation.error < 1e-3
-    assert dd.predict(found, first).result.validation.error < 1e-3  # under the drive of the fit, with the fitted phase
+    repeated = {"t": first["t"], "x": first["x"] + 2e-6 * rng.standard_normal(len(first["t"]))}
+    assert dd.predict(found, repeated).result.validation.error < 1e-3  # under the drive of the fit, with the fitted phase
+
+
+def driven_table(rig, frequencies, column, count=1600, seed=5):
+    """A response to forces of several frequencies, or to such a motion of the base, with noise."""
+    t = np.arange(count) / 400
+    values = sum(np.cos(2 * np.pi * f * t) for f in frequencies) * (2.0 if column == "force" else 2e-3)
+    kind = "force_table" if column == "force" else "base_table"
+    drive = {"type": kind, "times": t, "values": values, "interpolation": "cubic"}
+    x = rig.simulate(drive, duration=f"{t[-1]} s", sample_rate="400 Hz").history["x"]
+    return {"t [ms]": 1e3 * t, "x [mm]": 1e3 * (x + 2e-6 * np.random.default_rng(seed).standard_normal(len(x))), column: values}
+
+
+def test_the_fitted_scenario_of_a_table_in_memory_runs():
+    rig = dd.System(mass="1 kg", stiffness="1000 N/m", damping="1 N.s/m", friction=dd.law("coulomb", kinetic="1 N"))
+    for column in ("y", "force"):
+        table = driven_table(rig, [4.1, 6.3], column)
+        found = dd.fit("coulomb", table, mass="1 kg", stiffness="1000 N/m", profile=False, drive=column)
+        again = dd.run(found.result.scenario).history["x"]
+        assert 1e3 * again == pytest.approx(table["x [mm]"], abs=0.02)
+        other = dd.predict(found, driven_table(rig, [3.3, 5.9], column, seed=6), drive=column)
+        assert not other.result.validation.wrong and other.result.validation.noise_units < 1.2
+
+
+def test_a_drive_in_memory_beyond_the_limit_of_a_list(tmp_path):
+    """The text says what to do: there, it runs."""
+    rig = dd.System(mass="1 kg", stiffness="1000 N/m", damping="1 N.s/m", friction=dd.law("coulomb", kinetic="1 N"))
+    table = driven_table(rig, [4.1, 6.3], "y", count=4000)
+    table = {name: np.repeat(values, 3) for name, values in table.items()}
+    table["t [ms]"] = np.arange(12000) * 1e3 / 1200
+    table["y"], table["x [mm]"] = (np.interp(np.arange(12000) / 3, np.arange(4000), values[::3]) for values in (table["y"], table["x [mm]"]))
+    found = dd.fit("coulomb", table, mass="1 kg", stiffness="1000 N/m", profile=False, starts=2, out=tmp_path)
+    assert any("a scenario lists at most 10000 values of a drive, and this one has 12000" in line for line in found.warnings)
+    text = found.result.scenario
+    assert text.startswith("# The drive has too many samples for a list: give the fit a directory (out), and run this text beside drive.csv there.\n")
+    (tmp_path / "as_said.yaml").write_text(text)
+    assert len(dd.run(tmp_path / "as_said.yaml").history["x"]) == 12000
+
+
+def test_a_table_that_was_fitted_is_no_prediction():
+    rig = dd.System(mass="1 kg", stiffness="1000 N/m", damping="1 N.s/m", friction=dd.law("coulomb", kinetic="1 N"))
+    table = driven_table(rig, [4.1, 6.3], "y")
+    found = dd.fit("coulomb", table, mass="1 kg", stiffness="1000 N/m", profile=False)
+    for same in (table, {"t": 1e-3 * table["t [ms]"], "x": 1e-3 * table["x [mm]"], "y": table["y"]}):
+        with pytest.raises(dd.InvalidScenario, match="holds readings that were fitted"):
+            dd.predict(found, same)
+
+
+def test_what_is_free_is_a_text_a_list_or_a_tuple():
+    found = [dd.fit("coulomb", RECORD, mass="1 kg", stiffness="1000 N/m", damping="1 N.s/m", free=free, profile=False).result.parameters
+             for free in ("damping, kinetic", ["damping", "kinetic"], ("damping", "kinetic"))]
+    assert found[0] == found[1] == found[2]
+    assert {row.name for row in found[0][:2]} == {"damping", "kinetic"}
+    pairs = {"Y [mm]": [4.5, 5.0, 5.5, 6.0, 6.5], "x [mm]": [4.70, 7.21, 9.76, 12.25, 14.82]}
+    answers = [dd.identify(pairs, methods=methods, **RIG).result for methods in ("resonance_deming,den_hartog_fit", ("resonance_deming", "den_hartog_fit"))]
+    assert answers[0] == answers[1]
+
+
+def test_what_is_said_of_all_records():
+    """As the options of the program; what a record itself states goes before it."""
+    known = {"mass": "1 kg", "stiffness": "1000 N/m", "profile": False}
+    found = dd.fit("coulomb", RECORD, sigma_x="2 um", **known)
+    assert found.result == dd.fit("coulomb", RECORD, record={"sigma_x": "2 um"}, sigma_x="5 um", **known).result
+    assert found.scenario.analysis.data[0].sigma_x == 2e-6
+    with pytest.raises(TypeError, match="predict has no option 'sigma_y'; of records it takes: drive, loop"):
+        dd.predict(found, RECORD, sigma_y="2 um")
 
 
 def test_sweep_is_a_key_of_the_scenario(rig, drive):

@@ -6,7 +6,6 @@
 #include <iterator>
 #include <numeric>
 #include <optional>
-#include <sstream>
 #include <string_view>
 #include <utility>
 
@@ -27,17 +26,6 @@ namespace {
 using identify::FitParameter;
 using identify::Own;
 using identify::Owner;
-
-std::vector<std::string> names_in(const std::string& text) {
-  std::vector<std::string> names;
-  std::istringstream in(text);
-  for (std::string name; std::getline(in, name, ',');) {
-    const std::size_t first = name.find_first_not_of(" \t");
-    if (first == std::string::npos) continue;
-    names.push_back(name.substr(first, name.find_last_not_of(" \t") - first + 1));
-  }
-  return names;
-}
 
 identify::RigLaw law_from(const Json& section, core::Coordinate coordinate) {
   const friction::LawEntry* entry = friction::find_law(section.at("law").get<std::string>());
@@ -144,7 +132,7 @@ std::vector<DataItem> items_of(const Json& analysis, const std::vector<DataFile>
 
 Sought sought_of(const Json& analysis, bool initial_is_known) {
   Sought sought{.initial_is_known = initial_is_known};
-  if (analysis.contains("free")) sought.free = names_in(analysis.at("free").get<std::string>());
+  if (analysis.contains("free")) sought.free = analysis.at("free").get<std::vector<std::string>>();
   if (analysis.contains("bounds"))
     for (const Json& bound : analysis.at("bounds"))
       sought.bounds.push_back({bound.value("name", ""), bound.value("low", ""), bound.value("high", "")});

@@ -193,11 +193,13 @@ RecordDrive listed_drive(CheckedFile& file, const DataItem& item, const History&
                   {"interpolation", "cubic"},
                   {"repeat", false}};
   if (static_cast<double>(values.size()) > max_table) {
-    section = measured_section(item, column);
-    file.warnings.push_back(
-        item.file + ": the text of the fitted scenario in the result names the whole file for the " +
-        "drive of a part of it, because a scenario lists at most " + core::format_number(max_table) +
-        " values; the file fitted.yaml has a drive of its own beside it");
+    section = {{"type", column == "y" ? "measured_base" : "measured_force"},
+               {"interpolation", "cubic"},
+               {"repeat", false}};  // scenario_text() names the file that is written with the result
+    file.warnings.push_back(item.file + ": a scenario lists at most " + core::format_number(max_table) +
+                            " values of a drive, and this one has " + std::to_string(values.size()) +
+                            ": the text of the fitted scenario in the result names a file beside it, which is "
+                            "written with fitted.yaml");
   }
   return drive_by(column,
                   std::make_shared<const sim::SampledSignal>(std::move(times), values, sim::Interpolation::cubic),
@@ -295,7 +297,9 @@ void take_recorded_drives(CheckedFile& file, bool is_open) {
     drives.resize(histories.size());
     for (std::size_t h = 0; h < histories.size(); ++h) {
       const std::string column = driving_column(stated, histories[h], is_open);
-      const bool alone = is_one && histories.size() == 1 && file.files[i].key == "data" && is_open &&
+      // A table in memory has no name by which a scenario could find it later.
+      const bool alone = is_one && histories.size() == 1 && !file.data_place().texts.contains(item.file) &&
+                         file.files[i].key == "data" && is_open &&
                          excitation_type(file.text_at("excitation", "type")) != sim::ExcitationType::base_harmonic;
       if (stated == "none") {
         drives[h] = RecordDrive{{}, {{"type", "none"}}};

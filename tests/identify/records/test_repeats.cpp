@@ -1,5 +1,6 @@
 #include "identify/records/repeats.hpp"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -36,6 +37,34 @@ TEST_CASE("repeats: the same readings in two records, whatever the units and the
   History still = history();
   still.x.assign(100, 0.0);
   CHECK_FALSE(share_readings(with({still}), with({still}), false));
+}
+
+TEST_CASE("repeats: marks know readings again as the readings themselves would") {
+  const auto share = [](const Record& a, const Record& b, bool are_loops) {
+    return share_marks(marks_of(a, are_loops), marks_of(b, are_loops));
+  };
+  CHECK(share(with({history()}), with({history()}), false));
+  CHECK(share(with({history(1.0 + 1e-12)}), with({history()}), false));
+  CHECK(share(with({history(2.0), history()}), with({history()}), false));
+  CHECK_FALSE(share(with({history(1.001)}), with({history()}), false));
+  History other = history();
+  other.x[40] += 1e-6;
+  CHECK_FALSE(share(with({other}), with({history()}), false));
+  std::ranges::reverse(other.x);
+  CHECK_FALSE(share(with({other}), with({history()}), false));
+  CHECK(share(with({other}), with({history()}), true));
+  History still = history();
+  still.x.assign(100, 0.0);
+  CHECK_FALSE(share(with({still}), with({still}), false));
+  const auto pairs = [](double x) {
+    Record record;
+    record.pairs = PairRecord{};
+    for (int i = 1; i < 6; ++i) record.pairs->pairs.push_back({.Y = 0.001 * i, .x = x * i, .omega = 30.0});
+    return record;
+  };
+  CHECK(share(pairs(0.002), pairs(0.002), false));
+  // Pairs of a linear rig differ in the scale alone.
+  CHECK_FALSE(share(pairs(0.002), pairs(0.003), false));
 }
 
 TEST_CASE("repeats: what stands in a record twice is told") {

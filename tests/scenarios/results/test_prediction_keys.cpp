@@ -21,7 +21,7 @@ TEST_CASE("A prediction takes the parameters that records share, with their rows
                           {{0.5, 0.25, -1.0}});
   const Json keys = prediction_keys(fit);
   CHECK(keys == Json({{"type", "predict"},
-                      {"free", "mass, kinetic"},
+                      {"free", {"mass", "kinetic"}},
                       {"covariance", {1.0, 3.0, 3.0, 6.0}},
                       {"undetermined", {0.5, -1.0}}}));
 }
@@ -29,6 +29,12 @@ TEST_CASE("A prediction takes the parameters that records share, with their rows
 TEST_CASE("A prediction by a fit of single records alone states nothing else", "[scenarios]") {
   CHECK(prediction_keys(fit_of({"velocity", "offset_v[1]"}, {{1.0, 0.0}, {0.0, 1.0}}, Json::array())) ==
         Json({{"type", "predict"}}));
+}
+
+TEST_CASE("A prediction takes the marks of the fitted readings", "[scenarios]") {
+  Json fit = fit_of({"velocity"}, {{1.0}}, Json::array());
+  fit["fitted_readings"] = {3.0, 0.1, 0.2, 0.3};
+  CHECK(prediction_keys(fit) == Json({{"type", "predict"}, {"fitted_readings", {3.0, 0.1, 0.2, 0.3}}}));
 }
 
 TEST_CASE("A damaged fit gives no keys of a prediction", "[scenarios]") {
