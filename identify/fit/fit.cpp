@@ -211,7 +211,8 @@ std::optional<Eigen::VectorXd> describe(const FitProblem& problem, const Request
   say_why_sought(request, result);
   add_objections(request, result);
   warn_of_short(request, result);
-  warn_of_residuals(request.experiments, request.options.robust, result);
+  warn_of_residuals(request.experiments, request.options.robust,
+                    zero_gains_of(problem, found.weights, misses, jacobian), result);
   problem.limit(request.options.most_work);
   return add_uncertainty({problem, found.weights, found.unbounded, q, misses, jacobian, request.options.profile,
                           request.options.robust},

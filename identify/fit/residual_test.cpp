@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/numbers.hpp"
+#include "identify/statistics/decompositions.hpp"
 #include "identify/statistics/distributions.hpp"
 #include "identify/statistics/statistics.hpp"
 
@@ -177,14 +178,12 @@ std::string said_of_noise(const Experiment& experiment, const FittedSignal& fitt
          "use 'robust' for outliers";
 }
 
-/// The zero of a signal of a history that its residuals speak of; nothing if they do not, or if it is sought.
-std::optional<Own> zero_off(const Experiments& experiments, const FittedSignal& fitted, const Fit& fit) {
-  constexpr double errors = 4.0;
-  if (experiments[fitted.rows.experiment]->kind != ExperimentKind::history || std::abs(fitted.mean_score) < errors)
-    return std::nullopt;
-  if (!is_noise(fitted.p_value) && 2.0 * fitted.mean * fitted.mean < fitted.rms * fitted.rms) return std::nullopt;
+/// The zero of a signal of a history; of a loop that of x. Nothing if it is sought.
+std::optional<Own> open_zero(const Experiments& experiments, const FittedSignal& fitted, const Fit& fit) {
   const std::string& name = signal_of(experiments, fitted).name;
-  const Own zero = name == "x" ? Own::offset : name == "v" ? Own::offset_v : Own::offset_a;
+  const ExperimentKind kind = experiments[fitted.rows.experiment]->kind;
+  if (kind != ExperimentKind::history && kind != ExperimentKind::loop) return std::nullopt;
+  const Own zero = name == "v" ? Own::offset_v : name == "a" ? Own::offset_a : Own::offset;
   const bool is_sought = std::ranges::any_of(fit.parameters, [&](const FittedParameter& found) {
     return found.parameter.owner == Owner::record && found.parameter.index == fitted.rows.experiment &&
            found.parameter.own == zero;
@@ -192,12 +191,37 @@ std::optional<Own> zero_off(const Experiments& experiments, const FittedSignal& 
   return is_sought ? std::nullopt : std::optional(zero);
 }
 
-std::string said_of_zero(const FittedSignal& fitted, Own zero, const std::string& who) {
+/// The zero of a signal of a history that its residuals speak of; nothing if they do not, or if it is sought.
+/// `gain`: of this zero.
+std::optional<Own> zero_off(const Experiments& experiments, const FittedSignal& fitted, double gain,
+                            const Fit& fit) {
+  constexpr double errors = 4.0;
+  constexpr double third = 1.0 / 3.0;
+  if (experiments[fitted.rows.experiment]->kind != ExperimentKind::history) return std::nullopt;
+  const bool is_mean = std::abs(fitted.mean_score) >= errors &&
+                       (is_noise(fitted.p_value) || 2.0 * fitted.mean * fitted.mean >= fitted.rms * fitted.rms);
+  if (!is_mean && (is_noise(fitted.p_value) || gain < third)) return std::nullopt;
+  return open_zero(experiments, fitted, fit);
+}
+
+std::string said_of_zero(const FittedSignal& fitted, Own zero, double gain, const std::string& who) {
+  constexpr double errors = 4.0;
   return who + " have a mean of " + core::format_number(fitted.mean, 3) + " in SI units, " +
-         core::format_number(std::abs(fitted.mean_score), 2) +
-         " standard errors: the zero of the sensor is off, or the law differs between the directions. Seek the zero: "
+         (std::abs(fitted.mean_score) >= errors
+              ? core::format_number(std::abs(fitted.mean_score), 2) + " standard errors"
+              : "and another zero would take away " + core::format_number(100.0 * gain, 2) +
+                    " % of their sum of squares at once") +
+         ": the zero of the sensor is off, or the law differs between the directions. Seek the zero: "
          "'free' with " +
          std::string(own_names[static_cast<std::size_t>(zero)]);
+}
+
+/// The zero among the possible causes; empty if it is sought.
+std::string said_of_open_zero(const Experiments& experiments, const FittedSignal& fitted, const Fit& fit) {
+  const std::optional<Own> zero = open_zero(experiments, fitted, fit);
+  if (!zero) return {};
+  return "the zero of the sensor is off ('free' with " + std::string(own_names[static_cast<std::size_t>(*zero)]) +
+         " seeks it), ";
 }
 
 }  // namespace
@@ -210,8 +234,33 @@ std::vector<std::string> contradictions_of_stated(const Experiments& experiments
   return texts;
 }
 
-void warn_of_residuals(const Experiments& experiments, bool robust, Fit& fit) {
-  for (const FittedSignal& fitted : fit.signals) {
+std::vector<double> zero_gains_of(const FitProblem& problem, const Eigen::VectorXd& weights,
+                                  const Eigen::VectorXd& misses, const Eigen::MatrixXd& jacobian) {
+  Eigen::MatrixXd basis(jacobian.rows(), 0);  // a prediction may have no parameter
+  if (jacobian.cols() > 0) basis = orthonormal_basis(weights.asDiagonal() * jacobian);
+  const Eigen::VectorXd residuals = weights.cwiseProduct(misses);
+  std::vector<double> gains;
+  for (const SignalRows& rows : problem.signals()) {
+    const Eigen::Index size = rows.end - rows.begin;
+    Eigen::VectorXd shift = Eigen::VectorXd::Zero(residuals.size());
+    shift.segment(rows.begin, size) =
+        weights.segment(rows.begin, size).cwiseProduct(problem.counted().segment(rows.begin, size));
+    const double whole = shift.squaredNorm();
+    shift -= basis * (basis.transpose() * shift);
+    const double left = shift.squaredNorm();
+    const double squares = residuals.segment(rows.begin, size).squaredNorm();
+    constexpr double nothing = 1e-6;  // of a shift that the other parameters make up for
+    gains.push_back(left > nothing * whole && squares > 0.0
+                        ? std::min(1.0, std::pow(shift.dot(residuals), 2) / left / squares)
+                        : 0.0);
+  }
+  return gains;
+}
+
+void warn_of_residuals(const Experiments& experiments, bool robust, const std::vector<double>& zero_gains,
+                       Fit& fit) {
+  for (std::size_t s = 0; s < fit.signals.size(); ++s) {
+    const FittedSignal& fitted = fit.signals[s];
     const Signal& signal = signal_of(experiments, fitted);
     const std::string who = residuals_of(experiments, fitted);
     if (contradicts_stated(fitted) != 0)
@@ -219,8 +268,8 @@ void warn_of_residuals(const Experiments& experiments, bool robust, Fit& fit) {
                              (contradicts_stated(fitted) < 0
                                   ? "; the intervals use it and are too wide by up to the same factor"
                                   : "; the intervals are widened in proportion to the residuals"));
-    const std::optional<Own> zero = zero_off(experiments, fitted, fit);
-    if (zero) fit.warnings.push_back(said_of_zero(fitted, *zero, who));
+    const std::optional<Own> zero = zero_off(experiments, fitted, zero_gains[s], fit);
+    if (zero) fit.warnings.push_back(said_of_zero(fitted, *zero, zero_gains[s], who));
     // For readings that are not samples, `said_of_stated` has already reported residuals above the stated noise.
     constexpr double far = 3.0;
     if (is_noise(fitted.p_value) && contradicts_stated(fitted) == 0 && signal.is_sampled && !robust &&
@@ -240,6 +289,7 @@ void warn_of_residuals(const Experiments& experiments, bool robust, Fit& fit) {
         (is_undriven(*experiments[fitted.rows.experiment], fit)
              ? "the mass was held or pushed at first, while the fit takes all samples for free motion, "
              : "") +
+        said_of_open_zero(experiments, fitted, fit) +
         "or the search missed the best fit (try more starts, bounds, stated values); the intervals hold only for the "
         "right law";
     fit.warnings.push_back(std::move(text));

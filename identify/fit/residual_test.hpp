@@ -17,12 +17,15 @@
 /// independent. It is called wrong for a chance below 0.001 and a ratio of the deviations beyond a factor of 1.3.
 ///
 /// The test leaves out the mean. Of the residuals of a history, a mean above four standard errors, or one that
-/// makes up half of their mean square, speaks of the zero of the sensor, unless this zero is sought.
+/// makes up half of their mean square, speaks of the zero of the sensor, unless this zero is sought. So does a zero
+/// that would take away a third of the sum of squares of residuals that are no noise: for a small change (a score
+/// test), what the other parameters can do about it does not count.
 ///
 /// Source: brockwell1991. Cost: two Fourier transforms.
 
 #include <Eigen/Core>
 #include <string>
+#include <vector>
 
 #include "identify/fit/fit.hpp"
 
@@ -51,7 +54,13 @@ void compare_with_stated(double deviation, double freedom, FittedSignal& signal)
 
 /// Adds warnings to `fit`: signals whose residuals are not noise, and stated noises that are wrong. Also signals
 /// whose residuals look like noise, but far above that of the sensor; not in a `robust` fit, where outliers do
-/// that. Also signals whose zero is off; `fit.parameters` say which zeros are sought.
-void warn_of_residuals(const Experiments& experiments, bool robust, Fit& fit);
+/// that. Also signals whose zero is off; `fit.parameters` say which zeros are sought. `zero_gains`: of each signal.
+void warn_of_residuals(const Experiments& experiments, bool robust, const std::vector<double>& zero_gains,
+                       Fit& fit);
+
+/// Of each signal, the share of its sum of squares that a small shift of its zero would take away beside all
+/// parameters. `weights`, `misses`, `jacobian`: of all rows, at the end of the search.
+[[nodiscard]] std::vector<double> zero_gains_of(const FitProblem& problem, const Eigen::VectorXd& weights,
+                                                const Eigen::VectorXd& misses, const Eigen::MatrixXd& jacobian);
 
 }  // namespace dualdamp::identify

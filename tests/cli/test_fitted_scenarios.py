@@ -5,6 +5,7 @@ usage: test_fitted_scenarios.py PROGRAM [TEST...]
 """
 
 import csv
+import json
 import math
 import sys
 import unittest
@@ -59,6 +60,40 @@ class FittedScenarios(case.Case):
         result = self.run_program("fit", "coulomb", path, *CONSTANTS, "--no-profile", "--out", "fit")
         self.assertIn("are not noise", result.stderr)
         self.assertIn("the measured drive has noise, to which the rig responds", result.stderr)
+
+    def test_names_of_parameters_are_a_list_or_a_text(self):
+        path = self.record("run.csv", 4.0).name
+        parameters = []
+        for free in ("[mass, damping]", '"mass,damping"', '" damping , mass "'):
+            self.write("fit.yaml", "schema: dualdamp/1\nsystem: {mass: 1 kg, stiffness: 1000 N/m, damping: 2 N.s/m}\n"
+                       f"analysis: {{type: fit, data: {path}, laws: coulomb, free: {free}, profile: false}}\n")
+            document = json.loads(self.run_program("run", "fit.yaml", "--json").stdout)
+            self.assertEqual(document["scenario"]["analysis"]["laws"], ["coulomb"])
+            parameters.append([row["name"] for row in document["result"]["parameters"]])
+            self.assertLessEqual({"mass", "damping", "kinetic"}, set(parameters[-1]))
+        self.assertEqual(parameters[0], parameters[1])
+
+    def test_laws_that_are_compared_have_no_stated_parameter(self):
+        """One error, with the reason."""
+        path = self.record("run.csv", 4.0)
+        refused = self.run_program("fit", "coulomb,stribeck", path, *CONSTANTS, "--set", "system.friction.exponent=1", status=3).stderr
+        self.assertIn("of laws that are compared, every parameter is sought, and none is stated", refused)
+        self.assertNotIn("system.friction.law", refused)
+
+    def test_a_zero_within_the_friction_is_named_as_a_cause(self):
+        """The mean of the residuals says nothing of it: they are those of a slow motion, and few of them are independent."""
+        def decay(offset):
+            self.write("made/motion.yaml", "schema: dualdamp/1\nsystem: {mass: 1 kg, stiffness: 1000 N/m, cubic_stiffness: 3e5 N/m^3, damping: 1 N.s/m, friction: {law: coulomb, kinetic: 2 N}}\n"
+                       "initial: {position: 40 mm}\nanalysis: {type: simulate, duration: 4 s, sample_rate: 100 Hz}\n")
+            self.run_program("run", "made/motion.yaml", "--out", "made/motion")
+            motion = self.table("made/motion/history.csv")
+            return self.write("decay.csv", "\n".join(["t [s],x [m]", *(f"{t!r},{x + offset + 2e-5 * math.sin(977.0 * i * i)!r}" for i, (t, x) in enumerate(zip(motion["t"], motion["x"])))]) + "\n")
+
+        fit = ("fit", "coulomb", decay(1.6e-3), "--mass", "1 kg", "--free", "cubic_stiffness", "--no-profile")
+        said = self.run_program(*fit).stderr
+        self.assertIn("Seek the zero: 'free' with offset", said)
+        self.assertIn("the zero of the sensor is off ('free' with offset seeks it)", said)
+        self.assertNotIn("the zero", self.run_program(*fit[:-2], "cubic_stiffness,offset", "--no-profile").stderr)
 
     def test_of_a_record_that_begins_with_a_loaded_contact(self):
         friction = "{law: free_play, kinetic: 1.5 N, play: 3 mm}"
