@@ -32,11 +32,6 @@ const KnownColumn* column_in_any_case(std::string_view text) {
   return found == known_columns.end() ? nullptr : &*found;
 }
 
-bool is_unit_of(const std::string& unit, const KnownColumn& known) {
-  return !unit.empty() && !known.unit.empty() &&
-         (core::unit_factor(unit, known.unit).value || core::coordinate_told_by(unit, known.unit));
-}
-
 /// Names whose column depends on the unit: f [Hz], F [N].
 struct ShortName {
   std::string_view text;
@@ -69,6 +64,81 @@ std::string unit_behind(std::string_view text, std::string_view name, const Know
   if (begin == 0 || begin == std::string_view::npos) return {};
   std::string unit = without_in(rest.substr(begin));
   return is_unit_of(unit, known) ? unit : std::string();
+}
+
+/// A unit of a signal before it is scaled.
+bool is_signal_unit(const std::string& unit) {
+  return unit == "%" || unit == "count" || unit == "counts" || core::unit_factor(unit, "V").value.has_value();
+}
+
+/// Whether all of them may be remarks: square brackets and units of signals are none.
+bool are_notes(const std::vector<Bracket>& brackets) {
+  return std::ranges::none_of(
+      brackets, [](const Bracket& bracket) { return bracket.opening == '[' || is_signal_unit(bracket.content); });
+}
+
+/// Where no bracket holds a unit of the column: what the message about its unit is to name, or the unit of a signal
+/// that is scaled. `<b>` and `{fett}` are the marks of a text.
+std::string other_unit_in(const std::vector<Bracket>& brackets) {
+  const auto last = [&](auto fits) {
+    const auto found = std::find_if(brackets.rbegin(), brackets.rend(), fits);
+    return found == brackets.rend() ? std::string() : without_in(found->content);
+  };
+  std::string unit = last([](const Bracket& bracket) { return bracket.opening == '['; });
+  if (unit.empty()) unit = last([](const Bracket& bracket) { return is_signal_unit(bracket.content); });
+  if (unit.empty()) unit = last([](const Bracket& bracket) { return bracket.opening == '('; });
+  return unit;
+}
+
+/// Moves a unit of `known` from the end of the name to `heading.unit`. True if there is one.
+bool split_name(Heading& heading, const KnownColumn& known) {
+  const std::string name = heading.name;
+  for (std::size_t end = name.find_first_of(marks, 1); end < name.size(); end = name.find_first_of(marks, end + 1))
+    if (std::string unit = unit_behind(name, name.substr(0, end), known); !unit.empty()) {
+      heading.name.resize(end);
+      heading.unit = std::move(unit);
+      heading.brackets.clear();
+      return true;
+    }
+  return false;
+}
+
+/// Whether a bracket, or the text behind the brackets, holds a unit of the column.
+bool states_unit_of(const Heading& heading, const KnownColumn& known) {
+  Heading copy = heading;
+  choose_unit(copy, known);
+  return is_unit_of(copy.unit, known);
+}
+
+/// The column that the text before the brackets names, or all of a heading without brackets.
+const KnownColumn* column_named_by(Heading& heading) {
+  if (const KnownColumn* known = known_column(heading.name)) return known;
+  if (const KnownColumn* known = column_in_any_case(heading.name)) return known;
+  if (heading.text == "X_Value") {  // LabVIEW's name of the time
+    heading.unit = "s";
+    return known_column("t");
+  }
+  if (heading.name.size() == 1 && heading.name != "y" && heading.name != "Y")  // X [mm], but not V without a unit
+    for (const KnownColumn& known : known_columns)
+      if (is_alike(heading.name, known.name) && states_unit_of(heading, known)) return &known;
+  for (const ShortName& other : short_names)
+    if (const KnownColumn* known = known_column(other.column);
+        is_name(heading.name, other.text) && states_unit_of(heading, *known))
+      return known;
+  // `x_[mm]`, `x/(mm)`: a separating character before the brackets.
+  const std::size_t end = heading.name.find_last_not_of(marks) + 1;
+  if (!heading.brackets.empty() && end < heading.name.size())
+    return column_in_any_case(std::string_view(heading.name).substr(0, end));
+  if (!heading.well_formed || !are_notes(heading.brackets)) return nullptr;
+  for (const KnownColumn& known : known_columns)
+    for (const std::string_view name : names_of(known))
+      if (std::string unit = unit_behind(heading.name, name, known); !unit.empty()) {
+        heading.name = name;
+        heading.unit = std::move(unit);
+        heading.brackets.clear();
+        return &known;
+      }
+  return nullptr;
 }
 
 /// Words before or after the name of a column that holds the uncertainty of its readings: u_x, u(x), x_err.
@@ -111,59 +181,74 @@ std::vector<std::string_view> column_names(bool numbers_only) {
   return names;
 }
 
+bool is_unit_of(const std::string& unit, const KnownColumn& known) {
+  return !unit.empty() && !known.unit.empty() &&
+         (core::unit_factor(unit, known.unit).value || core::coordinate_told_by(unit, known.unit));
+}
+
 Heading parse_heading(std::string_view text, int column) {
   Heading heading{std::string(text), std::string(trimmed(text)), {}, column, true};
-  constexpr std::string_view opening = "[({<";
-  constexpr std::string_view closing = "])}>";
-  const std::size_t open = text.find_first_of(opening);
-  if (open == std::string_view::npos) {
-    heading.well_formed = text.find_first_of(closing) == std::string_view::npos;
+  Brackets brackets = brackets_of(text);
+  heading.well_formed = brackets.are_closed;
+  if (brackets.pairs.empty()) {
+    // `x [mm`: the name is told from the unit, so that the message names the column
+    const std::size_t open = text.find_first_of("[({<");
+    if (open != std::string_view::npos) heading.name = trimmed(text.substr(0, open));
     return heading;
   }
-  const std::string_view rest = text.substr(open + 1);
-  const std::size_t close = rest.find(closing[opening.find(text[open])]);
-  heading.name = trimmed(text.substr(0, open));
-  if (close != std::string_view::npos) heading.unit = without_in(rest.substr(0, close));
-  heading.well_formed = close != std::string_view::npos && close + 1 == rest.size();
+  heading.brackets = std::move(brackets.pairs);
+  heading.name = trimmed(text.substr(0, heading.brackets.front().begin));
+  heading.behind = trimmed(text.substr(heading.brackets.back().end));
+  if (heading.brackets.size() == 1) heading.unit = without_in(heading.brackets.front().content);
+  heading.well_formed = heading.well_formed && heading.behind.empty();
+  for (std::size_t i = 1; i < heading.brackets.size(); ++i) {
+    const std::size_t from = heading.brackets[i - 1].end;
+    const std::string_view between = text.substr(from, heading.brackets[i].begin - from);
+    heading.well_formed = heading.well_formed && between.find_first_not_of(marks) == std::string_view::npos;
+  }
   return heading;
 }
 
+void choose_unit(Heading& heading, const KnownColumn& known) {
+  if (heading.brackets.empty()) return;
+  std::string best;
+  bool is_best_square = false;
+  const auto weigh = [&](std::string unit, bool is_square) {
+    if (!is_unit_of(unit, known)) return;
+    const bool wins = best.empty() || is_square || !is_best_square;
+    if (!best.empty() && core::unit_factor(unit, known.unit).value != core::unit_factor(best, known.unit).value)
+      heading.other_unit = wins ? best : unit;
+    if (!wins) return;
+    best = std::move(unit);
+    is_best_square = is_square;
+  };
+  for (const Bracket& bracket : heading.brackets) weigh(without_in(bracket.content), bracket.opening == '[');
+  const std::size_t begin = heading.behind.find_first_not_of(marks);
+  const std::string trailing = begin == std::string::npos ? "" : without_in(heading.behind.substr(begin));
+  if (is_unit_of(trailing, known)) heading.well_formed = true;
+  weigh(trailing, false);
+  if (best.empty() && are_notes(heading.brackets) && split_name(heading, known)) return;
+  if (best.empty()) best = other_unit_in(heading.brackets);
+  heading.unit = std::move(best);
+}
+
+bool is_called(const Heading& heading, std::string_view called) {
+  if (called == heading.text || called == heading.name) return true;
+  return std::ranges::any_of(heading.brackets, [&](const Bracket& bracket) {
+    const std::string before(trimmed(std::string_view(heading.text).substr(0, bracket.begin)));
+    const std::string_view after = trimmed(std::string_view(heading.text).substr(bracket.end));
+    return called == trimmed(before + (after.empty() ? "" : " ") + std::string(after));
+  });
+}
+
 const KnownColumn* named_column(Heading& heading) {
-  if (const KnownColumn* known = known_column(heading.name)) return known;
-  if (const KnownColumn* known = column_in_any_case(heading.name)) return known;
-  if (heading.text == "X_Value") {  // LabVIEW's name of the time
-    heading.unit = "s";
-    return known_column("t");
-  }
-  if (heading.name.size() == 1 && heading.name != "y" && heading.name != "Y")  // X [mm], but not V without a unit
-    for (const KnownColumn& known : known_columns)
-      if (is_alike(heading.name, known.name) && is_unit_of(heading.unit, known)) return &known;
-  for (const ShortName& other : short_names)
-    if (const KnownColumn* known = known_column(other.column);
-        is_name(heading.name, other.text) && is_unit_of(heading.unit, *known))
-      return known;
-  if (!heading.unit.empty() || !heading.well_formed) {
-    // `x_[mm]`, `x/(mm)`: a separating character before the brackets.
-    const std::size_t end = heading.name.find_last_not_of(marks) + 1;
-    return end < heading.name.size() ? column_in_any_case(std::string_view(heading.name).substr(0, end)) : nullptr;
-  }
-  for (const KnownColumn& known : known_columns)
-    for (const std::string_view name : names_of(known))
-      if (std::string unit = unit_behind(heading.name, name, known); !unit.empty()) {
-        heading.name = name;
-        heading.unit = std::move(unit);
-        return &known;
-      }
-  return nullptr;
+  const KnownColumn* const known = column_named_by(heading);
+  if (known != nullptr) choose_unit(heading, *known);
+  return known;
 }
 
 void split_unit(Heading& heading, const KnownColumn& known) {
-  const std::string_view name = heading.name;
-  if (heading.unit.empty() && heading.well_formed)
-    for (std::size_t end = name.find_first_of(marks, 1); end < name.size() && heading.unit.empty();
-         end = name.find_first_of(marks, end + 1))
-      if (std::string unit = unit_behind(name, name.substr(0, end), known); !unit.empty())
-        heading = {heading.text, std::string(name.substr(0, end)), std::move(unit), heading.column, true};
+  if (heading.unit.empty() && heading.well_formed) split_name(heading, known);
   const std::size_t last = heading.unit.empty() ? std::string::npos : heading.name.find_last_not_of(marks);
   if (last != std::string::npos) heading.name.resize(last + 1);
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/setting.hpp"
+#include "identify/readers/brackets.hpp"
 
 namespace dualdamp::identify {
 
@@ -39,15 +40,30 @@ inline constexpr std::array<KnownColumn, 12> known_columns = {{{"t", "time", "s"
 inline constexpr std::string_view allowed_columns =
     "Y and x (pairs), x alone or t and x (extremes), or t and any of x, y, v, a, force (histories)";
 
-/// The parts of a heading such as "x [mm]" or "x (mm)".
+/// The parts of a heading such as "x [mm]", "x (mm)" or "Weg (Kanal 2) [mm]".
 struct Heading {
   std::string text;  ///< the whole heading
-  std::string name;
+  std::string name;  ///< what stands before its brackets
   std::string unit;
   int column = 1;  ///< position in its line, from 1
   bool well_formed = true;
+  std::vector<Bracket> brackets = {};
+  std::string behind = {};      ///< what stands behind its last bracket
+  std::string other_unit = {};  ///< one that contradicts `unit`
 };
+/// `unit` is what the only bracket holds. `choose_unit` tells among several.
 [[nodiscard]] Heading parse_heading(std::string_view text, int column);
+
+/// Whether the column may have this unit.
+[[nodiscard]] bool is_unit_of(const std::string& unit, const KnownColumn& known);
+
+/// Of several brackets, the unit of the column: square brackets go before others, and among those of one kind the
+/// last one that holds a unit of the column's dimension. A bracket that holds no unit is part of the name. A unit
+/// may also follow the brackets: `Weg (Kanal 2) in mm`.
+void choose_unit(Heading& heading, const KnownColumn& known);
+
+/// Whether the caller may mean this heading: by its text, by its name, or by its text without one of its brackets.
+[[nodiscard]] bool is_called(const Heading& heading, std::string_view called);
 
 /// The column that a heading names; nullptr if it names none. A unit that follows the name without brackets, such
 /// as `x_mm`, `x / mm`, `time, ms`, is moved from the name to `heading.unit`.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <map>
 #include <utility>
 
 #include "core/units.hpp"
@@ -108,7 +109,8 @@ class HeaderReader {
       if (i == headings_.size()) return;
       Heading& heading = headings_[i++];
       refuse_other_unit(heading, unit_in(field));
-      if (!heading.unit.empty() || !heading.well_formed) continue;
+      if (!heading.brackets.empty()) below_[heading.column] = unit_in(field);
+      if (!heading.unit.empty() || !heading.brackets.empty() || !heading.well_formed) continue;
       const KnownColumn* const before = named_column(heading);
       if (before == nullptr || heading.unit.empty()) heading.unit = unit_in(field);
     }
@@ -118,7 +120,7 @@ class HeaderReader {
   [[nodiscard]] std::vector<std::size_t> find(const std::string& called, const KnownColumn& known) const {
     std::vector<std::size_t> found;
     for (std::size_t i = 0; i < headings_.size(); ++i)
-      if (headings_[i].text == called || headings_[i].name == called) found.push_back(i);
+      if (is_called(headings_[i], called)) found.push_back(i);
     std::size_t number = 0;
     const auto [end, fault] = std::from_chars(called.data(), called.data() + called.size(), number);
     if (found.empty() && fault == std::errc{} && end == called.data() + called.size() && number >= 1 &&
@@ -127,6 +129,7 @@ class HeaderReader {
     if (!found.empty()) return found;
     for (std::size_t i = 0; i < headings_.size(); ++i) {
       Heading heading = headings_[i];
+      choose_unit(heading, known);
       split_unit(heading, known);
       if (heading.name == called) found.push_back(i);
     }
@@ -160,7 +163,6 @@ class HeaderReader {
   }
 
   void take_by_name(Heading& heading, CsvField& field) {
-    const bool well_formed = heading.well_formed;
     const KnownColumn* known = named_column(heading);
     const bool is_left_alone = !options_.only.empty() && (known == nullptr || !is_wanted(options_, *known));
     static constexpr std::array<std::string_view, 6> remarks = {"",     "Comment", "Comments",
@@ -171,9 +173,15 @@ class HeaderReader {
       warnings_.push_back(ignored_.emplace_back(ignored("column", excerpt(heading.text), options_.words)));
     } else if (find_for(options_.columns, *known) != nullptr) {
       warnings_.push_back("column '" + excerpt(heading.text) + "' is ignored: another one is used in its place");
-    } else if (!well_formed) {
-      complain(heading.column, "the unit of column " + heading.name + " is not in square brackets",
-               "'name' or 'name [unit]'", excerpt(heading.text));
+    } else if (!heading.well_formed) {
+      const std::string fault =
+          heading.brackets.empty()
+              ? "the unit of column " + heading.name + " is not in square brackets"
+              : "the heading of column " + heading.name + " has words behind its square brackets or other ones";
+      complain(heading.column, fault,
+               "'name' or 'name [unit]'; or, if it is the column that is meant, " +
+                   options_.words(core::Setting::column, known->name, std::to_string(&field - fields_.data() + 1)),
+               excerpt(heading.text));
       field.known = known;
     } else if (is_taken(*known)) {
       complain(heading.column, "column " + std::string(known->name) + " appears twice",
@@ -189,8 +197,27 @@ class HeaderReader {
     return std::ranges::any_of(fields_, [&](const CsvField& field) { return field.known == &known; });
   }
 
+  /// Where several brackets state units, or none of them does.
+  void settle_unit(Heading& heading, const KnownColumn& known) {
+    const bool is_stated = find_for(options_.units, known) != nullptr;
+    if (!heading.other_unit.empty() && !is_stated)
+      complain(heading.column, "the heading of column " + std::string(known.name) + " states two units",
+               "one unit, or " + options_.words(core::Setting::unit, known.name, heading.unit),
+               "'" + excerpt(heading.other_unit) + "' and '" + excerpt(heading.unit) + "'");
+    if (heading.brackets.empty() || is_unit_of(heading.unit, known)) return;
+    const auto below = below_.find(heading.column);
+    if (below != below_.end() && is_unit_of(below->second, known)) {
+      heading.unit = below->second;
+    } else if (is_stated && heading.unit.find(' ') != std::string::npos) {  // a remark, which contradicts no unit
+      heading.unit.clear();
+      heading.brackets.clear();
+    }
+  }
+
   void take(Heading& heading, const KnownColumn& known, CsvField& field) {
     field.known = &known;
+    choose_unit(heading, known);
+    settle_unit(heading, known);
     if (heading.unit.empty()) {  // x_mm or Weg_mm, if the caller names the column so
       Heading same = heading;
       if (named_column(same) == &known)
@@ -251,6 +278,7 @@ class HeaderReader {
   ColumnFactors factors_;
   std::vector<Heading> headings_;
   std::vector<CsvField> fields_;
+  std::map<int, std::string> below_;  ///< unit in the row of units, by the column of a heading with brackets
   std::vector<std::string> ignored_;
 };
 

@@ -101,9 +101,8 @@ class Search {
   /// Whether a heading names a column of numbers, by itself or by a statement of the caller.
   [[nodiscard]] bool names_column(const std::string& field) const {
     Heading heading = parse_heading(field, 0);
-    const bool called = std::ranges::any_of(options_.columns, [&](const auto& entry) {
-      return entry.second == heading.text || entry.second == heading.name;
-    });
+    const bool called =
+        std::ranges::any_of(options_.columns, [&](const auto& entry) { return is_called(heading, entry.second); });
     if (called) return true;
     const KnownColumn* known = named_column(heading);
     return known != nullptr && !known->unit.empty();
