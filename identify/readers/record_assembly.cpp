@@ -1,6 +1,7 @@
 #include "identify/readers/record_assembly.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <initializer_list>
 #include <numeric>
@@ -9,6 +10,7 @@
 #include <span>
 #include <utility>
 
+#include "identify/readers/channel_checks.hpp"
 #include "identify/readers/signal_checks.hpp"
 #include "identify/readers/time_base.hpp"
 #include "identify/records/derived_records.hpp"
@@ -107,6 +109,7 @@ class Assembly {
     refuse_below("fundamental", false, "the amplitude");
     refuse_below("mean_square_speed", false, "the mean square");
     refuse_below("omega", true, "the frequency");
+    check_pair_channels(table_, problems_, warnings_);
     const std::vector<std::string> sweeps = labels();
     PairRecord record;
     record.pairs.resize(table_.rows());
@@ -235,24 +238,14 @@ class Assembly {
     return result;
   }
 
-  /// Removes a `y` that does not move. Adds a problem for an `x` that does not move, and for clipped signals. False
-  /// after a problem.
+  /// Removes channels without a signal. Adds a problem for one that is needed, and for clipped signals. False after
+  /// a problem.
   bool check_signals() {
-    if (const DataColumn* y = table_.find("y"); y != nullptr && is_constant(y->values)) {
-      warnings_.emplace_back("column y is constant: the base does not move, and the column is not used");
-      table_.columns.erase(table_.columns.begin() + (y - table_.columns.data()));
-    }
-    for (const std::string_view name : {"x", "y", "v", "a"}) {
+    if (!check_channels(table_, is_imposed_, problems_, warnings_)) return false;
+    return std::ranges::all_of(std::array{"x", "y", "v", "a"}, [this](std::string_view name) {
       const std::vector<double>* signal = values(name);
-      if (signal == nullptr) continue;
-      const std::string subject = "column " + std::string(name);
-      if (signal->size() > 1 && name == "x" && is_constant(*signal)) {
-        complain(0, name, subject + " is constant: the mass does not move", "the signal of a motion");
-        return false;
-      }
-      if (!check_range(name, *signal)) return false;
-    }
-    return true;
+      return signal == nullptr || check_range(name, *signal);
+    });
   }
 
   /// Adds a problem for a clipped signal, or a warning where it is not certain. False after a problem.
@@ -379,6 +372,8 @@ class Assembly {
         result.*member =
             base.is_interpolated ? interpolated_evenly(t, part) : std::vector<double>(part.begin(), part.end());
       }
+    if (const auto fault = check_test(result, is_imposed_, warnings_))
+      complain(rows.first + base.first, fault->column, fault->message, fault->allowed);
     return result;
   }
 
