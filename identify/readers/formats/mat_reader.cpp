@@ -4,10 +4,7 @@
 #include <matio.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
-#include <cstdint>
-#include <filesystem>
 #include <iterator>
 #include <memory>
 #include <optional>
@@ -159,15 +156,17 @@ class Reader {
     return std::ranges::any_of(options_.columns, [](const auto& entry) { return is_number(entry.second); });
   }
 
-  /// The parts of matrices that the caller asks for.
-  void add_slices(Scope& scope) {
+  /// The parts of matrices that the caller asks for. `prefix`: `run.` for the fields of a struct `run`.
+  void add_slices(Scope& scope, const std::string& prefix = {}) {
     std::vector<const matvar_t*> matrices;
     for (const Entry& entry : scope)
       if (is_matrix(*entry.variable)) matrices.push_back(entry.variable);
     Scope slices;
     for (const auto& [column, called] : options_.columns) {
       if (const auto slice = parse_slice(called)) {
-        const auto of = std::ranges::find(scope, slice->variable, &Entry::name);
+        const auto of = std::ranges::find_if(scope, [&](const Entry& entry) {
+          return entry.name == slice->variable || prefix + entry.name == slice->variable;
+        });
         if (of != scope.end()) slices.push_back({called, of->variable, slice->slice});
       } else if (is_number(called) && matrices.size() == 1) {
         slices.push_back({called, matrices.front(), Slice{false, std::stoul(called) - 1}});
@@ -193,6 +192,11 @@ class Reader {
     }
   }
 
+  /// Whether the caller names it as a column.
+  [[nodiscard]] bool is_called(const std::string& name) const {
+    return std::ranges::any_of(options_.columns, [&name](const auto& entry) { return entry.second == name; });
+  }
+
   [[nodiscard]] bool holds_data(const Scope& scope) const {
     return std::ranges::any_of(scope, [this](const Entry& entry) {
       const KnownColumn* known = column_of(entry.name).first;
@@ -202,7 +206,7 @@ class Reader {
 
   std::vector<Scope> find_scopes() {
     Scope whole;
-    Scope fields;  // of single structs, as `run.x`
+    Scope fields;  // of single structs that the caller names, as `run.x`
     std::vector<std::vector<Scope>> structs;
     for (const Variable& variable : variables_) {
       if (variable->class_type != MAT_C_STRUCT) {
@@ -210,17 +214,21 @@ class Reader {
         continue;
       }
       std::vector<Scope> elements = elements_of(*variable);
+      const std::string prefix = std::string(variable->name) + ".";
       for (Scope& element : elements) {
-        for (const Entry& entry : element)
-          if (elements.size() == 1)
-            fields.push_back({std::string(variable->name) + "." + entry.name, entry.variable});
-        add_slices(element);
+        for (Entry& entry : element)
+          if (is_called(prefix + entry.name)) entry.name = prefix + entry.name;
+        add_slices(element, prefix);
+        if (elements.size() == 1)
+          std::ranges::copy_if(element, std::back_inserter(fields),
+                               [this](const Entry& entry) { return is_called(entry.name); });
       }
       if (!elements.empty() && holds_data(elements.front())) structs.push_back(std::move(elements));
     }
     add_slices(whole);
-    const auto is_asked_for = [this](const Entry& entry) { return column_of(entry.name).first != nullptr; };
-    std::ranges::copy_if(fields, std::back_inserter(whole), is_asked_for);
+    // A struct that has all that is asked for has its own times, too.
+    if (structs.size() == 1 && whole.empty()) return std::move(structs.front());
+    std::ranges::move(fields, std::back_inserter(whole));
     if (holds_data(whole)) return {whole};
     if (structs.size() == 1) return std::move(structs.front());
     refuse_file(file_,
@@ -406,26 +414,13 @@ class Reader {
   std::size_t label_count_ = 0;
 };
 
-/// Limits of time: two minutes for a gigabyte with any compression, some seconds for a small file. On a busy
-/// machine, wall time is longer than processor time.
-IsolationLimits limits_of(const std::string& path) {
-  constexpr std::chrono::seconds least{2};
-  constexpr std::uintmax_t bytes_a_second = std::uintmax_t{8} << 20U;
-  constexpr int load = 8;
-  constexpr std::size_t memory = std::size_t{4} << 30U;
-  std::error_code error;
-  const std::uintmax_t size = std::filesystem::file_size(path, error);
-  const std::chrono::seconds time = least + std::chrono::seconds(error ? 0 : size / bytes_a_second);
-  return {time, load * time, memory};
-}
-
 }  // namespace
 
 DataTable read_mat(const std::string& path, const ReadOptions& options, Problems& problems,
                    std::vector<std::string>& warnings) {
   check_names(options, problems);
   problems.throw_if_any();
-  const IsolatedResult result = run_isolated(limits_of(path), [&](const ByteSink& sink) {
+  const IsolatedResult result = run_isolated(mat_limits(path), [&](const ByteSink& sink) {
     silence();
     try {
       send(Reader(path, options).run(), sink);

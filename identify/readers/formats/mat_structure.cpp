@@ -4,9 +4,12 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cstdint>
 #include <cstring>
+#include <filesystem>
 #include <limits>
+#include <system_error>
 
 #include "identify/readers/data_table.hpp"
 
@@ -198,6 +201,17 @@ void refuse_unread_mat(const std::string& file, IsolatedEnd end) {
       break;
   }
   refuse_damaged_mat(file);
+}
+
+IsolationLimits mat_limits(const std::string& path) {
+  constexpr std::chrono::seconds least{2};
+  constexpr std::uintmax_t bytes_a_second = std::uintmax_t{8} << 20U;
+  constexpr int load = 8;
+  constexpr std::size_t memory = std::size_t{4} << 30U;
+  std::error_code error;
+  const std::uintmax_t size = std::filesystem::file_size(path, error);
+  const std::chrono::seconds time = least + std::chrono::seconds(error ? 0 : size / bytes_a_second);
+  return {time, load * time, memory};
 }
 
 }  // namespace dualdamp::identify

@@ -31,4 +31,8 @@ void check_mat(std::string_view bytes, const std::string& file);
 /// Throws `core::InputError`: why the process that reads the file gave no content.
 [[noreturn]] void refuse_unread_mat(const std::string& file, IsolatedEnd end);
 
+/// Limits of time: two minutes for a gigabyte with any compression, some seconds for a small file. On a busy
+/// machine, wall time is longer than processor time.
+[[nodiscard]] IsolationLimits mat_limits(const std::string& path);
+
 }  // namespace dualdamp::identify

@@ -63,7 +63,7 @@ std::optional<std::vector<double>> numbers(const matvar_t& variable) {
 }
 
 std::optional<SliceName> parse_slice(const std::string& text) {
-  static const std::regex pattern(R"((\w+)\s*\(\s*(:|\d{1,6})\s*,\s*(:|\d{1,6})\s*\))");
+  static const std::regex pattern(R"((\w+(?:\.\w+)?)\s*\(\s*(:|\d{1,6})\s*,\s*(:|\d{1,6})\s*\))");
   std::smatch parts;
   if (!std::regex_match(text, parts, pattern) || (parts[2] == ":") == (parts[3] == ":")) return std::nullopt;
   const bool is_row = parts[3] == ":";

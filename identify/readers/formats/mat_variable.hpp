@@ -31,7 +31,7 @@ struct Slice {
   std::size_t index = 0;
 };
 
-/// `data(:,2)` or `data(2,:)`, as MATLAB writes it.
+/// `data(:,2)`, `data(2,:)` or, in a struct, `run.data(:,2)`, as MATLAB writes it.
 struct SliceName {
   std::string variable;
   Slice slice;

@@ -274,6 +274,23 @@ class Scanner {
 
 }  // namespace
 
+std::optional<std::size_t> lines_above_data_set(std::string_view text) {
+  constexpr std::size_t most_lines = 200;
+  constexpr std::string_view mark = "    -1";
+  std::optional<std::size_t> first;
+  bool follows_mark = false;
+  for (std::size_t line = 0; line < most_lines && !text.empty(); ++line) {
+    const std::string_view now = text.substr(0, text.find('\n'));
+    const std::string_view number = now.substr(0, 7);  // in six columns; `b` behind it for binary numbers
+    if (follows_mark && (number == "    58" || number == "    58b" || number == "    58 " || number == "    58\r"))
+      return first;
+    follows_mark = now.starts_with(mark) && now.find_first_not_of(" \t\r", mark.size()) == std::string_view::npos;
+    if (follows_mark && !first) first = line;
+    text.remove_prefix(std::min(now.size() + 1, text.size()));
+  }
+  return std::nullopt;
+}
+
 bool begins_data_set(std::string_view text) {
   const std::size_t first = text.find_first_not_of(" \t\r\n");
   if (first == std::string_view::npos) return false;

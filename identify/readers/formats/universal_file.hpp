@@ -42,6 +42,10 @@ struct Function {
 /// Whether the text begins with the mark and the number of a data set.
 [[nodiscard]] bool begins_data_set(std::string_view text);
 
+/// Number of lines above the first data set, where a data set 58 begins within the first 200 lines, in the fixed
+/// columns of the format; nothing if there is none.
+[[nodiscard]] std::optional<std::size_t> lines_above_data_set(std::string_view text);
+
 /// The time responses in the order of the file; other functions are left out with a warning. `file`: its name in
 /// messages. Errors: `core::InputError` with the line, for complex numbers, a data set with fewer or more values
 /// than it states, a number that cannot be read.

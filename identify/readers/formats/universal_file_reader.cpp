@@ -167,10 +167,18 @@ class Mapping {
 
 }  // namespace
 
-bool is_universal_file(std::string_view text) { return universal_file::begins_data_set(text); }
+bool is_universal_file(std::string_view text) {
+  return universal_file::begins_data_set(text) || universal_file::lines_above_data_set(text).has_value();
+}
 
 DataTable parse_universal_file(std::string_view text, const ReadOptions& options, Problems& problems,
                                std::vector<std::string>& warnings) {
+  const std::size_t above =
+      universal_file::begins_data_set(text) ? 0 : universal_file::lines_above_data_set(text).value_or(0);
+  if (above > 0)
+    warnings.push_back(std::to_string(above) + (above == 1 ? " line" : " lines") +
+                       " above the first data set of the universal file " + (above == 1 ? "is" : "are") +
+                       " not read");
   const std::vector<Function> functions = universal_file::time_responses(text, options.name, warnings);
   if (functions.empty())
     refuse_file(options.name, "the universal file holds no time response", "data sets 58 of function type 1");

@@ -310,6 +310,23 @@ TEST_CASE("Universal files: signals by name, label and kind") {
   CHECK(named.at(0).y[0] == Approx(0.01).epsilon(1e-15));
 }
 
+TEST_CASE("Universal files: lines above the first data set are not read, with a warning") {
+  const std::string file =
+      data_set("   151", "a model\n") + uff58({.entity = "x", .unit = "mm", .values = ramp(17)});
+  for (const auto& [above, words] : {std::pair<std::string, std::string>{"exported by ACME 3.1\n", "1 line above"},
+                                     {"exported by\nACME 3.1\n\n\n", "4 lines above"},
+                                     {"t [s],x [mm]\n", "1 line above"}}) {
+    CAPTURE(above);
+    const MeasuredRecord read = parse_record(above + file, "data.uff");
+    CHECK(read.record.histories.at(0).x[16] == Approx(17e-3).epsilon(1e-12));
+    REQUIRE(read.warnings.size() == 1);
+    CHECK(mentions(read.warnings[0], words + " the first data set of the universal file"));
+  }
+  // Numbers of a table that begin like the marks of a data set.
+  const MeasuredRecord csv = parse_record("x\n-1\n58\n-40\n", "data.csv");
+  CHECK(csv.record.decay->extremes.size() == 3);
+}
+
 TEST_CASE("Universal files: SI is assumed with a warning where neither the axis nor data set 164 states a unit") {
   const std::vector<double> up = ramp(17);
   const std::string units =

@@ -69,6 +69,16 @@ class Matlab {
     }
     return put(record);
   }
+  /// A struct with a matrix `data` and a sample rate `fs`.
+  Matlab& add_struct_of_matrix(const std::string& name, const std::vector<double>& values, std::size_t columns,
+                               double rate) {
+    std::array<std::size_t, 2> size = {1, 1};
+    std::array<const char*, 2> fields = {"data", "fs"};
+    matvar_t* record = Mat_VarCreateStruct(name.c_str(), 2, size.data(), fields.data(), 2);
+    Mat_VarSetStructFieldByName(record, "data", 0, create("data", values, columns, MAT_C_DOUBLE));
+    Mat_VarSetStructFieldByName(record, "fs", 0, create("fs", {rate}, 1, MAT_C_DOUBLE));
+    return put(record);
+  }
   [[nodiscard]] std::string path() {
     mat_.reset();
     return file_.path();
@@ -229,6 +239,44 @@ TEST_CASE("Parts of matrices, fields of structs and names of the caller's are co
     };
     CHECK(mentions(says("data(:,3)"), "beyond the last column"));
     CHECK(mentions(says("y"), "data (40 x 2)"));
+  }
+}
+
+TEST_CASE("Parts of a matrix within a struct are columns, beside the sample rate in the struct or in the file") {
+  std::vector<double> table = ramp(40);
+  std::vector<double> second = ramp(40);
+  for (double& value : second) value *= -0.5;
+  table.insert(table.end(), second.begin(), second.end());
+  for (const mat_ft version : {MAT_FT_MAT5, MAT_FT_MAT73}) {
+    CAPTURE(version);
+    Matlab file("within.mat", version);
+    const std::string path = file.add_struct_of_matrix("rec", table, 2, 100.0).path();
+    for (const std::string prefix : {"rec.", ""}) {
+      CAPTURE(prefix);
+      const History history =
+          read_record(path, {.columns = {{"x", prefix + "data(:,1)"}, {"y", prefix + "data(:,2)"}}})
+              .record.histories.at(0);
+      CHECK(history.sample_rate == Approx(100.0).epsilon(1e-14));
+      CHECK(history.x == ramp(40));
+      CHECK(history.y == second);
+    }
+    CHECK(mentions(refusal([&] { return read_record(path, {.columns = {{"x", "rec.data(:,3)"}}}); }),
+                   "beyond the last column"));
+    CHECK(mentions(refusal([&] { return read_record(path, {.columns = {{"x", "other.data(:,1)"}}}); }),
+                   "holds no vector x"));
+
+    Matlab beside("beside.mat", version);
+    beside.add("y", second).add("Fs", {50.0}).add_struct_of_matrix("rec", table, 2, 100.0);
+    const History other = read_record(beside.path(), {.columns = {{"x", "rec.data(:,1)"}}}).record.histories.at(0);
+    CHECK(other.sample_rate == Approx(50.0).epsilon(1e-14));
+    CHECK(other.x == ramp(40));
+    CHECK(other.y == second);
+
+    Matlab field("field.mat", version);
+    const History run = read_record(field.add_struct("run", {ramp(40)}).path(), {.columns = {{"x", "run.x"}}})
+                            .record.histories.at(0);
+    CHECK(run.sample_rate == Approx(100.0).epsilon(1e-14));
+    CHECK(run.x == ramp(40));
   }
 }
 
