@@ -93,6 +93,7 @@ struct History {
   /// For messages: what gaps in the times have left out; why it gives no x-Y pair. Empty: nothing, or not asked.
   std::string gaps = {};
   std::string no_pair = {};
+  bool is_clipped = false;  ///< samples at the end of a sensor's range were found, and warned of
 };
 
 /// All that was measured; kinds of data that were not measured are empty.

@@ -120,6 +120,14 @@ constexpr std::array all_means = {
     Means{symmetry, "signed extremes", has_directions},
 };
 
+/// Departures that a swing that is cut off can pretend.
+bool looks_clipped(const std::vector<Assumption>& departure) {
+  return std::ranges::any_of(departure, [](Assumption assumption) {
+    return assumption == friction_velocity || assumption == friction_displacement || assumption == stationarity ||
+           assumption == symmetry || assumption == spring;
+  });
+}
+
 }  // namespace
 
 std::string would_tell(Assumption assumption, const Recorded& recorded) {
@@ -131,6 +139,9 @@ std::string would_tell(Assumption assumption, const Recorded& recorded) {
 
 std::string what_would_help(const Ledger& ledger) {
   std::vector<std::string> helps;
+  if (ledger.recorded.clipped && std::ranges::any_of(ledger.departures, looks_clipped))
+    helps.emplace_back(
+        "first leave out the part of the record that is clipped: clipping looks like friction or drift");
   for (const std::vector<Assumption>& departure : ledger.departures) {
     std::string help = what_would_help(departure.front(), ledger.recorded);
     if (std::ranges::find(helps, help) == helps.end()) helps.push_back(std::move(help));

@@ -344,6 +344,7 @@ Recorded recorded_in(const Record& record) {
   Recorded recorded{.histories = !record.histories.empty()};
   recorded.drive = any_has({&History::y, &History::force});
   recorded.states = record.pairs.has_value();
+  recorded.clipped = std::ranges::any_of(record.histories, &History::is_clipped);
   recorded.free = recorded.histories ? !recorded.drive : !record.pairs && record.decay;
   recorded.second_sensor = any_has({&History::v, &History::a});
   recorded.one_sensor = recorded.free && !recorded.second_sensor;

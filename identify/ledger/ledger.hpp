@@ -76,6 +76,7 @@ struct Recorded {
   bool frequencies = false;    ///< states at several frequencies
   bool sweeps = false;         ///< states of several sweeps with labels
   bool times = false;          ///< of the extremes
+  bool clipped = false;        ///< samples at the end of a sensor's range
 };
 
 /// The range of an estimate: what may be true beside it, for all that the record tells.

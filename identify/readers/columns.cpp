@@ -5,6 +5,7 @@
 #include <cctype>
 #include <utility>
 
+#include "core/diagnostics.hpp"
 #include "core/units.hpp"
 #include "identify/readers/record_reader.hpp"
 #include "identify/readers/text.hpp"
@@ -262,6 +263,28 @@ std::string ignored(std::string_view what, const std::string& name, const core::
   return text + "; if it holds the uncertainty of each " + column + ", " +
          (advice.empty() ? "readings are weighed by their scatter instead"
                          : "state one for all of them, such as its median: " + advice);
+}
+
+std::vector<std::string> all_ignored(std::string_view what, const std::vector<std::string>& names,
+                                     const core::SettingWords& words) {
+  constexpr std::size_t most_warnings = 3;
+  constexpr std::size_t most_names = 5;
+  std::vector<std::string> warnings;
+  std::vector<std::string> plain;
+  for (const std::string& name : names)
+    if (column_of_uncertainty(name) != nullptr || names.size() <= most_warnings)
+      warnings.push_back(ignored(what, name, words));
+    else
+      plain.push_back("'" + name + "'");
+  if (plain.empty()) return warnings;
+  const std::size_t count = plain.size();
+  if (count > most_names) plain.resize(most_names);
+  const std::string more = count > most_names
+                               ? core::joined(plain, ", ") + " and " + std::to_string(count - most_names) + " more"
+                               : listed(plain);
+  warnings.push_back(std::to_string(count) + " " + std::string(what) + (count == 1 ? " is" : "s are") +
+                     " not known and " + (count == 1 ? "is" : "are") + " ignored: " + more);
+  return warnings;
 }
 
 std::string listed(const std::vector<std::string>& names) {

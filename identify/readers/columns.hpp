@@ -80,6 +80,11 @@ void split_unit(Heading& heading, const KnownColumn& known);
 /// warning tells how one for all readings is stated.
 [[nodiscard]] std::string ignored(std::string_view what, const std::string& name, const core::SettingWords& words);
 
+/// The warnings about unknown columns, variables or fields: one for each, or one for all if there are more than
+/// three. `what`: "column".
+[[nodiscard]] std::vector<std::string> all_ignored(std::string_view what, const std::vector<std::string>& names,
+                                                   const core::SettingWords& words);
+
 /// "a, b and c"
 [[nodiscard]] std::string listed(const std::vector<std::string>& names);
 

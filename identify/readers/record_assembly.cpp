@@ -267,6 +267,7 @@ class Assembly {
     }
     warnings_.push_back(subject + " may be clipped: " + where +
                         ", and the swing beside them would go further. Clipping looks like friction");
+    clipped_.insert(clipped_.end(), clipping.stretches.begin(), clipping.stretches.end());
     return true;
   }
 
@@ -359,6 +360,9 @@ class Assembly {
     History result;
     result.sweep = label;
     if (base.last - base.first < rows.last - rows.first) result.gaps = test + base.warning;
+    result.is_clipped = std::ranges::any_of(clipped_, [&](const auto& stretch) {
+      return stretch.first < rows.first + base.last && stretch.second > rows.first + base.first;
+    });
     result.start = t.front();
     result.sample_rate = 1.0 / base.step;
     using Member = std::vector<double> History::*;
@@ -379,6 +383,7 @@ class Assembly {
 
   DataTable table_;
   std::vector<std::size_t> source_row_;  ///< if rows were left out: the row in the file of each row
+  std::vector<std::pair<std::size_t, std::size_t>> clipped_;  ///< rows that may be clipped
   bool is_imposed_;
   Problems& problems_;
   std::vector<std::string>& warnings_;

@@ -31,8 +31,10 @@ class HeaderReader {
       if (const KnownColumn* known = known_column(name)) rename(*known, called);
     for (std::size_t i = 0; i < headings_.size() && line_.number > 0; ++i)
       if (fields_[i].known == nullptr) take_by_name(headings_[i], fields_[i]);
+    std::vector<std::string> ignored = all_ignored("column", unknown_, options_.words);
+    warnings_.insert(warnings_.end(), ignored.begin(), ignored.end());
     report_missing();
-    return {std::move(fields_), factors_.take_units(), std::move(ignored_)};
+    return {std::move(fields_), factors_.take_units(), std::move(ignored)};
   }
 
  private:
@@ -170,7 +172,7 @@ class HeaderReader {
     if (known == nullptr || is_left_alone) {
       field.may_be_missing = std::ranges::find(remarks, heading.name) != remarks.end();
       if (heading.text.empty() || is_left_alone) return;
-      warnings_.push_back(ignored_.emplace_back(ignored("column", excerpt(heading.text), options_.words)));
+      unknown_.push_back(excerpt(heading.text));
     } else if (find_for(options_.columns, *known) != nullptr) {
       warnings_.push_back("column '" + excerpt(heading.text) + "' is ignored: another one is used in its place");
     } else if (!heading.well_formed) {
@@ -279,7 +281,7 @@ class HeaderReader {
   std::vector<Heading> headings_;
   std::vector<CsvField> fields_;
   std::map<int, std::string> below_;  ///< unit in the row of units, by the column of a heading with brackets
-  std::vector<std::string> ignored_;
+  std::vector<std::string> unknown_;  ///< headings of no known column
 };
 
 }  // namespace

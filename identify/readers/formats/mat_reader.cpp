@@ -66,8 +66,8 @@ class Reader {
     problems_.throw_if_any();
     content.units = factors_.take_units();
     content.row_labels = std::move(row_labels_);
+    content.ignored = take_ignored();
     content.warnings = std::move(warnings_);
-    content.ignored = std::move(ignored_);
     return content;
   }
 
@@ -76,8 +76,12 @@ class Reader {
     return options_.words(core::Setting::column, "x", name);
   }
 
-  void ignore(std::string_view what, const std::string& name) {
-    warnings_.push_back(ignored_.emplace_back(ignored(what, name, options_.words)));
+  /// The warnings about unknown variables and fields.
+  std::vector<std::string> take_ignored() {
+    std::vector<std::string> ignored = all_ignored("variable", unknown_variables_, options_.words);
+    std::ranges::move(all_ignored("field", unknown_fields_, options_.words), std::back_inserter(ignored));
+    warnings_.insert(warnings_.begin(), ignored.begin(), ignored.end());
+    return ignored;
   }
 
   void complain(std::string message, std::string allowed = {}, std::string found = {}) {
@@ -95,7 +99,7 @@ class Reader {
       const std::string name = to_utf8(variable->name == nullptr ? "" : variable->name);
       listing_.push_back(name + " (" + describe(*variable) + ")");
       if (variable->class_type != MAT_C_STRUCT && !is_wanted(name) && !(is_matrix(*variable) && wants_numbered())) {
-        if (options_.only.empty()) ignore("variable", name);
+        if (options_.only.empty()) unknown_variables_.push_back(name);
         continue;
       }
       if (is_73 && variable->class_type == MAT_C_EMPTY && lacks_class(path_, variable->name)) {
@@ -264,7 +268,9 @@ class Reader {
       if (is_sampling(entry.name)) {
         take_step(entry, step);
       } else if (known == nullptr) {
-        if (options_.only.empty()) ignore("field", to_utf8(entry.name));
+        const std::string name = to_utf8(entry.name);  // the same in each element of a struct
+        if (options_.only.empty() && std::ranges::find(unknown_fields_, name) == unknown_fields_.end())
+          unknown_fields_.push_back(name);
       } else if (known->unit.empty()) {
         take_label(entry, result);
       } else {
@@ -406,7 +412,7 @@ class Reader {
   const ReadOptions& options_;
   Problems problems_;
   std::vector<std::string> warnings_;
-  std::vector<std::string> ignored_;
+  std::vector<std::string> unknown_variables_, unknown_fields_;
   ColumnFactors factors_;
   std::vector<std::string> listing_;  ///< all variables with their sizes
   std::vector<Variable> variables_;

@@ -38,6 +38,23 @@ TEST_CASE("Advice names nothing that the record has already") {
   CHECK(would_tell(symmetry, {.states = true}) == "; a history or signed extremes would tell");
 }
 
+TEST_CASE(
+    "Advice for a clipped record begins with the part to leave out, where clipping can pretend the departure") {
+  using enum Assumption;
+  const auto advice = [](Assumption violated, bool is_clipped) {
+    Ledger tested = ledger({violated});
+    tested.recorded = {.histories = true, .free = true, .times = true, .clipped = is_clipped};
+    return concluded({estimate("energy_balance", 0.1, 4.0, 0.05)}, tested).reason;
+  };
+  for (const Assumption assumption : {friction_velocity, friction_displacement, stationarity, symmetry, spring}) {
+    CAPTURE(name_of(assumption));
+    CHECK(mentions(advice(assumption, true),
+                   "what would help: first leave out the part of the record that is clipped"));
+    CHECK_FALSE(mentions(advice(assumption, false), "clipped"));
+  }
+  CHECK_FALSE(mentions(advice(one_mode, true), "clipped"));
+}
+
 TEST_CASE("What a method found stands where a departure was seen that the stated uncertainties allow") {
   Estimate contradicted = estimate("extended_kalman", 0.1, 4.0, 0.2);
   contradicted.usable = false;

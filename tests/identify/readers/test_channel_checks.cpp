@@ -182,3 +182,15 @@ TEST_CASE("channels: what cannot be constant among pairs is left out, or refused
   CHECK(warns(read("Y [mm],x [mm],mean_square_speed [m^2/s^2]\n4,9,0\n5,11,0\n6,13,0\n"),
               "column mean_square_speed is constant"));
 }
+
+TEST_CASE("channels: a record that may be clipped says so, and another test of its file does not") {
+  const Signal cut = [](double t) { return t < 3.0 ? std::min(4.0, swing(t)) : 0.6 * swing(t); };
+  const Signal hum = [&](double t) { return cut(t) + 0.002 * std::sin(3000.0 * t * t); };
+  const Signal label = [](double t) { return t < 2.995 ? 1.0 : 2.0; };
+  const MeasuredRecord once =
+      read("x [mm],sweep", {[&](double t) { return t < 0.3 ? hum(t) : 0.6 * swing(t); }, label});
+  CHECK(warns(once, "column x may be clipped"));
+  REQUIRE(once.record.histories.size() == 2);
+  CHECK(once.record.histories[0].is_clipped);
+  CHECK_FALSE(once.record.histories[1].is_clipped);
+}

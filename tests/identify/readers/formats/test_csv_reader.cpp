@@ -130,6 +130,20 @@ TEST_CASE("Columns that are not known or not used are ignored with a warning") {
   CHECK(csv.record.pairs->pairs[1].x == 5.0);
 }
 
+TEST_CASE("Many columns that are not known are ignored with one warning, but uncertainties are told apart") {
+  std::string header = "Y,x,u_x";
+  std::string row = "1,2,3";
+  for (int i = 0; i < 40; ++i) {
+    header += ",T" + std::to_string(i);
+    row += ",7";
+  }
+  const MeasuredRecord csv = parse_record(header + "\n" + row + "\n" + row + "\n", "data.csv");
+  REQUIRE(csv.ignored.size() == 2);
+  CHECK(csv.ignored[0].starts_with("column 'u_x' is not known and is ignored; if it holds the uncertainty"));
+  CHECK(csv.ignored[1] == "40 columns are not known and are ignored: 'T0', 'T1', 'T2', 'T3', 'T4' and 35 more");
+  CHECK(std::ranges::find(csv.warnings, csv.ignored[1]) != csv.warnings.end());
+}
+
 TEST_CASE("Faults of the header") {
   CHECK(only_problem("Y,X\n1,2\n", 1, 1, "no column x").found == "Y,X");
   CHECK(only_problem("time,Y\n1,2\n", 1, 1, "no column x").allowed.find("Y and x") != std::string::npos);
