@@ -80,8 +80,10 @@ struct Samples {
 };
 
 /// From a data file: time counts from its first sample.
-std::optional<Samples> measured_samples(CheckedFile& file, const Json& section, bool is_base) {
+std::optional<Samples> measured_samples(CheckedFile& file, const Json& section, bool is_base, bool is_read) {
+  const std::size_t warned = file.warnings.size();
   auto signal = read_signal(file, std::string(section_name), section, is_base ? "y" : "force");
+  if (is_read) file.warnings.resize(std::min(warned, file.warnings.size()));
   if (!signal) return std::nullopt;
   file.drive_start = signal->times.front();
   for (double& time : signal->times) time -= file.drive_start;
@@ -196,7 +198,7 @@ std::optional<identify::MeasuredSignal> read_signal(CheckedFile& file, const std
   }
 }
 
-void read_drive(CheckedFile& file) {
+void read_drive(CheckedFile& file, bool is_read) {
   const std::string name(section_name);
   const std::string type = file.text_at(name, "type");
   const SamplesIn samples_in = samples_of(type);
@@ -207,7 +209,7 @@ void read_drive(CheckedFile& file) {
     if (is_listed && !section.contains(key)) return;  // reported
   if (!section.contains("interpolation") || !section.contains("repeat")) return;
   const bool is_base = moves_base(type);
-  auto samples = is_listed ? listed_samples(file, section) : measured_samples(file, section, is_base);
+  auto samples = is_listed ? listed_samples(file, section) : measured_samples(file, section, is_base, is_read);
   if (!samples) return;
   file.drive =
       std::make_shared<const sim::SampledSignal>(std::move(samples->times), std::move(samples->values),

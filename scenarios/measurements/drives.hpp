@@ -18,8 +18,9 @@ namespace dualdamp::scenarios {
 [[nodiscard]] std::optional<identify::MeasuredSignal> read_signal(CheckedFile& file, const std::string& path,
                                                                   const Json& section, std::string_view column);
 
-/// Puts the samples of a measured or listed excitation into `file.drive`.
-void read_drive(CheckedFile& file);
+/// Puts the samples of a measured or listed excitation into `file.drive`. `is_read`: its file was read as a record,
+/// and what its reader warns of is known.
+void read_drive(CheckedFile& file, bool is_read = false);
 
 /// Checks whether the drive lasts as long as the motion, and the number of pieces this needs. `duration` [s].
 void check_drive(CheckedFile& file, double duration);

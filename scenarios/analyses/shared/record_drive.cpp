@@ -232,7 +232,7 @@ bool take_as_excitation(CheckedFile& file, const DataItem& item, const History& 
   const auto samples_before = file.drive;
   const double start_before = file.drive_start;
   file.values()["excitation"] = measured_section(item, column);
-  read_drive(file);
+  read_drive(file, true);
   if (file.drive == nullptr || begin_together(history, file.drive_start)) return true;
   if (before.is_null())
     file.values().erase("excitation");
