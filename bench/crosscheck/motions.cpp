@@ -77,6 +77,7 @@ class Motions {
       return std::move(findings_);
     }
     compare_engines(name);
+    check_sticks(first_);
     if (!first_.outcome.ok()) return std::move(findings_);
     check_energy();
     compare_variants();
@@ -160,6 +161,7 @@ class Motions {
       other = walk(model, options_);
       if (other.outcome.ok()) break;
     }
+    check_sticks(other);
     if (!first_.outcome.ok()) {
       const bool cost = first_.outcome.kind == core::OutcomeKind::event_limit;
       const bool refused = cost || !other.outcome.ok() || other.ended_early;
@@ -190,6 +192,11 @@ class Motions {
       }
       judge(name, other, wider);
     }
+  }
+
+  void check_sticks(const Walk& walk) {
+    const std::string fault = fault_of_sticks(walk.events);
+    findings_.push_back({"stops and releases", fault.empty() ? Verdict::agreed : Verdict::disagree, 0.0, fault});
   }
 
   /// Adds the numbers of two lists; after its end a list counts as 0.

@@ -1,5 +1,7 @@
 #include "bench/crosscheck/walk.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -74,6 +76,19 @@ bool is_slow(const Walk& walk, double from, double to, double speed) {
     if (piece->end >= to) return true;
   }
   return false;
+}
+
+std::string fault_of_sticks(const std::vector<sim::Event>& events) {
+  const sim::Event* last = nullptr;
+  for (const sim::Event& event : events) {
+    if (event.kind == sim::EventKind::switching || event.kind == sim::EventKind::grazing) continue;
+    const bool was_held = last != nullptr && last->kind == sim::EventKind::stop;
+    if (last != nullptr && was_held != (event.kind == sim::EventKind::release))
+      return fmt::format("{} at t = {:.9g} s after {} at t = {:.9g} s", sim::name_of(event.kind), event.t,
+                         sim::name_of(last->kind), last->t);
+    last = &event;
+  }
+  return {};
 }
 
 Walk walk(const sim::Model& model, const WalkOptions& options) {

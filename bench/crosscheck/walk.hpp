@@ -2,6 +2,7 @@
 /// The data of a motion for a comparison: its events, equally spaced samples, its energy account.
 
 #include <limits>
+#include <string>
 #include <vector>
 
 #include "core/outcome.hpp"
@@ -43,6 +44,10 @@ struct Walk {
 
 /// Whether |v| <= `speed` in all pieces between the two times.
 [[nodiscard]] bool is_slow(const Walk& walk, double from, double to, double speed);
+
+/// What is wrong with the order of the events: the mass stops or turns while it is held, or is released while it
+/// slips. Empty: nothing. At the start it may be held.
+[[nodiscard]] std::string fault_of_sticks(const std::vector<sim::Event>& events);
 
 [[nodiscard]] Walk walk(const sim::Model& model, const WalkOptions& options);
 

@@ -213,7 +213,15 @@ EventKind Engine::act(StickEnd end) {
 EventKind Engine::act(LawGuard guard) {
   jump(guard.law, {guard.guard});
   changed_last_ = guard.law;
-  return EventKind::switching;
+  return after_change();
+}
+
+/// A law has changed its mode. A mass that a law holds is released by the guards of the next interval, which takes
+/// no time then. A mass that no law holds rests only while all forces on it cancel, and there are no such guards.
+EventKind Engine::after_change() {
+  if (direction_ != Direction::none || can_stick_) return EventKind::switching;
+  settle();
+  return direction_ == Direction::none ? EventKind::switching : EventKind::release;
 }
 
 /// The next time at which some law changes its mode whatever the motion does [s].
@@ -225,12 +233,12 @@ double Engine::next_schedule() const {
   return next;
 }
 
-/// The mode changes of all laws that are due; then decides again whether a sticking mass still sticks.
-void Engine::act_on_schedule(double due) {
+/// The mode changes of all laws that are due.
+EventKind Engine::act_on_schedule(double due) {
   for (std::size_t i = 0; i < model_.friction.size(); ++i) {
     if (model_.friction[i].next_change(memories_[i]) <= due) jump(i, {friction::Trigger::scheduled});
   }
-  if (direction_ == Direction::none) settle();
+  return after_change();
 }
 
 std::string Engine::name_in_list(std::size_t law) const {

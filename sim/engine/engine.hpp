@@ -122,7 +122,8 @@ class Engine {
   EventKind act(SlipEnd);
   EventKind act(StickEnd end);
   EventKind act(LawGuard guard);
-  void act_on_schedule(double due);
+  EventKind act_on_schedule(double due);
+  EventKind after_change();
   [[nodiscard]] double next_schedule() const;
   /// Words for a law: its place in system.friction, and its name if it is from a plugin.
   [[nodiscard]] std::string name_in_list(std::size_t law) const;

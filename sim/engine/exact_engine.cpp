@@ -392,8 +392,7 @@ const Interval* ExactEngine::step(double left, bool to_period_end) {
     if (const auto* guard = std::get_if<LawGuard>(&ending)) changed_law_ = guard->law;
     interval_->ending = act(ending);
   } else if (by_schedule) {
-    act_on_schedule(due);
-    interval_->ending = EventKind::switching;
+    interval_->ending = act_on_schedule(due);
   }
   return interval_.get();
 }

@@ -368,8 +368,7 @@ const Interval* SmoothEngine::step(double left, bool to_period_end) {
     interval_->ending = act(ending);
     ended_at_once_ = false;
   } else {
-    act_on_schedule(due);
-    interval_->ending = EventKind::switching;
+    interval_->ending = act_on_schedule(due);
   }
   if (tracking_) carry_from_event();
   is_laid_ = false;

@@ -14,6 +14,7 @@
 #include "bench/crosscheck/differences.hpp"
 #include "bench/crosscheck/random_scenario.hpp"
 #include "bench/crosscheck/variants.hpp"
+#include "bench/crosscheck/walk.hpp"
 #include "scenarios/scenario.hpp"
 
 using namespace dualdamp;
@@ -141,6 +142,21 @@ TEST_CASE("crosscheck: a lost event is found, coincident ones are named", "[cros
   CHECK_FALSE(crosscheck::difference(walk, off, mild, 1e-7).fault.empty());
   crosscheck::Sensitivity strong{.deviation = std::vector<double>(walk.samples.size(), 1e-6), .change = 1e-10};
   CHECK(crosscheck::difference(walk, off, strong, 1e-7).fault.empty());
+}
+
+TEST_CASE("crosscheck: a stick without its release is found", "[crosscheck]") {
+  using enum sim::EventKind;
+  const std::vector<sim::Event> good = {
+      {1.0, release}, {2.0, reversal}, {3.0, stop}, {4.0, switching}, {4.0, release}};
+  CHECK(crosscheck::fault_of_sticks(good).empty());
+  std::vector<sim::Event> lost = good;
+  lost.back() = {5.0, stop};
+  CHECK(crosscheck::fault_of_sticks(lost) == "stop at t = 5 s after stop at t = 3 s");
+  lost.back() = {5.0, reversal};
+  CHECK(crosscheck::fault_of_sticks(lost) == "reversal at t = 5 s after stop at t = 3 s");
+  lost[2].kind = switching;
+  lost.back() = {5.0, release};
+  CHECK(crosscheck::fault_of_sticks(lost) == "release at t = 5 s after reversal at t = 2 s");
 }
 
 TEST_CASE("crosscheck: what an engine does not resolve by its tolerance is named, a lost event is not",
