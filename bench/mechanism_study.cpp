@@ -8,7 +8,7 @@
 #include "bench/mechanism_answer.hpp"
 #include "core/constants.hpp"
 #include "identify/methods/decays/free_decay.hpp"
-#include "sim/motion/simulate.hpp"
+#include "sim/motion/free_decay.hpp"
 #include "sim/parallel.hpp"
 
 namespace dualdamp::bench {

@@ -3,7 +3,7 @@
 
 #include "identify/experiments/experiment.hpp"
 #include "sim/conformance/loaded_contacts.hpp"
-#include "sim/motion/simulate.hpp"
+#include "sim/motion/free_decay.hpp"
 
 namespace dualdamp::identify {
 

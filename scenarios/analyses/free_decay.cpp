@@ -6,7 +6,7 @@
 
 #include "scenarios/format/common_keys.hpp"
 #include "scenarios/results/motion.hpp"
-#include "sim/motion/simulate.hpp"
+#include "sim/motion/free_decay.hpp"
 
 namespace dualdamp::scenarios {
 
@@ -16,7 +16,10 @@ ResultFields free_decay_fields() {
   return {
       {"peaks[].t", "s", "time of the extreme"},
       {"peaks[].x", "m", "its position, signed"},
-      {"came_to_rest", "", "fewer extremes than wanted because the mass sticks"},
+      {"came_to_rest", "", "fewer extremes than wanted because the mass sticks for good"},
+      {"pauses", "",
+       "fewer extremes than wanted because the mass has been held for 100 natural periods; what acts on it still "
+       "changes, so that it may move again"},
       {"creeps", "", "fewer extremes than wanted because the motion did not turn again within 100 natural periods"},
       {"fades", "", "fewer extremes than wanted because further swings are below the error of the solver"}};
 }
@@ -35,6 +38,14 @@ bool leave_out_faded(std::vector<sim::Extreme>& peaks, double accuracy) {
   return false;
 }
 
+const char* reason_of_end(bool pauses, bool fades) {
+  if (fades) return "further swings are below the error of the solver";
+  if (pauses)
+    return "the mass has been held for 100 natural periods; what acts on it still changes, so that it may move "
+           "again, which 'simulate' shows";
+  return "the motion does not turn any more within 100 natural periods";
+}
+
 std::unique_ptr<const Question> ask_free_decay(CheckedValues&& values) {
   return std::make_unique<FreeDecayQuestion>(values.analysis.at("peaks").get<int>());
 }
@@ -46,16 +57,16 @@ Answer FreeDecayQuestion::run(const RunContext& context) const {
   if (!decay.outcome.ok()) return failed(decay.outcome.reason);
   const bool fades = leave_out_faded(decay.extremes, decay.accuracy);
   const bool creeps = decay.creeps && !fades;
+  const bool pauses = decay.pauses && !fades;
   Answer answer;
   answer.result["peaks"] = nullptr;
   answer.result["came_to_rest"] = decay.came_to_rest;
+  answer.result["pauses"] = pauses;
   answer.result["creeps"] = creeps;
   answer.result["fades"] = fades;
-  if (creeps || fades)
+  if (creeps || pauses || fades)
     answer.warnings.push_back("only " + std::to_string(decay.extremes.size()) + " of " + std::to_string(peaks_) +
-                              " extremes: " +
-                              (fades ? "further swings are below the error of the solver"
-                                     : "the motion does not turn any more within 100 natural periods"));
+                              " extremes: " + reason_of_end(pauses, fades));
   answer.tables.push_back({.name = "peaks",
                            .columns = {column("t", "s", decay.extremes, &sim::Extreme::t),
                                        column("x", "m", decay.extremes, &sim::Extreme::x)},

@@ -11,6 +11,7 @@
 #include "core/random.hpp"
 #include "identify/records/derived_records.hpp"
 #include "sim/engine/engine.hpp"
+#include "sim/motion/free_decay.hpp"
 #include "sim/motion/simulate.hpp"
 #include "sim/parallel.hpp"
 
@@ -243,6 +244,9 @@ MotionRecord measure_decay(const sim::Model& model, int peaks) {
   MotionRecord motion;
   const sim::FreeDecay decay = sim::free_decay(model, peaks);
   if (!decay.outcome.ok()) motion.warnings.push_back("the decay could not be measured: " + decay.outcome.reason);
+  if (decay.pauses)
+    motion.warnings.push_back(
+        "the decay ends where the mass has been held for 100 natural periods, though it may move again later");
   identify::DecayRecord& record = motion.exact.decay.emplace();
   for (const sim::Extreme& extreme : decay.extremes) {
     record.extremes.push_back(extreme.x);

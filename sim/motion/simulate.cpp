@@ -1,7 +1,5 @@
 #include "sim/motion/simulate.hpp"
 
-#include <cmath>
-
 #include "sim/engine/engine.hpp"
 #include "sim/motion/event_forecast.hpp"
 #include "sim/motion/observers.hpp"
@@ -43,38 +41,6 @@ History simulate(const Model& model, const SimulateOptions& options) {
   history.energy = energy.account();
   history.certificate = engine.count();
   return history;
-}
-
-FreeDecay free_decay(const Model& model, int count) {
-  FreeDecay decay;
-  const std::unique_ptr<Engine> owned = make_engine(valid_free(model, "free_decay"));
-  Engine& engine = *owned;
-  if (engine.velocity() == 0.0) decay.extremes.push_back({0.0, engine.position()});
-  // A motion that creeps without reversals (strong damping, friction that never quite holds the mass) has no
-  // further extreme. If damping is so close to critical that a swing lasts a hundred natural periods, the swing
-  // ends at exp(-628) of its start.
-  const double patience = 100.0 * 2.0 * std::acos(-1.0) / natural_frequency(model.oscillator);
-  double deadline = patience;
-  while (static_cast<int>(decay.extremes.size()) < count) {
-    if (engine.direction() == friction::Direction::none) {
-      decay.came_to_rest = true;
-      break;
-    }
-    const Interval* interval = engine.next(deadline);
-    if (interval == nullptr) {
-      decay.creeps = engine.outcome().ok();
-      break;
-    }
-    if (!interval->ending) continue;
-    deadline = interval->end() + patience;
-    if (interval->ending == EventKind::reversal || interval->ending == EventKind::stop) {
-      decay.extremes.push_back({interval->end(), engine.position()});
-    }
-  }
-  decay.outcome = engine.outcome();
-  decay.accuracy = engine.accuracy();
-  decay.work = engine.work();
-  return decay;
 }
 
 }  // namespace dualdamp::sim

@@ -38,22 +38,4 @@ struct SimulateOptions {
 
 [[nodiscard]] History simulate(const Model& model, const SimulateOptions& options);
 
-/// An extreme of a free vibration: a turning point of x.
-struct Extreme {
-  double t = 0.0;  ///< s
-  double x = 0.0;  ///< m, signed
-};
-
-struct FreeDecay {
-  core::Outcome outcome;
-  std::vector<Extreme> extremes;  ///< the initial position is the first if the mass is released from rest
-  bool came_to_rest = false;      ///< fewer than requested because the mass sticks
-  bool creeps = false;            ///< fewer because the motion has no turning point within 100 natural periods
-  double accuracy = 0.0;          ///< error of the engine, relative to the motion
-  long work = 0;                  ///< `Engine::work`
-};
-
-/// Successive extremes of the motion from `model.initial`; at most `count` of them. The excitation must be `none`.
-[[nodiscard]] FreeDecay free_decay(const Model& model, int count);
-
 }  // namespace dualdamp::sim

@@ -10,7 +10,7 @@
 #include "identify/methods/decays/free_decay.hpp"
 #include "sim/analytic/den_hartog.hpp"
 #include "sim/curves/curves.hpp"
-#include "sim/motion/simulate.hpp"
+#include "sim/motion/free_decay.hpp"
 #include "tests/identify/methods/histories/bearing.hpp"
 #include "tests/identify/records.hpp"
 

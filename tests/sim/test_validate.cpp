@@ -15,6 +15,7 @@
 #include "sim/curves/sticking_boundary.hpp"
 #include "sim/engine/engine.hpp"
 #include "sim/engine/exact_engine.hpp"
+#include "sim/motion/free_decay.hpp"
 #include "sim/motion/simulate.hpp"
 #include "sim/orbits/batch_steady_states.hpp"
 #include "sim/orbits/steady_state.hpp"

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "identify/methods/decays/free_decay.hpp"
-#include "sim/motion/simulate.hpp"
+#include "sim/motion/free_decay.hpp"
 #include "sim/validate.hpp"
 
 namespace dualdamp::identify {

@@ -14,6 +14,7 @@
 #include "friction_models/registry.hpp"
 #include "sim/conformance/law_conformance.hpp"
 #include "sim/conformance/law_host.hpp"
+#include "sim/motion/free_decay.hpp"
 #include "sim/motion/simulate.hpp"
 #include "tests/friction_models/modifiers/modified_laws.hpp"
 #include "tests/support/standard_system.hpp"

@@ -9,6 +9,7 @@
 
 #include "core/random.hpp"
 #include "friction_models/registry.hpp"
+#include "sim/motion/free_decay.hpp"
 #include "sim/motion/simulate.hpp"
 #include "sim/orbits/steady_state.hpp"
 

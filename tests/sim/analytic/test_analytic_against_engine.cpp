@@ -10,7 +10,7 @@
 #include "sim/analytic/den_hartog.hpp"
 #include "sim/analytic/free_decay.hpp"
 #include "sim/curves/curves.hpp"
-#include "sim/motion/simulate.hpp"
+#include "sim/motion/free_decay.hpp"
 #include "sim/orbits/steady_state.hpp"
 
 using namespace dualdamp;

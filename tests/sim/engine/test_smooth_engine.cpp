@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "sim/engine/exact_engine.hpp"
+#include "sim/motion/free_decay.hpp"
 #include "sim/motion/simulate.hpp"
 #include "sim/orbits/period_map.hpp"
 #include "sim/orbits/steady_state.hpp"

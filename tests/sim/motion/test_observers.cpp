@@ -11,6 +11,7 @@
 #include "sim/engine/closed_form.hpp"
 #include "sim/engine/exact_engine.hpp"
 #include "sim/motion/observers.hpp"
+#include "sim/motion/free_decay.hpp"
 #include "sim/motion/simulate.hpp"
 #include "tests/support/random.hpp"
 

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "identify/records/derived_records.hpp"
+#include "sim/motion/free_decay.hpp"
 #include "sim/motion/simulate.hpp"
 #include "sim/orbits/steady_state.hpp"
 #include "tests/identify/records.hpp"

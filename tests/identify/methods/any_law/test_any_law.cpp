@@ -9,7 +9,7 @@
 
 #include "identify/methods/any_law/law_intervals.hpp"
 #include "identify/rigs/rigs.hpp"
-#include "sim/motion/simulate.hpp"
+#include "sim/motion/free_decay.hpp"
 #include "sim/orbits/steady_state.hpp"
 #include "tests/identify/methods/any_law/law_laboratory.hpp"
 #include "tests/identify/records.hpp"
