@@ -21,11 +21,11 @@
 /// and the limit of its cell, so that
 ///   * the force that sliding takes away in first loading, K_T x - F, is exact where x is an edge, and between
 ///     edges too small by at most the fraction (exponent + 1)(exponent + 2)(ln q)^2/8;
-///   * the work of a loop is too large by the fraction
-///         (exponent + 2)(ln q)^2/12 + (smallest phi_max/A)^(exponent+3)/(exponent+2)
-///     where A is an edge;
-/// both to the leading order of ln q. With 100 elements down to 1e-4, ln q = 0.093: less than 0.3 % each for an
-/// exponent up to 0 and A above 20 smallest phi_max.
+///   * the work of a loop is too large by the fraction (exponent + 2)(ln q)^2/12 where A is an edge, and too small
+///     by the fraction (exponent + 2)(3 exponent + 7)(ln q)^2/24 half way between two edges, where it is worst;
+///     everywhere (smallest phi_max/A)^(exponent+3)/(exponent+2) is added;
+/// all to the leading order of ln q. With 100 elements down to 1e-4, ln q = 0.093: less than 0.3 % of the force and
+/// 0.6 % of the work for an exponent up to 0 and A above 20 smallest phi_max. Both fall with the square of ln q.
 ///
 /// The elements in parallel are `iwan`. Source: segalman2005 in `docs/refs.bib`. Exact engine. Cost: as `iwan`.
 

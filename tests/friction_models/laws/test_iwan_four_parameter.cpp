@@ -144,6 +144,27 @@ TEST_CASE("iwan_four_parameter: the work of a loop goes by the power chi + 3, to
   }
 }
 
+TEST_CASE("iwan_four_parameter: half way between edges the work of a loop is too small by the stated fraction",
+          "[iwan_four_parameter]") {
+  const int count = 300;
+  const double smallest = 1e-4;
+  const double ln_q = step(count, smallest);
+  for (const IwanFourParameter& joint : joints) {
+    const double chi = joint.exponent;
+    const Law law(Iwan(joint.elements(count, smallest)));
+    double worst = 0.0;
+    for (double cells = 100.0; cells > 99.0; cells -= 0.125) {
+      const double amplitude = joint.phi_max() * std::exp(-cells * ln_q);
+      const double error = loop_work(law, amplitude) / smooth_work(joint, amplitude) - 1.0 -
+                           std::pow(smallest * joint.phi_max() / amplitude, chi + 3.0) / (chi + 2.0);
+      worst = std::min(worst, error);
+      if (cells == 99.5) CHECK(error == worst);
+    }
+    CAPTURE(chi);
+    CHECK(worst == Approx(-(chi + 2.0) * (3.0 * chi + 7.0) * ln_q * ln_q / 24.0).epsilon(0.06));
+  }
+}
+
 TEST_CASE("iwan_four_parameter with chi = 0 and beta = 0 is the uniform iwan of the same stiffness and limit",
           "[iwan_four_parameter]") {
   const IwanFourParameter joint{.stiffness = 1e4, .limit = 2.0};
