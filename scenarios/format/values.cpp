@@ -1,6 +1,7 @@
 #include "scenarios/format/values.hpp"
 
 #include <cmath>
+#include <optional>
 
 #include "core/constants.hpp"
 #include "core/numbers.hpp"
@@ -14,6 +15,25 @@ namespace {
 double plain(double value) {
   constexpr int digits = 14;
   return core::parse_number(core::format_number(value, digits)).value.value_or(value);
+}
+
+double in_si(double value, const std::string& unit) {
+  return unit.empty() ? value : number(Json(core::format_number(value) + " " + unit));
+}
+
+/// `value` in SI in this unit, if it is exactly what a decimal number of few digits in this unit stands for.
+std::optional<double> plain_in(const std::string& unit, double value) {
+  const double decimal = plain(value / in_si(1.0, unit));
+  return in_si(decimal, unit) == value ? std::optional(decimal) : std::nullopt;
+}
+
+/// A unit in which both frequencies are decimal numbers of few digits: there the values between them are those that
+/// a list would state. Empty: there is none, or they are no frequencies.
+std::string decimal_unit(const Json& from, const Json& to) {
+  if (!from.is_string() || !to.is_string()) return {};
+  for (const char* unit : {"rad/s", "Hz", "rpm", "kHz", "mHz"})
+    if (plain_in(unit, number(from)) && plain_in(unit, number(to))) return unit;
+  return {};
 }
 
 }  // namespace
@@ -46,16 +66,23 @@ std::vector<double> grid_values(const Json& grid) {
     for (const Json& value : grid) values.push_back(number(value));
     return values;
   }
-  const double from = number(grid.at("from"));
-  const double to = number(grid.at("to"));
+  const std::string unit = decimal_unit(grid.at("from"), grid.at("to"));
+  const auto end = [&](const char* key) {
+    const double value = number(grid.at(key));
+    return unit.empty() ? value : plain_in(unit, value).value_or(value);
+  };
+  const double from = end("from");
+  const double to = end("to");
   const auto count = grid.at("count").get<std::size_t>();
   const bool is_log = grid.at("spacing") == "log";
+  const bool is_plain = plain(from) == from && plain(to) == to;
   for (std::size_t i = 0; i < count; ++i) {
     const double share = static_cast<double>(i) / static_cast<double>(count - 1);
-    values.push_back(is_log ? from * std::pow(to / from, share) : plain(from + share * (to - from)));
+    const double value = is_log ? from * std::pow(to / from, share) : from + share * (to - from);
+    values.push_back(in_si(is_log || !is_plain ? value : plain(value), unit));
   }
-  values.front() = from;
-  values.back() = to;
+  values.front() = number(grid.at("from"));
+  values.back() = number(grid.at("to"));
   return values;
 }
 

@@ -72,6 +72,20 @@ TEST_CASE("scenario: a range of amplitudes meets its ends and passes plain decim
   CHECK(frequencies[2] == 8.0 * std::numbers::pi);
 }
 
+TEST_CASE("scenario: a range of frequencies has the values of the list in the same unit", "[scenarios]") {
+  const auto frequencies = [](const std::string& stated) {
+    const Scenario scenario = with({"analysis={type: frequency_response, frequencies: " + stated + "}"});
+    return testing::question_of<scenarios::FrequencyResponseQuestion>(scenario).frequencies();
+  };
+  CHECK(frequencies("{from: 450 rpm, to: 750 rpm, count: 3}") == frequencies("[450 rpm, 600 rpm, 750 rpm]"));
+  CHECK(frequencies("{from: 1 Hz, to: 1.6 Hz, count: 7}") ==
+        frequencies("[1 Hz, 1.1 Hz, 1.2 Hz, 1.3 Hz, 1.4 Hz, 1.5 Hz, 1.6 Hz]"));
+  // In two units there is no such list: nothing is rounded.
+  const std::vector<double> mixed = frequencies("{from: 450 rpm, to: 12.5 Hz, count: 3}");
+  CHECK(mixed[1] == Approx(20.0 * std::numbers::pi).epsilon(2e-16));
+  CHECK(mixed[2] == frequencies("[12.5 Hz]")[0]);
+}
+
 TEST_CASE("scenario: `cycles` are forcing periods", "[scenarios]") {
   const Scenario scenario = with({"analysis={type: simulate, cycles: 2.5}"});
   CHECK(testing::question_of<scenarios::SimulateQuestion>(scenario).duration() ==
