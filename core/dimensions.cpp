@@ -10,10 +10,10 @@ namespace {
 const std::vector<Dimension>& dimensions() {
   static const std::vector<Dimension> table = {
       {"1", "a number", "0.2", {"1", "%"}},
-      {"kg", "a mass", "5 kg", {"kg", "g", "mg", "t", "lb"}},
+      {"kg", "a mass", "5 kg", {"kg", "g", "mg", "t", "lb", "oz"}},
       {"m", "a length", "3 mm", {"m", "mm", "um", "µm", "nm", "cm", "km", "in", "ft"}},
       {"s", "a time", "20 s", {"s", "ms", "us", "µs", "min", "h"}},
-      {"N", "a force", "2 N", {"N", "mN", "kN", "MN", "lbf"}},
+      {"N", "a force", "2 N", {"N", "mN", "kN", "MN", "lbf", "ozf"}},
       {"N/m",
        "a stiffness",
        "1568 N/m",

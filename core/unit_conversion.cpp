@@ -13,12 +13,41 @@
 #include <new>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 #include "core/numbers.hpp"
 
 namespace dualdamp::core {
 
 namespace {
+
+/// Units whose exact definition udunits2 rounds to some seven digits, or that it lacks (`dyn`), or takes for a
+/// volume (`oz`). A pound is 0.45359237 kg, an ounce a sixteenth of it; a foot is 0.3048 m; standard gravity is
+/// 9.80665 m/s^2.
+struct ExactUnit {
+  const char* definition;
+  std::vector<const char*> names;
+};
+
+const std::vector<ExactUnit>& exact_units() {
+  static const std::vector<ExactUnit> table = {
+      {"0.028349523125 kg", {"oz", "avoirdupois_ounce", "avoirdupois_ounces"}},
+      {"0.0017718451953125 kg", {"dr", "dram", "drams"}},
+      {"6.479891e-5 kg", {"gr", "grain", "grains"}},
+      {"0.00155517384 kg", {"pennyweight", "pennyweights"}},
+      {"0.0311034768 kg", {"troy_ounce", "troy_ounces", "apothecary_ounce", "apothecary_ounces"}},
+      {"0.3732417216 kg", {"troy_pound", "troy_pounds", "apothecary_pound", "apothecary_pounds"}},
+      {"45.359237 kg", {"short_hundredweight", "short_hundredweights"}},
+      {"50.80234544 kg", {"long_hundredweight", "long_hundredweights"}},
+      {"14.593902937206364829 kg", {"slug", "slugs"}},
+      {"0.27801385095378125 N", {"ozf", "ounce_force", "ounces_force", "force_ounce", "force_ounces"}},
+      {"0.138254954376 N", {"poundal", "poundals"}},
+      {"1e-5 N", {"dyn"}},
+      {"745.69987158227022 W", {"hp", "horsepower", "shaft_horsepower", "UK_horsepower"}},
+      {"735.49875 W", {"metric_horsepower"}},
+  };
+  return table;
+}
 
 class UnitGrammar {
  public:
@@ -131,6 +160,16 @@ class UnitSystem {
     if (!system_)
       throw std::system_error(errno == 0 ? EIO : errno, std::generic_category(),
                               "the unit database of udunits2 (package libudunits2-data) cannot be read");
+    for (const ExactUnit& exact : exact_units())
+      for (const char* name : exact.names) define(name, exact.definition);
+  }
+
+  /// udunits2 knows a unit by names, whose case does not matter, and by symbols, whose case does.
+  void define(const char* name, const char* definition) {
+    const Unit unit = parse(definition);
+    ut_unmap_name_to_unit(system_.get(), name, UT_ASCII);
+    ut_unmap_symbol_to_unit(system_.get(), name, UT_ASCII);
+    ut_map_symbol_to_unit(name, UT_ASCII, unit.get());
   }
 
   [[nodiscard]] Unit parse(const std::string& text) const {

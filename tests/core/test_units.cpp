@@ -48,6 +48,60 @@ TEST_CASE("units: what an engineer types", "[core][units]") {
   CHECK(si("5", "kg") == 5.0);
 }
 
+TEST_CASE("units: units with an exact definition have it", "[core][units]") {
+  struct Exact {
+    const char* text;
+    const char* si_unit;
+    double value;
+  };
+  constexpr double pound = 0.45359237;
+  constexpr double foot = 0.3048;
+  for (const Exact& exact : std::vector<Exact>{{"1 lb", "kg", pound},
+                                               {"1 oz", "kg", 0.028349523125},
+                                               {"1 avoirdupois_ounce", "kg", 0.028349523125},
+                                               {"1 dram", "kg", 0.0017718451953125},
+                                               {"1 grain", "kg", 6.479891e-5},
+                                               {"1 troy_ounce", "kg", 0.0311034768},
+                                               {"1 ton", "kg", 907.18474},
+                                               {"1 long_ton", "kg", 1016.0469088},
+                                               {"1 t", "kg", 1000.0},
+                                               {"1 slug", "kg", 14.593902937206365},
+                                               {"1 slugs", "kg", 14.593902937206365},
+                                               {"1 in", "m", 0.0254},
+                                               {"1 mil", "m", 2.54e-5},
+                                               {"1 ft", "m", foot},
+                                               {"1 yd", "m", 0.9144},
+                                               {"1 mi", "m", 1609.344},
+                                               {"1 lbf", "N", 4.4482216152605},
+                                               {"1 ozf", "N", 0.27801385095378125},
+                                               {"1 ounce_force", "N", 0.27801385095378125},
+                                               {"1 kip", "N", 4448.2216152605},
+                                               {"1 poundal", "N", 0.138254954376},
+                                               {"1 kgf", "N", 9.80665},
+                                               {"1 gf", "N", 0.00980665},
+                                               {"1 dyne", "N", 1e-5},
+                                               {"1 dyn", "N", 1e-5},
+                                               {"1 g", "m/s^2", 9.80665},
+                                               {"1 g_n", "m/s^2", 9.80665},
+                                               {"1 gal", "m/s^2", 0.01},
+                                               {"1 mi/h", "m/s", 0.44704},
+                                               {"1 knot", "m/s", 1852.0 / 3600.0},
+                                               {"1 lbf/in", "N/m", 175.12683524647636},
+                                               {"1 ozf.in", "N.m", 0.0070615518142260438},
+                                               {"1 lbf.ft", "N.m", 1.3558179483314004},
+                                               {"1 lbf.s/in", "N.s/m", 175.12683524647636},
+                                               {"1 psi", "Pa", 6894.7572931683608},
+                                               {"1 psi.in", "N/m", 175.12683524647636},
+                                               {"1 hp", "W", 745.69987158227022},
+                                               {"1 deg", "rad", pi / 180.0},
+                                               {"1 rpm", "rad/s", pi / 30.0}}) {
+    const QuantityText quantity = parse_quantity(exact.text, exact.si_unit);
+    CAPTURE(exact.text, exact.value, quantity.fault);
+    REQUIRE(quantity.value.has_value());
+    CHECK(*quantity.value == Approx(exact.value).epsilon(4e-16));
+  }
+}
+
 TEST_CASE("units: a hertz is 2 pi radians a second", "[core][units]") {
   CHECK(si("1 Hz", "rad/s") == 2.0 * pi);
   CHECK(si("6.17 Hz", "rad/s") == 6.17 * 2.0 * pi);
