@@ -122,8 +122,8 @@ const Interval* Engine::next(double horizon) {
   if (drive_.has_pieces() && drive_.piece() != periods_passed_) {
     local_time_ = 0.0;
     drive_.enter(periods_passed_);
-    // If no law holds the mass, a jump of the drive sets it in motion.
-    if (direction_ == Direction::none && model_.friction.empty()) settle();
+    // If no law holds the mass, there are no guards that release it, and a piece of the drive sets it in motion.
+    if (direction_ == Direction::none && !can_stick_) settle();
   }
   const double left = (horizon - period_begin_) - local_time_;
   const double in_piece = drive_.period() - local_time_;

@@ -90,6 +90,25 @@ TEST_CASE("a sampled drive gives the motion of the standard case to the interpol
   }
 }
 
+TEST_CASE("a drive that begins late moves a mass at rest that no law holds", "[drive]") {
+  for (const Interpolation interpolation : {Interpolation::step, Interpolation::linear})
+    for (const friction::Law& law :
+         {test::law("contact_compliance", {{"kinetic", 5.0}, {"contact_stiffness", 1000.0}}),
+          test::law("contact_compliance", {{"kinetic", 0.5}, {"contact_stiffness", 1000.0}})}) {
+      Model model;
+      model.oscillator = {.mass = 2.0, .stiffness = 800.0, .damping = 3.0};
+      model.friction = {law};
+      model.excitation = {
+          .type = ExcitationType::force_samples,
+          .samples = std::make_shared<SampledSignal>(std::vector<double>{0.0, 0.25, 0.5, 1.0},
+                                                     std::vector<double>{0.0, 0.0, 50.0, 50.0}, interpolation)};
+      const sim::History exact = sim::simulate(model, {.duration = 1.0, .sample_rate = 50.0});
+      CHECK(exact.final.x > 0.03);
+      model.solver.kind = sim::SolverKind::implicit_steps;
+      CHECK(distance(exact, sim::simulate(model, {.duration = 1.0, .sample_rate = 50.0})) < 1e-7);
+    }
+}
+
 TEST_CASE("a noise and the same nodes given as samples make the same motion", "[drive]") {
   for (const bool base : {true, false}) {
     Model noise;
