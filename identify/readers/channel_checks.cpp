@@ -217,7 +217,6 @@ bool changes(const DataColumn* column) {
 /// Phases that no row of these pairs can have in common with another one.
 bool is_dead_phase(const DataTable& table) {
   constexpr double zero = 1e-6;
-  constexpr double quadrature = 0.1;
   const DataColumn* phase = table.find("phase");
   if (phase == nullptr) return false;
   std::vector<double> measured;
@@ -225,19 +224,9 @@ bool is_dead_phase(const DataTable& table) {
                        [](double value) { return !std::isnan(value); });
   constexpr std::size_t fewest = 3;
   if (measured.size() < fewest || !is_constant(measured)) return false;
-  // Without a lag no work is done. At resonance, all lags are a quarter of a period.
-  if (std::abs(std::sin(measured.front())) < zero) return true;
-  if (const DataColumn* omega = table.find("omega"); changes(omega)) return true;
-  const std::vector<double>& x = table.find("x")->values;
-  const std::vector<double>& Y = table.find("Y")->values;
-  double low = x.front() / Y.front();
-  double high = low;
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    low = std::fmin(low, x[i] / Y[i]);
-    high = std::fmax(high, x[i] / Y[i]);
-  }
-  constexpr double least = 1.05;
-  return high > least * low && std::abs(std::cos(measured.front())) > quadrature;
+  // Without a lag no work is done. At one frequency a phase may be constant: at resonance all are a quarter of a
+  // period. Whether it is in another unit than stated is asked later.
+  return std::abs(std::sin(measured.front())) < zero || changes(table.find("omega"));
 }
 
 /// Two copies of a signal that swings. Two ramps may be alike: a mass that is carried along.

@@ -44,7 +44,7 @@ TEST_CASE(
   const auto advice = [](Assumption violated, bool is_clipped) {
     Ledger tested = ledger({violated});
     tested.recorded = {.histories = true, .free = true, .times = true, .clipped = is_clipped};
-    return concluded({estimate("energy_balance", 0.1, 4.0, 0.05)}, tested).reason;
+    return concluded({estimate("den_hartog_fit", 0.1, 4.0, 0.05)}, tested).reason;
   };
   for (const Assumption assumption : {friction_velocity, friction_displacement, stationarity, symmetry, spring}) {
     CAPTURE(name_of(assumption));

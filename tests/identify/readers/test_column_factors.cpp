@@ -48,7 +48,8 @@ TEST_CASE("A mass as the scale of a force makes forces of accelerations") {
   const auto first_force = [](const std::string& heading, const std::string& scale, core::Coordinate coordinate) {
     const std::string x = coordinate == core::Coordinate::angle ? "x [rad]" : "x [m]";
     std::string text = "t [s],table [" + heading + "]," + x + "\n";
-    for (int i = 0; i < 40; ++i) text += std::to_string(i) + ",2," + std::to_string(std::sin(0.3 * i)) + "\n";
+    for (int i = 0; i < 40; ++i)
+      text += std::to_string(i) + (i % 2 == 0 ? ",2," : ",1,") + std::to_string(std::sin(0.3 * i)) + "\n";
     const auto file = parse_record(text, ReadOptions{.columns = {{"force", "table"}},
                                                      .scales = {{"force", scale}},
                                                      .coordinate = coordinate,

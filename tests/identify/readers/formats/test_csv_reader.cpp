@@ -294,7 +294,7 @@ TEST_CASE("A column f is a frequency in hertz or a force in newtons, and nothing
     CAPTURE(heading);
     std::string text = std::string("t_s,x_mm,") + heading + "\n";
     for (int i = 0; i < 40; ++i)
-      text += std::to_string(0.01 * i) + "," + std::to_string(std::sin(0.3 * i)) + ",2\n";
+      text += std::to_string(0.01 * i) + "," + std::to_string(std::sin(0.3 * i)) + (i % 2 == 0 ? ",1\n" : ",2\n");
     const auto read = parse_record(text, "data.csv").record;
     REQUIRE(read.histories.size() == 1);
     CHECK(read.histories[0].force.at(5) == Approx(text.find("kN") == std::string::npos ? 2.0 : 2000.0));
