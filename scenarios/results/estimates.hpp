@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "identify/estimate.hpp"
 #include "identify/answer/answer.hpp"
+#include "identify/estimate.hpp"
 #include "identify/record.hpp"
 #include "scenarios/results/answer.hpp"
 #include "scenarios/results/motion.hpp"

@@ -7,9 +7,9 @@
 #include <numbers>
 #include <variant>
 
+#include "identify/answer/answer.hpp"
 #include "identify/ledger/amplitude_noise.hpp"
 #include "identify/ledger/amplitude_terms.hpp"
-#include "identify/answer/answer.hpp"
 #include "identify/ledger/misfit.hpp"
 #include "identify/methods.hpp"
 #include "tests/identify/ledger/laboratory.hpp"

@@ -14,8 +14,8 @@
 #include <variant>
 #include <vector>
 
-#include "identify/ledger/amplitude_model.hpp"
 #include "identify/answer/answer.hpp"
+#include "identify/ledger/amplitude_model.hpp"
 #include "identify/ledger/decay_model.hpp"
 #include "identify/ledger/estimate/unstated_constants.hpp"
 #include "identify/ledger/history_model.hpp"

@@ -10,8 +10,8 @@
 #include "friction_models/laws/coulomb.hpp"
 #include "sim/engine/closed_form.hpp"
 #include "sim/engine/exact_engine.hpp"
-#include "sim/motion/observers.hpp"
 #include "sim/motion/free_decay.hpp"
+#include "sim/motion/observers.hpp"
 #include "sim/motion/simulate.hpp"
 #include "tests/support/random.hpp"
 
