@@ -245,7 +245,7 @@ MotionRecord measure_decay(const sim::Model& model, int peaks) {
   const sim::FreeDecay decay = sim::free_decay(model, peaks);
   if (!decay.outcome.ok()) motion.warnings.push_back("the decay could not be measured: " + decay.outcome.reason);
   if (decay.pauses)
-    motion.warnings.push_back(
+    motion.warnings.emplace_back(
         "the decay ends where the mass has been held for 100 natural periods, though it may move again later");
   identify::DecayRecord& record = motion.exact.decay.emplace();
   for (const sim::Extreme& extreme : decay.extremes) {
