@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "bench/crosscheck/patience.hpp"
 #include "friction_models/state_sizes.hpp"
@@ -85,7 +86,7 @@ class Quotients {
     Eigen::VectorXd lower;
     Eigen::VectorXd taken;  ///< difference of their starts
     bool same_sequence = false;
-    bool is_known = false;  ///< both were followed, and end in the mode of the period
+    bool is_known = false;  ///< both were followed, and begin and end in the modes of the period
   };
 
   Pair both_ways(const Eigen::VectorXd& change) {
@@ -95,7 +96,8 @@ class Quotients {
     const bool above_ok = map_.outcome().ok();
     const ForcingPeriod below = map_.from(sim::displaced(state_, -change), sim::Monodromy::without, &below_events);
     if (!above_ok || !map_.outcome().ok()) return {};
-    if (!sim::same_mode(above.end, below.end) || !sim::same_mode(above.end, period_.end)) return {};
+    for (const auto& [one, other] : {std::pair{&above, &below}, {&above, &period_}})
+      if (!sim::same_mode(one->begin, other->begin) || !sim::same_mode(one->end, other->end)) return {};
     return {sim::coordinates(above.end), sim::coordinates(below.end),
             sim::coordinates(above.begin) - sim::coordinates(below.begin),
             above_events.sequence() == events_.sequence() && below_events.sequence() == events_.sequence(), true};
