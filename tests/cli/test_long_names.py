@@ -47,7 +47,7 @@ class LongNames(unittest.TestCase):
 
         page("identify", record, *constants)
         page("fit", "coulomb,stribeck", record, *constants, "--no-profile")
-        for example in ("simulate", "sweep", "xy_curve", "free_decay", "regime_map", "design", "predict"):
+        for example in ("simulate", "sweep", "xy_curve", "regime_map", "predict"):
             page("run", ROOT / f"scenarios/examples/{example}.yaml", "--set", f"title={name}")
         page("run", ROOT / "scenarios/examples/xy_curve.yaml", "--set", f"title={name}2", "--set", "system.friction.kinetic=1 N")
         self.run_program("compare", pages[4].parent, pages[-1].parent, "--out", self.folder / "long")
