@@ -13,6 +13,7 @@
 
 #include "core/numbers.hpp"
 #include "identify/readers/signal_checks.hpp"
+#include "identify/records/turning_points.hpp"
 
 namespace dualdamp::identify {
 
@@ -76,21 +77,8 @@ double range_of(Samples signal) {
 
 /// How often the signal turns back by more than `height`.
 std::size_t turns(Samples signal, double height) {
-  std::size_t count = 0;
-  double low = signal.empty() ? 0.0 : signal.front();
-  double high = low;
-  int direction = 0;
-  for (const double value : signal) {
-    low = std::min(low, value);
-    high = std::max(high, value);
-    const bool falls = direction >= 0 && high - value > height;
-    const bool rises = direction <= 0 && value - low > height;
-    if (!falls && !rises) continue;
-    count += direction == 0 ? 0 : 1;
-    direction = falls ? -1 : 1;
-    low = high = value;
-  }
-  return count;
+  const std::size_t extremes = zigzag(signal, height).size();
+  return extremes < 2 ? 0 : extremes - 2;  // the first and the last one are its ends
 }
 
 /// The longest run of equal values.

@@ -83,7 +83,7 @@ struct Samples {
 std::optional<Samples> measured_samples(CheckedFile& file, const Json& section, bool is_base, bool is_read) {
   const std::size_t warned = file.warnings.size();
   auto signal = read_signal(file, std::string(section_name), section, is_base ? "y" : "force");
-  if (is_read) file.warnings.resize(std::min(warned, file.warnings.size()));
+  if (is_read) file.warnings.resize(warned);
   if (!signal) return std::nullopt;
   file.drive_start = signal->times.front();
   for (double& time : signal->times) time -= file.drive_start;
