@@ -1,6 +1,7 @@
 #include "sim/engine/closed_form.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include "core/crossing/divided_exponential.hpp"
@@ -82,6 +83,17 @@ bool ClosedForm::covers(const core::ExponentialBasis& basis) {
       return false;
   }
   return true;
+}
+
+double ClosedForm::terms(const core::ModeFunction& f) const {
+  double sum = 0.0;
+  for (int k = 0; k < basis->size(); ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    if (!core::takes_part(f, i)) continue;
+    const double begin = basis->parent(k) == core::ExponentialBasis::no_parent ? 1.0 : 0.0;
+    sum += std::hypot(f.re[i], f.im[i]) * std::max(begin, std::hypot(end.re[i], end.im[i]));
+  }
+  return sum;
 }
 
 ClosedIntegrals::ClosedIntegrals(const ClosedForm& form)

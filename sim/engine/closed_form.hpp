@@ -33,6 +33,8 @@ struct ClosedForm {
 
   [[nodiscard]] static bool covers(const core::ExponentialBasis& basis);
   [[nodiscard]] double at_end(const core::ModeFunction& f) const { return core::evaluate(*basis, f, end); }
+  /// An upper bound of the sum of the moduli of the terms of f at both ends of the interval: f is rounded as it.
+  [[nodiscard]] double terms(const core::ModeFunction& f) const;
 };
 
 /// int f exp(-i omega s) ds over the whole interval.

@@ -10,6 +10,7 @@
 
 #include "core/constants.hpp"
 #include "core/numbers.hpp"
+#include "sim/engine/closed_form.hpp"
 #include "sim/neutral_margin.hpp"
 #include "sim/orbits/orbit_account.hpp"
 
@@ -32,6 +33,9 @@ constexpr double creeping = 1e-3;
 /// A deviation from an orbit below this part of the motion counts as zero.
 constexpr double arrived = 1e-9;
 
+/// A motion that closes this well is compared with its rounding.
+constexpr double near_rounding = 1e-8;
+
 /// Most and fewest forcing periods over which the growth of a perturbation is measured.
 constexpr std::size_t periods_of_divergence = 200;
 constexpr std::size_t least_periods_of_divergence = 20;
@@ -39,18 +43,24 @@ constexpr std::size_t least_periods_of_divergence = 20;
 /// rounding nor a slow transient grows so fast.
 constexpr double diverging = 0.03;
 
-/// The largest speed |v| of a forcing period, at begin, middle and end of its intervals.
-class Fastest : public PeriodObserver {
+/// What the rounding of positions in a forcing period is made of.
+class Rounding : public PeriodObserver {
  public:
   void begin(const State& start) override { speed_ = std::abs(start.v); }
   void observe(const Interval& interval, double /*x*/) override {
     for (const double part : {0.0, 0.5, 1.0})
       speed_ = std::max(speed_, std::abs(interval.at(part * interval.duration).v));
+    if (const ClosedForm* form = interval.closed_form()) terms_ = std::max(terms_, form->terms(form->x));
   }
+  /// The largest |v|, at begin, middle and end of the intervals [m/s].
   [[nodiscard]] double speed() const { return speed_; }
+  /// The largest sum of the moduli of the terms whose sum is the position [m]: it exceeds the position by far where
+  /// a mass hardly moves under a large drive, or against a friction that would stretch the spring by metres.
+  [[nodiscard]] double terms() const { return terms_; }
 
  private:
   double speed_ = 0.0;
+  double terms_ = 0.0;
 };
 
 constexpr const char* neighbours =
@@ -168,16 +178,17 @@ std::optional<Orbit> Approach::closed(const State& state) {
 /// Whether the last forcing period closed as well as rounding lets it. The time of an event is rounded as the time
 /// since the period began, and meanwhile the mass goes on by its speed: a mass that rests at one place, then at
 /// another, and goes over in a thousandth of the period comes back to a thousand times the rounding of its
-/// position.
+/// position. The position itself is rounded as the largest of the terms whose sum it is.
 bool Approach::is_closed_within_rounding(const State& state) {
   const double closure = recurrence_.closure(1);
-  if (has_past_ || !(closure <= arrived) || passed_ < next_rounding_) return false;
+  if (has_past_ || !(closure <= near_rounding) || passed_ < next_rounding_) return false;
   next_rounding_ = passed_ + 1 + passed_ / 8;
   constexpr double errors = 8.0;  // of one event each
-  Fastest fastest;
-  const ForcingPeriod period = solver_.patient_map_over(1).from(state, Monodromy::without, &fastest);
-  const double instant = core::two_pi / omega_ * std::numeric_limits<double>::epsilon();
-  return closure * period.size <= errors * instant * fastest.speed();
+  constexpr double eps = std::numeric_limits<double>::epsilon();
+  Rounding rounding;
+  const ForcingPeriod period = solver_.patient_map_over(1).from(state, Monodromy::without, &rounding);
+  const double lengths = core::two_pi / omega_ * rounding.speed() + rounding.terms();
+  return closure * period.size <= errors * eps * lengths;
 }
 
 /// Gives the motion to the candidate, once in each of its periods; true if the motion approaches the candidate.

@@ -216,6 +216,38 @@ TEST_CASE("a mass that goes from stop to stop in a moment is periodic within the
   CHECK(state.trough == Approx(seen.trough).epsilon(1e-9));
 }
 
+TEST_CASE("a motion far smaller than the terms whose sum it is, is periodic within their rounding") {
+  // A mass in a play of 1.5 um. The friction of the play would stretch the spring by 17 m, so positions are sums of
+  // terms of 17 m, rounded to 4e-15 m, and slides of 1e-10 m differ by that from period to period.
+  struct Case {
+    sim::Oscillator oscillator;
+    double amplitude, frequency;
+    friction::FreePlay play;
+  };
+  const std::vector<Case> cases = {
+      {{.mass = 0.137, .stiffness = 0.00353, .damping = 1.15e-5},
+       0.083,
+       0.0381,
+       friction::FreePlay(0.0587, 0.0587, 1.516e-6)},
+      {{.mass = 0.2067, .stiffness = 1432.9}, 0.012, 22.866, friction::FreePlay(3984.0, 3984.0, 3.139e-6)},
+  };
+  for (const Case& c : cases) {
+    CAPTURE(c.oscillator.mass);
+    sim::Model model;
+    model.oscillator = c.oscillator;
+    model.excitation = {
+        .type = sim::ExcitationType::base_harmonic, .amplitude = c.amplitude, .frequency = c.frequency};
+    model.friction.emplace_back(c.play);
+    const sim::SteadyState state = sim::steady_state(model);
+    INFO(state.outcome.reason);
+    REQUIRE(state.outcome.ok());
+    CHECK(state.transient_periods < 100);
+    const Range seen = after(model, 20, 2);
+    CHECK(state.peak == Approx(seen.peak).epsilon(1e-7));
+    CHECK(state.trough == Approx(seen.trough).epsilon(1e-7));
+  }
+}
+
 TEST_CASE("a linear oscillator with damping has exactly one steady state") {
   struct Case {
     double zeta, r;
