@@ -228,7 +228,10 @@ void ModifiedLaw::pass_guard(OpenParts& parts, int guard, const Instant& now, Di
   const ModifierCourse next = limits_.after_guard(parts.course, guard);
   const ForceLimits::Ending ending = limits_.ending(guard);
   if (ending == ForceLimits::Ending::cell) return step_to(next, parts, now, direction);
-  // A slip may end in another way under a constant limit than under a changing one.
+  // A slip may end in another way under a constant limit than under a changing one. Where a limit falls to zero the
+  // law sees it as zero: what its formula leaves there is rounding.
+  const bool falls = next.vanished > parts.course.vanished || (next.unloaded && !parts.course.unloaded);
+  if (falls) parts.course = next;
   if (ending == ForceLimits::Ending::force_limit || ending == ForceLimits::Ending::load)
     look_again(parts, now, direction);
   parts.course = next;

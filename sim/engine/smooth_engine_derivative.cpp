@@ -163,7 +163,8 @@ std::vector<double> SmoothEngine::sizes_of(std::size_t law, const friction::Memo
 
 /// A law's states after a mode change, of the perturbed motion `column`, from `states`, those before it. It is
 /// displaced as a whole: at a crossing all its parts together leave the guard at zero, one of them alone does not.
-/// What a law takes for rounding of its guard is so rounding here too.
+/// What a law takes for rounding of its guard is so rounding here too. Empty: the law changes to other modes on the
+/// two sides, so that there is no derivative.
 Eigen::VectorXd SmoothEngine::through(const Change& change, Eigen::Index column,
                                       const Eigen::VectorXd& states) const {
   const friction::Law& law = model_.friction[change.law];
@@ -188,6 +189,7 @@ Eigen::VectorXd SmoothEngine::through(const Change& change, Eigen::Index column,
   const std::vector<double> above = after(step);
   const std::vector<double> below = after(-step);
   if (step == 0.0) return Eigen::VectorXd::Zero(as_vector(above).size());
+  if (above.size() != below.size()) return {};
   return (as_vector(above) - as_vector(below)) / (2.0 * step);
 }
 
@@ -225,8 +227,10 @@ void SmoothEngine::carry_through_changes() {
     for (Eigen::Index c = 0; c < columns_.cols(); ++c) {
       Eigen::VectorXd states = columns_.col(c).segment(row_before, count_before);
       for (const Change& change : changes_) {
-        if (of_law(change)) states = through(change, c, states);
+        if (of_law(change) && as_vector(change.before.state).size() == states.size())
+          states = through(change, c, states);
       }
+      if (states.size() != count) states.setConstant(count, std::numeric_limits<double>::quiet_NaN());
       result.col(c).segment(row, count) = states;
     }
     row += count;

@@ -25,6 +25,15 @@ MatrixXd sum_of_powers(const MatrixXd& monodromy) {
   return sum;
 }
 
+MatrixXd power_of(const MatrixXd& matrix, int exponent) {
+  MatrixXd power = MatrixXd::Identity(matrix.rows(), matrix.cols());
+  for (MatrixXd square = matrix; exponent > 0; exponent /= 2) {
+    if (exponent % 2 == 1) power = (power * square).eval();
+    square = (square * square).eval();
+  }
+  return power;
+}
+
 }  // namespace
 
 Attraction::Attraction(const ForcingPeriod& orbit, double omega, double resolution)
@@ -69,15 +78,19 @@ State Attraction::at(const VectorXd& deviation) const {
   return state;
 }
 
+bool Attraction::arrives_soon() const {
+  constexpr int soon = 20;
+  return last_.norm() > resolution_ && (power_of(monodromy_, soon) * last_).norm() <= resolution_;
+}
+
 bool Attraction::holds_ahead(PeriodMap& map) const {
-  constexpr int doublings = 20;
-  constexpr double left = 0.1;
-  const double least = std::max(left * norm(last_), resolution_);
-  MatrixXd power = monodromy_;
-  for (int i = 0; i < doublings; ++i) {
-    power = (power * power).eval();
-    const VectorXd before = power * last_;
-    if (!(norm(before) > least)) break;
+  constexpr int farthest = 1 << 20;
+  VectorXd before = last_;
+  for (int ahead = 0; ahead < farthest;) {
+    const int step = std::max(1, ahead / 4);
+    before = power_of(monodromy_, step) * before;
+    ahead += step;
+    if (!(before.norm() > resolution_)) break;
     const VectorXd after = from_orbit(map.from(at(before), Monodromy::without).end);
     if (!map.outcome().ok() || after.size() == 0) return false;
     if (after.norm() > resolution_ && !comes_closer(before, after)) return false;

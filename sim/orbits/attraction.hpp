@@ -12,9 +12,12 @@
 /// difference is of second order in d, so it becomes ever smaller beside the gain as the motion approaches.
 ///
 /// A motion far away that winds slowly obeys the condition by chance where it turns: there friction that falls
-/// short of the linear one has no speed to act on. So the condition must also hold at the deviations M^k d that the
-/// linear motion would have later, with k = 2, 4, 8, ... until a tenth of |d|_P is left: within the first turn, one
-/// of them is an eighth to a quarter of a turn ahead.
+/// short of the linear one has no speed to act on. Or a slider that the orbit holds slips once on the way. So the
+/// condition must also hold at the deviations M^k d that the linear motion would have later, until they count as
+/// zero: at k = 1, 2, ..., 8 and from there on at steps of a quarter of k, so at some ten places of the first turn.
+///
+/// Orbits may lie so close beside each other that only the motion itself decides between them. Where the linear
+/// motion arrives within twenty periods, which cost no more than this test, the motion is followed to the end.
 
 #include <Eigen/Core>
 #include <vector>
@@ -34,6 +37,9 @@ class Attraction {
 
   /// Whether enough periods in a row brought the motion closer by the condition above.
   [[nodiscard]] bool approaches() const { return approaching_ >= enough_; }
+  /// Whether the linear motion would reach the orbit within some periods, so that it is cheap to wait for the
+  /// motion.
+  [[nodiscard]] bool arrives_soon() const;
   /// Whether the condition holds at later deviations of the linear motion too. `map`: over a period of the orbit.
   [[nodiscard]] bool holds_ahead(PeriodMap& map) const;
   /// Whether the motion is twice as far away as it has been: it approaches something else.

@@ -10,6 +10,7 @@
 
 #include "friction_models/laws/contact_compliance.hpp"
 #include "friction_models/laws/coulomb.hpp"
+#include "friction_models/laws/free_play.hpp"
 #include "friction_models/laws/reset_integrator.hpp"
 #include "friction_models/registry.hpp"
 #include "sim/conformance/law_conformance.hpp"
@@ -259,6 +260,24 @@ TEST_CASE("a contact whose limit vanishes begins anew, unstretched, where it ret
     host.move_to(0.005);
     CHECK(host.force() == Approx(-1.0).epsilon(1e-12));
     REQUIRE_FALSE(host.broken());
+  }
+}
+
+TEST_CASE("a law sees the limit that falls to zero as zero, whatever rounding leaves of it",
+          "[friction][modified]") {
+  const Law play =
+      friction::modified(Law(friction::FreePlay(2.0, 3.0, 0.1)), {{"position_slope", -200.0}}, {2.0, 3.0});
+  for (const double x : {0.015, 0.015 * (1.0 - 1e-15), 0.015 * (1.0 + 1e-15)}) {
+    CAPTURE(x);
+    Instant now{.v = 1.0};
+    Memory memory = play.start(now);
+    play.jump(memory, {2}, now, Direction::forward);  // behind the guards of the limits: pushed forward
+    REQUIRE(play.force(memory, now, Direction::forward) == 2.0);
+    now.x = x;
+    play.jump(memory, {1}, now, Direction::forward);  // 2 N less 200 N/m x
+    play.jump(memory, {1}, now, Direction::forward);  // 3 N less 200 N/m x: none is left
+    CHECK(memory.state == std::vector<double>{x});
+    CHECK(play.force(memory, now, Direction::forward) == 0.0);
   }
 }
 

@@ -15,12 +15,16 @@
 #include "sim/motion/simulate.hpp"
 #include "sim/orbits/growth.hpp"
 #include "sim/orbits/steady_state.hpp"
+#include "tests/sim/orbits/range_of_motion.hpp"
 #include "tests/support/make_law.hpp"
 #include "tests/support/random.hpp"
 
 namespace {
 
 using namespace dualdamp;
+using sim::testing::after;
+using sim::testing::forcing_period;
+using sim::testing::Range;
 
 /// A hardening spring in the range of frequencies where two orbits attract.
 sim::Model bistable() {
@@ -39,27 +43,6 @@ sim::Model period_twelve() {
   model.excitation = {.type = sim::ExcitationType::base_harmonic, .amplitude = 1.0, .frequency = 0.459};
   model.friction.emplace_back(friction::Coulomb(0.11, 0.435));
   return model;
-}
-
-double forcing_period(const sim::Model& model) { return 2.0 * std::numbers::pi / model.excitation.frequency; }
-
-struct Range {
-  double peak = 0.0;
-  double trough = 0.0;
-};
-
-/// Extremes over `periods` forcing periods after `settle` of them.
-Range after(const sim::Model& model, int settle, int periods) {
-  const double period = forcing_period(model);
-  const sim::History history = sim::simulate(model, {.duration = (settle + periods) * period});
-  REQUIRE(history.outcome.ok());
-  Range range{-1e300, 1e300};
-  for (const sim::Event& event : history.events) {
-    if (event.t < settle * period) continue;
-    range.peak = std::max(range.peak, event.x);
-    range.trough = std::min(range.trough, event.x);
-  }
-  return range;
 }
 
 }  // namespace
@@ -214,38 +197,6 @@ TEST_CASE("a mass that goes from stop to stop in a moment is periodic within the
   const Range seen = after(model, 20, 2);
   CHECK(state.peak == Approx(seen.peak).epsilon(1e-9));
   CHECK(state.trough == Approx(seen.trough).epsilon(1e-9));
-}
-
-TEST_CASE("a motion far smaller than the terms whose sum it is, is periodic within their rounding") {
-  // A mass in a play of 1.5 um. The friction of the play would stretch the spring by 17 m, so positions are sums of
-  // terms of 17 m, rounded to 4e-15 m, and slides of 1e-10 m differ by that from period to period.
-  struct Case {
-    sim::Oscillator oscillator;
-    double amplitude, frequency;
-    friction::FreePlay play;
-  };
-  const std::vector<Case> cases = {
-      {{.mass = 0.137, .stiffness = 0.00353, .damping = 1.15e-5},
-       0.083,
-       0.0381,
-       friction::FreePlay(0.0587, 0.0587, 1.516e-6)},
-      {{.mass = 0.2067, .stiffness = 1432.9}, 0.012, 22.866, friction::FreePlay(3984.0, 3984.0, 3.139e-6)},
-  };
-  for (const Case& c : cases) {
-    CAPTURE(c.oscillator.mass);
-    sim::Model model;
-    model.oscillator = c.oscillator;
-    model.excitation = {
-        .type = sim::ExcitationType::base_harmonic, .amplitude = c.amplitude, .frequency = c.frequency};
-    model.friction.emplace_back(c.play);
-    const sim::SteadyState state = sim::steady_state(model);
-    INFO(state.outcome.reason);
-    REQUIRE(state.outcome.ok());
-    CHECK(state.transient_periods < 100);
-    const Range seen = after(model, 20, 2);
-    CHECK(state.peak == Approx(seen.peak).epsilon(1e-7));
-    CHECK(state.trough == Approx(seen.trough).epsilon(1e-7));
-  }
 }
 
 TEST_CASE("a linear oscillator with damping has exactly one steady state") {

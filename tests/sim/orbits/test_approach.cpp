@@ -1,0 +1,87 @@
+// A motion approaches an orbit: when it counts as having come back, and that it goes to the orbit that is reported.
+
+#include <catch2/catch.hpp>
+#include <vector>
+
+#include "friction_models/laws/contact_compliance.hpp"
+#include "friction_models/laws/coulomb.hpp"
+#include "friction_models/laws/free_play.hpp"
+#include "friction_models/laws/iwan.hpp"
+#include "sim/orbits/steady_state.hpp"
+#include "tests/sim/orbits/range_of_motion.hpp"
+
+using namespace dualdamp;
+using sim::testing::after;
+using sim::testing::Range;
+
+TEST_CASE("a motion far smaller than the terms whose sum it is, is periodic within their rounding") {
+  // A mass in a play of 1.5 um. The friction of the play would stretch the spring by 17 m, so positions are sums of
+  // terms of 17 m, rounded to 4e-15 m, and slides of 1e-10 m differ by that from period to period.
+  struct Case {
+    sim::Oscillator oscillator;
+    double amplitude, frequency;
+    friction::FreePlay play;
+  };
+  const std::vector<Case> cases = {
+      {{.mass = 0.137, .stiffness = 0.00353, .damping = 1.15e-5},
+       0.083,
+       0.0381,
+       friction::FreePlay(0.0587, 0.0587, 1.516e-6)},
+      {{.mass = 0.2067, .stiffness = 1432.9}, 0.012, 22.866, friction::FreePlay(3984.0, 3984.0, 3.139e-6)},
+  };
+  for (const Case& c : cases) {
+    CAPTURE(c.oscillator.mass);
+    sim::Model model;
+    model.oscillator = c.oscillator;
+    model.excitation = {
+        .type = sim::ExcitationType::base_harmonic, .amplitude = c.amplitude, .frequency = c.frequency};
+    model.friction.emplace_back(c.play);
+    const sim::SteadyState state = sim::steady_state(model);
+    INFO(state.outcome.reason);
+    REQUIRE(state.outcome.ok());
+    CHECK(state.transient_periods < 100);
+    const Range seen = after(model, 20, 2);
+    CHECK(state.peak == Approx(seen.peak).epsilon(1e-7));
+    CHECK(state.trough == Approx(seen.trough).epsilon(1e-7));
+  }
+}
+
+TEST_CASE("a slider that would slip on the way to an orbit leads to another orbit") {
+  // From afar the motion winds about an orbit of its own sliders, and would reach it if none of them slipped.
+  sim::Model model;
+  model.oscillator = {.mass = 0.13888836, .stiffness = 104906.43, .damping = 19.838018};
+  model.excitation = {.type = sim::ExcitationType::base_harmonic,
+                      .amplitude = 0.13451059,
+                      .frequency = 9861.6816,
+                      .phase = 2.6449537};
+  model.initial = {0.5222969, 81.919972};
+  model.friction.emplace_back(friction::ContactCompliance(856.71958, 1579.1682, 22491878.0, 0.0));
+  model.friction.emplace_back(friction::Iwan(friction::Iwan::uniform(76062.435, 4346.2737, 17)));
+  model.friction.emplace_back(friction::Coulomb(537.45888, 537.45888));
+  const sim::SteadyState state = sim::steady_state(model);
+  REQUIRE(state.outcome.ok());
+  const Range seen = after(model, 300, 2);
+  CHECK(state.peak == Approx(seen.peak).epsilon(1e-8));
+  CHECK(state.trough == Approx(seen.trough).epsilon(1e-8));
+}
+
+TEST_CASE("a motion that ends close beside an orbit that attracts is followed to its end") {
+  // Slow drive, static friction four times the kinetic: ringing after each reversal leads to one of several orbits,
+  // a millionth of the motion apart. The symmetric one attracts too.
+  sim::Model model;
+  model.oscillator = {.mass = 1.181074350322255,
+                      .stiffness = 68.17782471923137,
+                      .damping = 0.001561186769861896,
+                      .damper_to = sim::DamperTo::base};
+  model.excitation = {.type = sim::ExcitationType::force_harmonic,
+                      .amplitude = 1.1206955887174963,
+                      .frequency = 0.015640056622079044,
+                      .phase = 1.5679197650758723};
+  model.friction.emplace_back(friction::Coulomb(1.132149488168754e-06, 4.417217562904935e-06));
+  const sim::SteadyState state = sim::steady_state(model);
+  REQUIRE(state.outcome.ok());
+  const Range seen = after(model, 60, 2);
+  CHECK(state.peak == Approx(seen.peak).epsilon(1e-10));
+  CHECK(state.trough == Approx(seen.trough).epsilon(1e-10));
+  CHECK(state.peak + state.trough > 1e-6 * state.peak);
+}
