@@ -92,9 +92,9 @@ void keep_physical(Estimate& estimate) {
   for (const ReportedParameter& parameter : reported_parameters) {
     double& value = estimate.value.*parameter.value;
     if (value < 0.0 && (parameter.name == "zeta" || parameter.name == "F0"))
-      estimate.warnings.push_back(std::string(parameter.name) + " is fitted best by a negative value (" +
-                                  four_digits(value) +
-                                  " in SI units), and is answered as zero: the data do not tell it from zero");
+      estimate.warnings.push_back(
+          std::string(parameter.name) + " is fitted best by a negative value (" + four_digits(value) +
+          " in SI units), and is reported as zero: the data cannot distinguish it from zero");
     value = value < 0.0 ? 0.0 : value;
     if (!estimate.interval95) continue;
     double& low = ((*estimate.interval95).*parameter.interval)[0];

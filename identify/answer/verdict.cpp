@@ -94,7 +94,7 @@ std::string departures_text(const Ledger& ledger) {
             ", p = " + core::format_number(*first.p_value, 2) + ")";
     const std::string& wanted = ledger.entry(Assumption::constants).wanted;
     const bool of_constants = std::ranges::count(departure, Assumption::constants) > 0;
-    text += of_constants && !wanted.empty() ? ": they want " + wanted + "." : ".";
+    text += of_constants && !wanted.empty() ? ": they fit " + wanted + "." : ".";
   }
   return text;
 }
@@ -147,7 +147,7 @@ std::string over_laws(const Identification& all) {
          core::unit_for(all.ledger.coordinate, "N") + " (" + ends(laws.F0_ends) + ").";
 }
 
-/// " What no test of these data excludes allows zeta from 0.018 to 0.024 (quadratic term over speed)."
+/// " The tests of these data do not exclude zeta from 0.018 to 0.024 (quadratic term over speed)."
 std::string range_text(const Identification& all) {
   if (!all.range) return {};
   const auto ends = [](const Interval& range, const std::array<std::string, 2>& by, const std::string& unit) {
@@ -162,7 +162,7 @@ std::string range_text(const Identification& all) {
     texts.push_back("F0 from " +
                     ends(all.range->ends.F0, all.range->F0_by, " " + core::unit_for(all.ledger.coordinate, "N")));
   if (texts.empty()) return {};
-  return " What no test of these data excludes allows " + core::joined(texts, " and ") + ".";
+  return " The tests of these data do not exclude " + core::joined(texts, " and ") + ".";
 }
 
 }  // namespace
@@ -234,12 +234,13 @@ std::string verdict_of(const Identification& all) {
     if (const std::string& fitted = all.ledger.entry(Assumption::constants).fitted; !fitted.empty())
       text += " zeta and F0 are those of " + fitted + ".";
   if (all.ledger.misfit) text += " As a whole, " + misfit_text(*all.ledger.misfit) + ".";
-  text =
-      numbers_of(best, all.ledger.coordinate) + ", by " + best.method + no_freedom(best) + ". " +
-      (!text.empty()       ? text.substr(1)
-       : untested          ? "These data cannot tell whether friction is Coulomb + viscous."
-       : !harmless.empty() ? "These data contradict no assumption in a way that matters; seen is: " + harmless + "."
-                           : "These data do not contradict any assumption that they can test.");
+  text = numbers_of(best, all.ledger.coordinate) + ", by " + best.method + no_freedom(best) + ". " +
+         (!text.empty() ? text.substr(1)
+          : untested    ? "These data cannot show whether friction is Coulomb + viscous."
+          : !harmless.empty()
+              ? "No assumption is violated. The data show small departures that hardly change zeta and F0: " +
+                    harmless + "."
+              : "These data do not contradict any assumption that they can test.");
   for (const Estimate& other : all.estimates)
     if (disagree(best, other))
       text += " " + other.method + " disagrees: " + numbers_of(other, all.ledger.coordinate) + ".";

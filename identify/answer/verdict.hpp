@@ -13,7 +13,7 @@ namespace dualdamp::identify {
 
 struct Identification;
 
-/// Why the estimate that answers was preferred, and what no test could tell.
+/// Why the estimate that answers was preferred, and what no test could show.
 [[nodiscard]] std::string why_preferred(const Identification& all);
 
 /// Why no estimate answers, and what would help.

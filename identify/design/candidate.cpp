@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/numbers.hpp"
+
 namespace dualdamp::identify {
 
 namespace {
@@ -78,8 +80,9 @@ std::vector<CandidateMeasurement> candidates_after(const std::vector<Pair>& stat
   const double aside = 1.0 + std::clamp(zeta, 0.01, 0.2);
   const States other_frequency = scaled(same, 1.0, aside);
   const States curve = resonance_curve(middle, natural, zeta, std::max(count, 5));
-  if (!has_phase) add("the same levels at a frequency above, off the resonance by zeta", other_frequency, false);
-  add("the same levels at a frequency above, off the resonance by zeta, with phases", other_frequency, true);
+  const std::string at_other = "the same levels at " + core::format_number(aside, 3) + " times the frequency";
+  if (!has_phase) add(at_other, other_frequency, false);
+  add(at_other + ", with phases", other_frequency, true);
   if (!has_phase) add("the resonance curve at the middle level", curve, false);
   add("the resonance curve at the middle level, with phases", curve, true);
   add("the resonance curve at the lowest level, with phases",

@@ -120,8 +120,8 @@ core::Outcome cut_short(long most_work) {
           "state values or bounds, or free fewer parameters"};
 }
 
-/// The search ended where the motion cannot be followed beside the estimate, most often at the end of a parameter's
-/// range: a contact as stiff as the search allows.
+/// The search ended where the motion cannot be simulated for values close to the estimate, most often at the end of
+/// a parameter's range: a contact as stiff as the search allows.
 core::Outcome without_derivative(const FitProblem& problem, const Request& request, const Eigen::VectorXd& q) {
   const Eigen::VectorXd values = problem.values(q);
   const core::Coordinate coordinate = request.rig.known.oscillator.coordinate;
@@ -142,11 +142,12 @@ core::Outcome without_derivative(const FitProblem& problem, const Request& reque
   }
   return {
       core::OutcomeKind::not_identifiable,
-      "the motion cannot be followed beside the estimate, and has no derivative there: " +
+      "no uncertainty can be computed: the motion cannot be simulated for values close to the estimate. " +
           (ends.empty()
-               ? core::joined(all) + ". State values or bounds, or free fewer parameters"
-               : core::joined(ends) + ", where the search ends, because the data do not bound it. State a value or "
-                                      "bounds, or fit a law without it") +
+               ? core::joined(all) + " is the estimate. State values or bounds, or free fewer parameters"
+               : core::joined(ends) + (ends.size() == 1 ? " is" : " are") +
+                     " at the limit of the search, because the data do not bound it. State a value or bounds, or fit a "
+                     "law without it") +
           (sticks
                ? ". The mass sticks in this loop: at rest, a contact as good as rigid needs finer positions than "
                  "those measured, and a rigid law, such as 'coulomb', gives these samples no weight"

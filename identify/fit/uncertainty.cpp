@@ -73,8 +73,8 @@ class Uncertainty {
     const friction::Range& range = fitted.parameter.range;
     if (!(low && !(range.low > 0.0)) && !(high && std::isinf(range.high))) return;
     fit_.warnings.push_back(fitted.parameter.name +
-                            " ends where the search ends, and the readings feel it there: bounds or a stated value "
-                            "move the search");
+                            " reached the limit of the search and still affects the fit "
+                            "there: set 'bounds' or state a value");
   }
 
   /// A change of 100 % of a parameter, in coordinates.
@@ -293,7 +293,7 @@ class Uncertainty {
       std::erase_if(lost_, is_alone);
     } else if (end_.profile && ends && fitted.std > 0.0 && bends(fitted, quantiles_[static_cast<std::size_t>(i)])) {
       fitted.interval95 = fitted.profile95;
-      fitted.reason = "the sum of squares is no parabola: the interval is that of the profile";
+      fitted.reason = "the sum of squares is not a parabola: the interval is that of the profile";
     } else if (end_.profile && !end_.problem.is_exhausted() && !ends && fitted.std > 0.0) {
       fitted.reason = "the profile does not end: the interval by the covariance holds near the estimate only";
     }

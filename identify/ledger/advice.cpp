@@ -58,7 +58,7 @@ std::string what_would_help(Assumption assumption, const Recorded& recorded) {
   using enum Assumption;
   switch (assumption) {
     case constants:
-      return "leave out the stated stiffness or mass where the record can tell it, or measure them anew";
+      return "leave out the stated stiffness or mass where the record determines it, or measure them anew";
     case sensors:
       return of_sensors(recorded);
     case stationarity:
@@ -130,11 +130,11 @@ bool looks_clipped(const std::vector<Assumption>& departure) {
 
 }  // namespace
 
-std::string would_tell(Assumption assumption, const Recorded& recorded) {
+std::string would_show(Assumption assumption, const Recorded& recorded) {
   std::vector<std::string> lacking;
   for (const Means& means : all_means)
     if (means.assumption == assumption && !means.is_there(recorded)) lacking.emplace_back(means.name);
-  return lacking.empty() ? "" : "; " + core::joined(lacking, " or ") + " would tell";
+  return lacking.empty() ? "" : "; " + core::joined(lacking, " or ") + " would show it";
 }
 
 std::string what_would_help(const Ledger& ledger) {

@@ -11,7 +11,7 @@ namespace dualdamp::identify {
 /// For every departure that was found.
 [[nodiscard]] std::string what_would_help(const Ledger& ledger);
 
-/// "; phases, or a history would tell": what the record lacks to test an assumption; empty if it lacks nothing.
-[[nodiscard]] std::string would_tell(Assumption assumption, const Recorded& recorded);
+/// "; phases or a history would show it": what the record lacks to test an assumption; empty if it lacks nothing.
+[[nodiscard]] std::string would_show(Assumption assumption, const Recorded& recorded);
 
 }  // namespace dualdamp::identify

@@ -137,21 +137,21 @@ class Writer {
       if (harms && entry.assumption == Assumption::constants) {
         entry.wanted = wanted_constants(departure);
         if (!of_joint.empty()) entry.fitted = of_joint.front().fitted;
-        if (!entry.wanted.empty()) entry.reason = "these data want " + entry.wanted + "; " + entry.reason;
+        if (!entry.wanted.empty()) entry.reason = "these data fit " + entry.wanted + "; " + entry.reason;
       }
       if (harms) named.push_back(assumption_of(test));
     }
     if (!named.empty()) ledger.departures.push_back(std::move(named));
   }
 
-  /// "a stiffness of 1421 N/m instead of 1563 N/m, or a mass of 1.1 kg instead of 1 kg", of the fits that explain
-  /// the departure.
+  /// "a stiffness of 1421 N/m, not the stated 1563 N/m, or a mass of 1.1 kg, not the stated 1 kg", of the fits that
+  /// explain the departure.
   [[nodiscard]] std::string wanted_constants(const FoundDeparture& departure) const {
     std::vector<std::string> texts;
     for (const RelaxationTest& test : departure.explanations)
       if (assumption_of(test) == Assumption::constants)
         for (const ChangedConstant& changed : changed_constants(test))
-          texts.push_back(changed.fitted + " instead of " + changed.stated);
+          texts.push_back(changed.fitted + ", not the stated " + changed.stated);
     return core::joined(texts, ", or ");
   }
 
@@ -201,10 +201,10 @@ class Writer {
     own.zeta_change = constants.zeta_change;
     own.F0_change = constants.F0_change;
     own.reason =
-        "beside another constant these data want inertia that grows with the frequency, as a further mode has "
-        "it: the mass that they want may be that of the mode; explained as well by: constants";
+        "even with another constant the data show inertia that grows with frequency, as a second mode causes. The fitted "
+        "mass may include that mode. Wrong constants explain the data equally well";
     LedgerEntry& other = ledger.entries[static_cast<std::size_t>(Assumption::constants)];
-    other.reason = "these data want " + other.wanted + "; explained as well by: one_mode";
+    other.reason = "these data fit " + other.wanted + "; explained as well by: one_mode";
   }
 
   /// Do the stated uncertainties allow constants or gains to be off by as much? All uncertainties count for each of
@@ -251,7 +251,7 @@ class Writer {
     ledger.entries[static_cast<std::size_t>(entry.assumption)].reason.clear();
   }
 
-  /// Why there is nothing to test of the drive; nothing if its history would tell.
+  /// Why there is nothing to test of the drive; nothing if its history would show it.
   [[nodiscard]] static std::string about_drive(const Ledger& ledger) {
     if (ledger.recorded.drive && ledger.tests_histories)
       return "the measured drive enters the model as it is: nothing rests on its being harmonic and steady";
@@ -275,13 +275,13 @@ class Writer {
     const auto is_alone = std::ranges::find_if(
         tests_.alone, [&](std::size_t index) { return model_.relaxations[index].assumption == entry.assumption; });
     entry.reason = is_alone != tests_.alone.end()
-                       ? "in this record its effect cannot be told from that of zeta and F0"
-                       : "this record cannot tell";
+                       ? "in this record its effect cannot be distinguished from that of zeta and F0"
+                       : "this record cannot show it";
     if (is_taken_from_record(entry.assumption))
       entry.reason = std::string("no ") + (std::isnan(stated_.mass) ? "mass" : "stiffness") +
-                     " is stated, and the fit takes it from the record; one that is stated would tell";
+                     " is stated, and the fit takes it from the record; one that is stated would show it";
     else
-      entry.reason += would_tell(entry.assumption, ledger.recorded);
+      entry.reason += would_show(entry.assumption, ledger.recorded);
   }
 
  public:
@@ -295,7 +295,7 @@ class Writer {
       const std::string size = "a departure that moves zeta or F0 by " + in_percent(blind) + " would be seen";
       if (blind > most)
         entry = {.assumption = entry.assumption,
-                 .reason = "only " + size + would_tell(entry.assumption, ledger.recorded)};
+                 .reason = "only " + size + would_show(entry.assumption, ledger.recorded)};
       else
         entry.reason = size, entry.sight = blind;
     }
@@ -307,8 +307,8 @@ class Writer {
       if (entry.standing != Standing::holds) continue;
       entry = {.assumption = entry.assumption,
                .reason = "the joint model misses these data by " + rounded(misfit.times) +
-                         " times their noise, so this record cannot tell" +
-                         would_tell(entry.assumption, ledger.recorded)};
+                         " times their noise, so this record cannot show it" +
+                         would_show(entry.assumption, ledger.recorded)};
     }
   }
 
@@ -412,7 +412,7 @@ Estimate joint_fit(const Record& record, const KnownConstants& constants, const 
   for (const std::string& test : relaxed) {
     const auto at = std::ranges::find(model.relaxations, test, &Relaxation::test);
     if (at == model.relaxations.end()) {
-      refuse(none, "the record does not tell: " + test);
+      refuse(none, "the record does not determine: " + test);
       return none;
     }
     numbers.push_back(static_cast<std::size_t>(at - model.relaxations.begin()));

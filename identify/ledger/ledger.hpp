@@ -47,7 +47,8 @@ struct LedgerEntry {
   /// Relative change of zeta or F0, the larger one, by a departure that is missed in one record of five; nothing
   /// where the assumption was not tested, or violated.
   std::optional<double> sight;
-  std::string wanted;  ///< the constants that explain a departure: "a stiffness of 1421 N/m instead of 1563 N/m"
+  /// The constants that explain a departure: "a stiffness of 1421 N/m, not the stated 1563 N/m".
+  std::string wanted;
   std::string fitted;  ///< the constant that the joint estimate has: "a stiffness of 1421 N/m"
 };
 

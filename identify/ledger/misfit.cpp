@@ -72,7 +72,7 @@ bool tells_nothing(const Estimate& joint) {
 std::string negative_friction(const Ledger& ledger) {
   if (!ledger.joint || !ledger.joint->interval95) return {};
   if (!ledger.tests_histories && ledger.recorded.states && tells_nothing(*ledger.joint))
-    return "the joint model fits these states best with negative friction, and they tell neither zeta nor F0; what "
+    return "the joint model fits these states best with negative friction, and they determine neither zeta nor F0; what "
            "would help: more states, or states over a wider range of levels and frequencies, and constants that are "
            "right";
   if (!ledger.tests_histories) return {};

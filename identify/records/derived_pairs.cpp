@@ -172,7 +172,7 @@ class PairReader {
     const SineFit drive = drive_fit(frequency);
     if (!drive.outcome.ok()) return nothing(drive.outcome.reason);
     if (std::abs(drive.omega / frequency - 1.0) > most_detuning)
-      return nothing("it is no steady state at the frequency stated: " + frequencies(drive.omega, frequency) +
+      return nothing("it is not a steady state at the frequency stated: " + frequencies(drive.omega, frequency) +
                      ", " + percent_text(std::abs(drive.omega / frequency - 1.0)) + " away where at most " +
                      percent_text(most_detuning) + " is taken for rounding");
     const auto steady = steady_part(history_, drive.omega);
@@ -186,7 +186,7 @@ class PairReader {
     const SineFit y = fit(cut(history_.y), drive.omega, 3);
     const SineFit x = fit(cut(history_.x), drive.omega, most_harmonics);
     if (!x.outcome.ok() || !y.outcome.ok()) return nothing("its periods are too short to fit");
-    if (is_other(y) || is_other(x)) return nothing("it is no steady state at the frequency of the drive");
+    if (is_other(y) || is_other(x)) return nothing("it is not a steady state at the frequency of the drive");
     Pair pair;
     pair.Y = y.harmonics[0].amplitude;
     pair.x = half_peak_to_peak(x);
@@ -258,8 +258,8 @@ class PairReader {
     for (std::size_t k = 1; k < y.harmonics.size(); ++k) {
       const double share = y.harmonics[k].amplitude / y.harmonics[0].amplitude;
       if (share > notable_distortion && y.harmonics[k].amplitude > 4.0 * y.harmonics[k].amplitude_std)
-        warnings_.push_back(name_ + ": the base is no pure sine, its harmonic " + std::to_string(k + 1) + " has " +
-                            percent_text(share) + " of the fundamental");
+        warnings_.push_back(name_ + ": the base is not a pure sine, its harmonic " + std::to_string(k + 1) +
+                            " has " + percent_text(share) + " of the fundamental");
     }
     if (steady.first > 0)
       warnings_.push_back(

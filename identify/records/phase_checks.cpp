@@ -134,7 +134,7 @@ std::optional<PhaseFault> phase_fault(const std::vector<Pair>& pairs, const Know
   const std::string range = "the phases, up to " + brief(largest) + " rad";
   constexpr double most = 4.0 * std::numbers::pi;
   if (largest > most && !from_histories)
-    return PhaseFault{range + ", are no lags in radians; the phases may be degrees", their_unit(words, "deg")};
+    return PhaseFault{range + ", are not lags in radians; the phases may be degrees", their_unit(words, "deg")};
   constexpr double bad = 0.4;
   if (!balance.takes_work() && !(upper_median(balance.cosines) > bad)) return std::nullopt;
   Causes causes;

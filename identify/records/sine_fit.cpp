@@ -249,7 +249,7 @@ SineFit fit_sine(std::span<const double> signal, double sample_rate, double omeg
   constexpr int most_steps = 30;
   for (int i = 0; i <= most_steps; ++i) {
     const Basis basis(signal.size(), theta, options.harmonics);
-    if (!basis.is_regular()) return refused("the harmonics cannot be told apart in so short a record");
+    if (!basis.is_regular()) return refused("so short a record does not distinguish the harmonics");
     const Trial trial = fit_at(basis, signal);
     // The model is linear only for steps of less than a quarter of a turn over the record.
     const double step = std::clamp(trial.step, -std::numbers::pi / 2.0 / n, std::numbers::pi / 2.0 / n);

@@ -133,7 +133,7 @@ void judge_sign(double value, double least, const Interval* interval, const std:
   if (high < 0.0 && (negative || high < -least)) {
     faults.push_back(name + " came out negative by more than its uncertainty");
   } else if (low <= 0.0 && high >= 0.0 && high - low > least) {
-    estimate.warnings.push_back(name + " cannot be told from zero: its 95 % interval contains it");
+    estimate.warnings.push_back(name + " cannot be distinguished from zero: its 95 % interval contains it");
   }
 }
 

@@ -49,7 +49,7 @@ Estimate joint_estimate(const JointModel& model, const Numbers& relaxed, std::st
   const std::optional<Eigen::MatrixXd> covariance = unit_covariance(columns);
   const double freedom = static_cast<double>(columns.rows() - columns.cols()) - model.spent;
   if (!covariance || freedom < 1.0) {
-    refuse(estimate, "the record does not tell the parameters of the joint model apart");
+    refuse(estimate, "the record does not distinguish the parameters of the joint model");
     return estimate;
   }
   const Eigen::VectorXd step = *covariance * (columns.transpose() * model.residuals);

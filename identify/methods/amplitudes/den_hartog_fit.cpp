@@ -328,7 +328,7 @@ void bootstrap(const AmplitudeLaw& law, const ExactFit& fit, const ResonanceData
 /// Why no fit is possible; empty otherwise.
 std::string fault_of(const AmplitudeLaw& law, const std::vector<Exclusion>& excluded) {
   if (law.size() == 3 && law.frequencies() < 3)
-    return "the natural frequency cannot be told from fewer than three frequencies, and the record has " +
+    return "fewer than three frequencies do not determine the natural frequency, and the record has " +
            std::to_string(law.frequencies()) + ": zeta would be known tens of times worse";
   if (law.rows() < law.size()) {
     std::string fault = std::to_string(law.size()) + " pairs are needed, and " + std::to_string(law.rows()) +

@@ -313,7 +313,7 @@ Estimate harmonic_balance(const Record& record, const KnownConstants& constants)
         "the curve friction_velocity)");
     estimate.warnings.emplace_back(
         "a curve of amplitudes at one frequency is the same for a suitable law of velocity, of position or of "
-        "amplitude: which of them bends it, it cannot tell");
+        "amplitude: it does not show which of them bends it");
   }
   list_coefficients(fit, estimate);
   add_curves(line->points, fit, estimate);

@@ -234,11 +234,11 @@ void judge(const Test& test, Estimate& estimate) {
   if (!fired && plain) return;
   estimate.warnings.emplace_back(
       test.one_frequency
-          ? "amplitudes at one frequency cannot tell which mechanism bends them: a law of velocity, one of "
+          ? "amplitudes at one frequency cannot show which mechanism bends them: a law of velocity, one of "
             "position and one of amplitude can give exactly these data, and F0 (1 - |x|/L) gives those of a "
-            "smaller c; other frequencies, phases, harmonics or a free decay tell them apart"
-          : "amplitudes tell a law of velocity from one of position by their frequencies alone, and neither from "
-            "one of amplitude: phases, harmonics or a free decay tell them apart");
+            "smaller c; other frequencies, phases, harmonics or a free decay distinguish them"
+          : "amplitudes distinguish a law of velocity from one of position by their frequencies alone, and neither from "
+            "one of amplitude: phases, harmonics or a free decay distinguish them");
 }
 
 /// The laws that these pairs can support.
@@ -300,7 +300,7 @@ constinit const MethodEntry law_selection_method{
     .summary = "compares Coulomb + viscous friction with other laws on amplitude pairs",
     .assumes =
         "no sticking, errors in x alone, harmonic balance for the difference between laws; checked: sticking pairs are "
-        "left out, F test of the best wider law; what amplitudes cannot tell apart is said",
+        "left out, F test of the best wider law; what amplitudes cannot distinguish is said",
     .equation = "least squares in x of ((k - m w^2) X)^2 + Phi(w X, X)^2 = (k Y)^2, ranked by AICc or BIC",
     .sources = "burnham2002, schwarz1978, denhartog1931",
     .needs = RecordKind::states,

@@ -249,7 +249,7 @@ Estimate receptance(const Record& record, const KnownConstants& constants) {
     estimate.value = receptance_parameters(*states, constants).value_or(ParameterSet{});
   } while (drop_sticking(*states, estimate.value, constants, estimate));
   if (!fit.coefficients.allFinite()) {
-    refuse(estimate, "the outputs are such that c and F0 cannot be told apart");
+    refuse(estimate, "these outputs do not distinguish c from F0");
     return estimate;
   }
   set_estimate(*states, fit, constants, estimate);

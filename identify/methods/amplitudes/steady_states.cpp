@@ -124,7 +124,7 @@ void judge_own_reading(const std::vector<Pair>& states, const KnownConstants& co
   const std::optional<ParameterSet> own = exact.size() < 2 ? std::nullopt : read(exact);
   if (!own) {
     estimate.warnings.push_back("how far the method misreads its own estimate " + because +
-                                " cannot be told: the exact law has no motion without a stop there");
+                                " cannot be determined: the exact law has no motion without a stop there");
     return;
   }
   if (exact.size() == states.size()) {

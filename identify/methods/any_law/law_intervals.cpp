@@ -295,8 +295,8 @@ std::variant<LawStudy, std::string> study_laws(const ReadingModel& model, const 
   std::optional<PlainFit> plain = plain_fit(model);
   if (plain) plain = with_law_error(model, std::move(*plain), options.law_error);
   if (!plain)
-    return "no Coulomb and viscous friction has readings like these, or they do not tell its force from its "
-           "damping";
+    return "no Coulomb and viscous friction has readings like these, or they do not distinguish its force "
+           "from its damping";
   LawStudy study{.plain = std::move(*plain)};
   study.laws = fit_library(model, options, study.plain);
   // The part of a law's region that was not searched might be the end of the range.

@@ -53,7 +53,7 @@ Eigen::Matrix2d covariance(const std::vector<double>& X, double deviation) {
 void judge_bias(const Friction& crude, const std::optional<Friction>& better, Estimate& estimate,
                 std::vector<std::string>& faults) {
   if (!better || !(better->zeta > 0.0) || !(better->x_f > 0.0)) {
-    faults.emplace_back("the bias of the rule cannot be told from these extremes");
+    faults.emplace_back("these extremes do not determine the bias of the rule");
     return;
   }
   const double zeta_bias = crude.zeta / better->zeta - 1.0;

@@ -235,7 +235,7 @@ Estimate acceleration_velocity_displacement(const Record& record, const KnownCon
   const Regression regression = regress(histories, 0, columns, constants, options);
   if (!regression.fit) {
     refuse(estimate,
-           "mass, stiffness and friction cannot be told apart: the motion has too few samples beyond the "
+           "mass, stiffness and friction cannot be distinguished: the motion has too few samples beyond the "
            "least speed, one direction only, or one level and frequency only");
     return estimate;
   }

@@ -215,7 +215,7 @@ ForwardFit::ForwardFit(const Record& record, const KnownConstants& constants, co
 void ForwardFit::search(const Record& record, const KnownConstants& constants, const RegressionOptions& options) {
   const std::vector<ForceParameters> list = starts(record, tests_, constants, options);
   if (list.empty()) {
-    problem_ = "the method needs the mass and the stiffness: the record does not tell them";
+    problem_ = "the method needs the mass and the stiffness: the record does not determine them";
     return;
   }
   LeastSquaresProblem problem = set_up(constants, list.front());

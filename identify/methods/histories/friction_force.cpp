@@ -235,9 +235,10 @@ Estimate friction_force(const Record& record, const KnownConstants& constants, c
   if (histories.empty()) return estimate;
   const SlidingLine line = sliding_line(histories, options);
   if (!line.fit) {
-    refuse(estimate, "viscous and Coulomb friction cannot be told apart: the motion has too few samples beyond " +
-                         core::format_number(line.least_speed, 3) + " " + constants.unit("m/s") +
-                         ", or one speed or one direction only");
+    refuse(estimate,
+           "viscous and Coulomb friction cannot be distinguished: the motion has too few samples beyond " +
+               core::format_number(line.least_speed, 3) + " " + constants.unit("m/s") +
+               ", or one speed or one direction only");
     return estimate;
   }
   const ParameterReading own = reading_of(*line.fit, constants);

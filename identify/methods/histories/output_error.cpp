@@ -110,7 +110,7 @@ void report(std::vector<ForwardTest>& tests, const ForwardLayout& layout, const 
   estimate.value = parameters(force);
   const std::optional<ParameterReading> own = reading_of(layout, found, found.residuals, residuals.blocks());
   if (!own) {
-    faults.emplace_back("the parameters cannot be told apart in this motion");
+    faults.emplace_back("this motion does not distinguish the parameters");
     return;
   }
   const std::optional<BootstrapSpread> spread = spread_of(tests, layout, residuals, found, *own);

@@ -142,13 +142,13 @@ RecursiveFit fit_recursively(const std::vector<FrictionSamples>& histories, cons
 /// Why the record does not separate viscous from Coulomb friction; empty when it does.
 std::string fault_of(const RecursiveFit& result) {
   if (!result.fit)
-    return "viscous and Coulomb friction cannot be told apart: too few samples beyond the least speed, or "
+    return "viscous and Coulomb friction cannot be distinguished: too few samples beyond the least speed, or "
            "one speed only";
   // Filters may reverse the velocity of a few samples at the ends.
   constexpr double few = 0.05;
   if (1.0 - std::abs(result.rows.columns.col(1).mean()) < 2.0 * few)
     return "the motion goes in one direction only, where a Coulomb force and an offset of the force sensor cannot be "
-           "told apart";
+           "distinguished";
   return {};
 }
 

@@ -296,7 +296,7 @@ class Reader {
     else if (variable.class_type == MAT_C_CHAR)
       fault = " is text";
     else if (!numeric)
-      fault = " is no vector of numbers";
+      fault = " is not a vector of numbers";
     else if (variable.isComplex != 0)
       fault = " holds complex numbers";
     else if (long_sides > 1 && !entry.slice)

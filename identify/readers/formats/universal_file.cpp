@@ -162,7 +162,7 @@ class Scanner {
     if (!is_time) {
       if (is_binary) at_ = std::min(text_.size(), at_ + field<std::size_t>(head, 31, 12));
       warnings_.push_back("the data set at line " + std::to_string(f.line) +
-                          " is no time response (function type " + std::to_string(f.type) + ") and is ignored");
+                          " is not a time response (function type " + std::to_string(f.type) + ") and is ignored");
       return std::nullopt;
     }
     if (f.is_complex) refuse("the time response holds complex numbers", "real numbers");

@@ -101,7 +101,7 @@ class Mapping {
       if (other.ordinate.quantity != f.ordinate.quantity || called(other) == called(f)) continue;
       refuse_set(f,
                  called(f) + " and " + called(other) +
-                     " are of the same kind, and nothing tells which of them is " + std::string(known->name),
+                     " are of the same kind, and nothing shows which of them is " + std::string(known->name),
                  allowed());
       return nullptr;
     }

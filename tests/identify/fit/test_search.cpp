@@ -130,7 +130,7 @@ TEST_CASE("search: bounds take the place of the range that the search has withou
   const identify::Fit without = fit_of_record(rig, stiff_loop(), parameters, true);
   CHECK(test::find_fitted(without, "stiffness")->value == Approx(1e4));
   CHECK(std::ranges::any_of(without.warnings, [](const std::string& warning) {
-    return warning.starts_with("stiffness ends where the search ends");
+    return warning.starts_with("stiffness reached the limit of the search");
   }));
   parameters.back().range = {.low = 0.1, .high = 1e8};
   CHECK(test::find_fitted(fit_of_record(rig, stiff_loop(), parameters, true), "stiffness")->value ==

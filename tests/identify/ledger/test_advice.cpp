@@ -19,13 +19,13 @@ TEST_CASE("Advice names nothing that the record has already") {
   const Recorded response{.states = true, .phases = true, .frequencies = true, .sweeps = true};
   for (const Assumption assumption : assumptions()) {
     CAPTURE(name_of(assumption));
-    for (const std::string& text : {advice(assumption, response), would_tell(assumption, response)}) {
+    for (const std::string& text : {advice(assumption, response), would_show(assumption, response)}) {
       CHECK_FALSE(mentions(text, "phase"));
       CHECK_FALSE(mentions(text, "labels"));
       CHECK_FALSE(mentions(text, "several frequencies"));
     }
     const Recorded decay{.histories = true, .free = true, .times = true};
-    for (const std::string& text : {advice(assumption, decay), would_tell(assumption, decay)}) {
+    for (const std::string& text : {advice(assumption, decay), would_show(assumption, decay)}) {
       CHECK_FALSE(mentions(text, "a history"));
       CHECK_FALSE(mentions(text, "times of the extremes"));
     }
@@ -35,7 +35,7 @@ TEST_CASE("Advice names nothing that the record has already") {
   CHECK(mentions(advice(sensors, {.states = true, .phases = true}), "record the phase at several frequencies"));
   CHECK_FALSE(mentions(advice(drive, {.drive = true}), "record the drive"));
   CHECK_FALSE(mentions(advice(one_mode, response), "smaller amplitudes"));
-  CHECK(would_tell(symmetry, {.states = true}) == "; a history or signed extremes would tell");
+  CHECK(would_show(symmetry, {.states = true}) == "; a history or signed extremes would show it");
 }
 
 TEST_CASE(

@@ -93,7 +93,7 @@ TEST_CASE("The history of the drive is asked for only where it is missing") {
   };
   CHECK(about(Kind::decay) == "a free vibration has no drive");
   CHECK(about(Kind::random).find("the measured drive enters the model as it is") == 0);
-  CHECK(about(Kind::xy).find("the history of the drive would tell") != std::string::npos);
+  CHECK(about(Kind::xy).find("the history of the drive would show it") != std::string::npos);
 }
 
 TEST_CASE("A history without a stated mass is told to state one, not to record a history") {
@@ -180,7 +180,7 @@ TEST_CASE("A stiffness 10 to 20 % too high beside one steady level is charged, w
     const Identification found = concluded({friction_force(m.record, m.constants)}, ledger);
     CHECK_FALSE(found.estimates[0].usable);
     CHECK(mentions(found.reason, "mass, stiffness and frequency are as stated"));
-    CHECK(mentions(found.verdict, "they want " + ledger.entry(Assumption::constants).wanted));
+    CHECK(mentions(found.verdict, "they fit " + ledger.entry(Assumption::constants).wanted));
   }
 }
 

@@ -73,7 +73,7 @@ TEST_CASE("Quadratic drag is charged to friction over speed") {
   }
 }
 
-TEST_CASE("What a record cannot tell is untested, with what would tell") {
+TEST_CASE("What a record cannot show is untested, with what would show it") {
   const Measured m = measured(Kind::xy, ledger_seed);
   const Ledger ledger = ledger_of(m.record, m.constants);
   const LedgerEntry& symmetry = ledger.entry(Assumption::symmetry);

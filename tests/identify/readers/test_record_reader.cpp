@@ -298,10 +298,10 @@ TEST_CASE("Universal files: signals by name, label and kind") {
   UniversalFunction first{.title = "LVDT 1", .values = up};
   UniversalFunction second{.title = "LVDT 2", .values = up};
   const std::string unnamed = uff58(first) + uff58(second);
-  CHECK(mentions(refusal_of(unnamed), "nothing tells which of them is x"));
+  CHECK(mentions(refusal_of(unnamed), "nothing shows which of them is x"));
   // Nor with one name at two nodes, as of an analyser that numbers its channels.
   const UniversalFunction other{.values = up, .node = 13};
-  CHECK(mentions(refusal_of(uff58({.values = up}) + uff58(other)), "nothing tells which of them is x"));
+  CHECK(mentions(refusal_of(uff58({.values = up}) + uff58(other)), "nothing shows which of them is x"));
   ReadOptions options{.name = "data.uff"};
   options.columns = {{"x", "LVDT 2"}, {"y", "1"}};
   options.units = {{"y", "cm"}};

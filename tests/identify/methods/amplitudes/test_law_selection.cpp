@@ -73,7 +73,7 @@ TEST_CASE("The five reconstructed pairs: Coulomb + viscous is rejected at 1 %, s
   CHECK(e.candidates.back().law == "coulomb_viscous");
   CHECK(std::isinf(e.candidates.front().AICc));  // 5 pairs, 3 parameters and the variance
   CHECK(e.reason.find("saturating_viscous ranks first") != std::string::npos);
-  CHECK(any_mentions(e.warnings, "cannot tell which mechanism"));
+  CHECK(any_mentions(e.warnings, "cannot show which mechanism"));
   // At one frequency a law of position is a law of velocity.
   CHECK(candidate_named(e, "position_quadratic").BIC ==
         Approx(candidate_named(e, "quadratic_drag").BIC).epsilon(1e-9));

@@ -353,7 +353,7 @@ TEST_CASE("A friction force that came out negative is not usable, one of no size
                                                  constants_at(1.0), {});
   CHECK(noisy.usable);
   REQUIRE_FALSE(noisy.warnings.empty());
-  CHECK(mentions(noisy.warnings[0], "cannot be told from zero"));
+  CHECK(mentions(noisy.warnings[0], "cannot be distinguished from zero"));
 }
 
 TEST_CASE("A million pairs, which a quadratic method would take hours for") {

@@ -217,7 +217,7 @@ TEST_CASE("any_law: next to no Coulomb friction has a range that begins at zero"
   CHECK(given >= 2);
 }
 
-TEST_CASE("any_law: readings that do not tell force from damping get no range") {
+TEST_CASE("any_law: readings that do not distinguish force from damping get no range") {
   // Without damping the amplitude grows beyond all bounds at one level: 4 F0/(pi k).
   Normal normal(17);
   Record record;
@@ -229,7 +229,7 @@ TEST_CASE("any_law: readings that do not tell force from damping get no range") 
   }
   const Estimate estimate = any_law(record, known);
   CHECK_FALSE(estimate.outcome.ok());
-  CHECK_THAT(estimate.outcome.reason, Catch::Contains("they do not tell its force from its damping"));
+  CHECK_THAT(estimate.outcome.reason, Catch::Contains("they do not distinguish its force from its damping"));
 }
 
 TEST_CASE("any_law: a level that sticks beside wild amplitudes ends with a statement, not in a crash") {
