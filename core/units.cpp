@@ -15,9 +15,10 @@
 namespace dualdamp::core {
 
 std::string_view trimmed(std::string_view text) {
-  const std::size_t begin = text.find_first_not_of(' ');
+  constexpr const char* blanks = " \t";
+  const std::size_t begin = text.find_first_not_of(blanks);
   return begin == std::string_view::npos ? std::string_view()
-                                         : text.substr(begin, text.find_last_not_of(' ') - begin + 1);
+                                         : text.substr(begin, text.find_last_not_of(blanks) - begin + 1);
 }
 
 namespace {

@@ -137,7 +137,9 @@ inline constexpr Option least_speed_option{
     .kind = OptionKind::number,
     .unit = "m/s",
     .range = friction::not_negative,
-    .otherwise = "a share of the largest speed",
+    .otherwise =
+        "1 % of the largest speed (acceleration_velocity_displacement), or 5 % of it (friction_force, "
+        "recursive_least_squares)",
     .meaning = "samples slower than this are left out of the regression of friction on speed"};
 
 /// Known standard deviations of one measured output and input amplitude [m]. If either is positive, they replace

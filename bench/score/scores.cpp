@@ -15,7 +15,7 @@ namespace {
 
 constexpr double significant = 2.0;  // standard errors
 
-double percentile_50(std::vector<double> values) {
+double upper_median_error(std::vector<double> values) {
   return values.empty() ? not_stated : identify::upper_median(std::move(values));
 }
 
@@ -40,8 +40,8 @@ void describe_errors(const Plan& plan, const std::vector<std::size_t>& groups, C
   }
   score.zeta_bias = zeta_bias.value();
   score.F0_bias = F0_bias.value();
-  score.zeta_error = percentile_50(std::move(zeta));
-  score.F0_error = percentile_50(std::move(F0));
+  score.zeta_error = upper_median_error(std::move(zeta));
+  score.F0_error = upper_median_error(std::move(F0));
   score.distance = distance.value();
   score.harm = harm.value();
 }

@@ -1,7 +1,6 @@
 #include "identify/answer/answer.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 

@@ -1,10 +1,8 @@
 #include "identify/design/design.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
-#include <memory>
 #include <optional>
 #include <span>
 #include <utility>

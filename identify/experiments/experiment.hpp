@@ -46,7 +46,7 @@ struct Signal {
   std::vector<std::size_t> unsure;
   /// Of a loop: samples at which the mass sticks. Under a law with rigid friction they have no weight: the friction
   /// is whatever holds the mass, within the bounds of the law.
-  std::vector<std::size_t> rest;
+  std::vector<std::size_t> stuck;
 };
 
 /// Sizes of a measured motion: largest displacement from the mean, and largest speed [m, m/s].

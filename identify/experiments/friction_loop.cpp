@@ -41,7 +41,7 @@ class FrictionLoop final : public Experiment {
     complete(history, options.has_mass);
     way_x_ = law_x_;
     way_v_ = law_v_;
-    hold(still_stretches(rests_, {history.x, noise_of(history.x)}, {history.v, noise_of(history.v)}), way_x_,
+    hold(still_stretches(stuck_, {history.x, noise_of(history.x)}, {history.v, noise_of(history.v)}), way_x_,
          way_v_);
     agrees_ = !history.x.empty() && !history.v.empty();
     if (agrees_) agree();
@@ -66,7 +66,7 @@ class FrictionLoop final : public Experiment {
                   .filter = filter_};
     for (std::size_t i = edge_; i + edge_ < force.size(); ++i) {
       signal.at.push_back(start_ + static_cast<double>(i) / rate_);
-      if (rests_[i]) signal.rest.push_back(i - edge_);
+      if (stuck_[i]) signal.stuck.push_back(i - edge_);
     }
     signals.push_back(std::move(signal));
     own_others = {Own::offset, Own::travel};
@@ -89,7 +89,7 @@ class FrictionLoop final : public Experiment {
       if (o.stiffness > 0.0) force[i] -= sim::spring_force(o, offset - x_[i]);
       if (!std::isnan(o.damping)) force[i] += o.damping * v_[i];
       // What holds the mass at rest is known from the measured force alone.
-      if (holds && rests_[i]) force[i] = force_[i];
+      if (holds && stuck_[i]) force[i] = force_[i];
     }
     if (filter_) force = (*filter_)(force);
     outputs = Eigen::Map<const Eigen::VectorXd>(force.data() + edge_,
@@ -150,7 +150,7 @@ class FrictionLoop final : public Experiment {
     if (a_.empty()) a_ = lacks_speed ? sharp_second_difference(x_, rate_) : sharp_difference(v_, rate_);
     law_x_ = x_;
     law_v_ = v_;
-    rests_ = rest_samples(v_, lacks_speed ? noise_of_speed(x_, rate_, filter_) : noise_of_speed(v_), 0);
+    stuck_ = rest_samples(v_, lacks_speed ? noise_of_speed(x_, rate_, filter_) : noise_of_speed(v_), 0);
     if (!lacks_speed && !(has_mass && history.a.empty())) return;
     History whole = history;
     whole.x = x_;
@@ -164,14 +164,14 @@ class FrictionLoop final : public Experiment {
     }
     // The smear of the filter is as long as the period of its cut-off over pi.
     smear_ = static_cast<std::size_t>(std::ceil(rate_ / (std::numbers::pi * cutoffs.front())));
-    rests_ = rest_samples(law_v_, lacks_speed ? noise_of_speed(x_, rate_, filter_) : noise_of_speed(v_), smear_);
+    stuck_ = rest_samples(law_v_, lacks_speed ? noise_of_speed(x_, rate_, filter_) : noise_of_speed(v_), smear_);
     if (lacks_speed) {
       // Equal readings of the position, which the filter mixes with others.
       const std::vector<bool> equal = rest_samples(v_, 0.0, smear_);
-      for (std::size_t i = 0; i < rests_.size(); ++i) rests_[i] = rests_[i] || equal[i];
+      for (std::size_t i = 0; i < stuck_.size(); ++i) stuck_[i] = stuck_[i] || equal[i];
     }
     for (std::size_t i = 1; i + 2 < law_v_.size(); ++i) {
-      if (rests_[i] && rests_[i + 1]) continue;
+      if (stuck_[i] && stuck_[i + 1]) continue;
       if (law_v_[i] != 0.0 && law_v_[i] * law_v_[i + 1] >= 0.0) continue;
       const std::size_t nearest = std::abs(law_v_[i]) <= std::abs(law_v_[i + 1]) ? i : i + 1;
       if (turns_.empty() || turns_.back() != nearest) turns_.push_back(nearest);
@@ -196,9 +196,9 @@ class FrictionLoop final : public Experiment {
     constexpr std::size_t beside = 3;  // a difference of seven points feels the motion
     constexpr std::size_t least = 5;
     std::vector<std::pair<std::size_t, std::size_t>> found;
-    for (std::size_t begin = 0; begin < rests_.size();) {
+    for (std::size_t begin = 0; begin < stuck_.size();) {
       std::size_t end = begin;
-      while (end < rests_.size() && rests_[end]) ++end;
+      while (end < stuck_.size() && stuck_[end]) ++end;
       const std::size_t cut = smear_ + beside;
       if (end - begin >= 2 * cut + least) found.emplace_back(begin + cut, end - cut);
       begin = std::max(end, begin + 1);
@@ -328,7 +328,7 @@ class FrictionLoop final : public Experiment {
   std::optional<ZeroPhaseFilter> filter_;
   std::vector<double> force_;  ///< measured, before the filter
   double force_noise_ = 0.0;
-  std::vector<bool> rests_;         ///< samples at which the mass sticks
+  std::vector<bool> stuck_;         ///< samples at which the mass sticks
   std::vector<std::size_t> turns_;  ///< samples next to a reversal, if there is a filter
   std::size_t edge_ = 0;
   std::size_t smear_ = 0;  ///< of the filter, to each side

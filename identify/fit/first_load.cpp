@@ -1,7 +1,6 @@
 #include "identify/fit/first_load.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 

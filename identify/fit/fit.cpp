@@ -125,9 +125,10 @@ core::Outcome cut_short(long most_work) {
 core::Outcome without_derivative(const FitProblem& problem, const Request& request, const Eigen::VectorXd& q) {
   const Eigen::VectorXd values = problem.values(q);
   const core::Coordinate coordinate = request.rig.known.oscillator.coordinate;
-  const auto rests = [](const Signal& signal) { return !signal.rest.empty(); };
-  const bool sticks = std::ranges::any_of(
-      request.experiments, [&](const auto& experiment) { return std::ranges::any_of(experiment->signals, rests); });
+  const auto has_stuck = [](const Signal& signal) { return !signal.stuck.empty(); };
+  const bool sticks = std::ranges::any_of(request.experiments, [&](const auto& experiment) {
+    return std::ranges::any_of(experiment->signals, has_stuck);
+  });
   std::vector<std::string> all;
   std::vector<std::string> ends;
   for (std::size_t i = 0; i < request.parameters.size(); ++i) {

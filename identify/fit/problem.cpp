@@ -109,7 +109,7 @@ void FitProblem::number_rows() {
         Eigen::Map<const Eigen::VectorXd>(signal(rows).measured.data(), rows.end - rows.begin);
     for (const std::size_t i : signal(rows).unsure) counted_[rows.begin + static_cast<Eigen::Index>(i)] = 0.0;
     if (!holds_mass_) continue;
-    for (const std::size_t i : signal(rows).rest) counted_[rows.begin + static_cast<Eigen::Index>(i)] = 0.0;
+    for (const std::size_t i : signal(rows).stuck) counted_[rows.begin + static_cast<Eigen::Index>(i)] = 0.0;
   }
 }
 

@@ -95,9 +95,7 @@ double noise_p_value(const Signal& signal, const Eigen::VectorXd& residuals, dou
     return residuals.size() < least_test_samples ? unknown : p_value_of_motion(signal, measured, residuals);
   const double freedom = static_cast<double>(residuals.size()) - spent;
   if (!signal.is_stated || freedom < 1.0) return unknown;
-  // F with infinitely many degrees of freedom in the denominator is chi-square.
-  constexpr double known = 1e9;
-  return f_test_p_value(residuals.squaredNorm() / (signal.noise * signal.noise * freedom), freedom, known);
+  return chi_square_p_value(residuals.squaredNorm() / (signal.noise * signal.noise), freedom);
 }
 
 Eigen::VectorXd bounded_residuals(const Eigen::VectorXd& residuals, const Eigen::VectorXd& weights) {
@@ -118,19 +116,19 @@ void compare_with_stated(double deviation, double freedom, FittedSignal& signal)
   signal.chi2_p_value = stated_noise_p_value(signal.chi2_per_freedom, freedom);
 }
 
-int contradicts_stated(const FittedSignal& signal) {
-  return contradicts_stated(std::sqrt(signal.chi2_per_freedom), signal.chi2_p_value);
+Scatter scatter_beside_stated(const FittedSignal& signal) {
+  return scatter_beside_stated(std::sqrt(signal.chi2_per_freedom), signal.chi2_p_value);
 }
 
 namespace {
 
-std::string said_of_stated(const FittedSignal& fitted, const Signal& signal, const std::string& who) {
+std::string stated_noise_warning(const FittedSignal& fitted, const Signal& signal, const std::string& subject) {
   const double ratio = std::sqrt(fitted.chi2_per_freedom);
   const auto with_unit = [&](double value) { return core::format_number(value, 2) + " " + signal.unit; };
-  return who + " are " + core::format_number(ratio, 2) + " times the stated noise (they scatter by " +
+  return subject + " are " + core::format_number(ratio, 2) + " times the stated noise (they scatter by " +
          with_unit(ratio * fitted.noise) + ", and " + with_unit(fitted.noise) + " is stated; chi-square " +
          core::format_number(fitted.chi2_per_freedom, 2) + " per degree of freedom): the stated noise is too " +
-         (contradicts_stated(fitted) < 0 ? "large" : "small, or the law is not that of the rig");
+         (scatter_beside_stated(fitted) == Scatter::less ? "large" : "small, or the law is not that of the rig");
 }
 
 const Signal& signal_of(const Experiments& experiments, const FittedSignal& fitted) {
@@ -168,15 +166,18 @@ std::pair<std::string, std::string> foreign_noise(const Experiment& experiment, 
 }
 
 /// White residuals far above the noise of their signal come from somewhere else; the fit takes them for its noise.
-std::string said_of_noise(const Experiment& experiment, const FittedSignal& fitted, const Fit& fit,
-                          const std::string& who) {
+std::string foreign_noise_warning(const Experiment& experiment, const FittedSignal& fitted, const Fit& fit,
+                                  const std::string& subject) {
   const auto [source, help] = foreign_noise(experiment, fit);
   const auto before = [](const std::string& text, const char* joint) { return text.empty() ? "" : text + joint; };
-  return who + " are " + core::format_number(fitted.noise_units, 3) +
+  return subject + " are " + core::format_number(fitted.noise_units, 3) +
          " times the noise of that signal, though they look like noise: " + before(source, ", or ") +
          "outliers. The estimates may be off by more than the intervals say; " + before(help, ", or ") +
          "use 'robust' for outliers";
 }
+
+/// The mean of the residuals, in its standard errors, from which on a zero is off.
+constexpr double most_mean_errors = 4.0;
 
 /// The zero of a signal of a history; of a loop that of x. Nothing if it is sought.
 std::optional<Own> open_zero(const Experiments& experiments, const FittedSignal& fitted, const Fit& fit) {
@@ -195,19 +196,17 @@ std::optional<Own> open_zero(const Experiments& experiments, const FittedSignal&
 /// `gain`: of this zero.
 std::optional<Own> zero_off(const Experiments& experiments, const FittedSignal& fitted, double gain,
                             const Fit& fit) {
-  constexpr double errors = 4.0;
   constexpr double third = 1.0 / 3.0;
   if (experiments[fitted.rows.experiment]->kind != ExperimentKind::history) return std::nullopt;
-  const bool is_mean = std::abs(fitted.mean_score) >= errors &&
+  const bool is_mean = std::abs(fitted.mean_score) >= most_mean_errors &&
                        (is_noise(fitted.p_value) || 2.0 * fitted.mean * fitted.mean >= fitted.rms * fitted.rms);
   if (!is_mean && (is_noise(fitted.p_value) || gain < third)) return std::nullopt;
   return open_zero(experiments, fitted, fit);
 }
 
-std::string said_of_zero(const FittedSignal& fitted, Own zero, double gain, const std::string& who) {
-  constexpr double errors = 4.0;
-  return who + " have a mean of " + core::format_number(fitted.mean, 3) + " in SI units, " +
-         (std::abs(fitted.mean_score) >= errors
+std::string zero_warning(const FittedSignal& fitted, Own zero, double gain, const std::string& subject) {
+  return subject + " have a mean of " + core::format_number(fitted.mean, 3) + " in SI units, " +
+         (std::abs(fitted.mean_score) >= most_mean_errors
               ? core::format_number(std::abs(fitted.mean_score), 2) + " standard errors"
               : "and another zero would take away " + core::format_number(100.0 * gain, 2) +
                     " % of their sum of squares at once") +
@@ -217,7 +216,7 @@ std::string said_of_zero(const FittedSignal& fitted, Own zero, double gain, cons
 }
 
 /// The zero among the possible causes; empty if it is sought.
-std::string said_of_open_zero(const Experiments& experiments, const FittedSignal& fitted, const Fit& fit) {
+std::string open_zero_cause(const Experiments& experiments, const FittedSignal& fitted, const Fit& fit) {
   const std::optional<Own> zero = open_zero(experiments, fitted, fit);
   if (!zero) return {};
   return "the zero of the sensor is off ('free' with " + std::string(own_names[static_cast<std::size_t>(*zero)]) +
@@ -229,8 +228,9 @@ std::string said_of_open_zero(const Experiments& experiments, const FittedSignal
 std::vector<std::string> contradictions_of_stated(const Experiments& experiments, const Fit& fit) {
   std::vector<std::string> texts;
   for (const FittedSignal& fitted : fit.signals)
-    if (contradicts_stated(fitted) != 0)
-      texts.push_back(said_of_stated(fitted, signal_of(experiments, fitted), residuals_of(experiments, fitted)));
+    if (scatter_beside_stated(fitted) != Scatter::as_stated)
+      texts.push_back(
+          stated_noise_warning(fitted, signal_of(experiments, fitted), residuals_of(experiments, fitted)));
   return texts;
 }
 
@@ -262,21 +262,23 @@ void warn_of_residuals(const Experiments& experiments, bool robust, const std::v
   for (std::size_t s = 0; s < fit.signals.size(); ++s) {
     const FittedSignal& fitted = fit.signals[s];
     const Signal& signal = signal_of(experiments, fitted);
-    const std::string who = residuals_of(experiments, fitted);
-    if (contradicts_stated(fitted) != 0)
-      fit.warnings.push_back(said_of_stated(fitted, signal, who) +
-                             (contradicts_stated(fitted) < 0
+    const std::string subject = residuals_of(experiments, fitted);
+    if (scatter_beside_stated(fitted) != Scatter::as_stated)
+      fit.warnings.push_back(stated_noise_warning(fitted, signal, subject) +
+                             (scatter_beside_stated(fitted) == Scatter::less
                                   ? "; the intervals use it and are too wide by up to the same factor"
                                   : "; the intervals are widened in proportion to the residuals"));
     const std::optional<Own> zero = zero_off(experiments, fitted, zero_gains[s], fit);
-    if (zero) fit.warnings.push_back(said_of_zero(fitted, *zero, zero_gains[s], who));
-    // For readings that are not samples, `said_of_stated` has already reported residuals above the stated noise.
+    if (zero) fit.warnings.push_back(zero_warning(fitted, *zero, zero_gains[s], subject));
+    // For readings that are not samples, `stated_noise_warning` has already reported residuals above the stated
+    // noise.
     constexpr double far = 3.0;
-    if (is_noise(fitted.p_value) && contradicts_stated(fitted) == 0 && signal.is_sampled && !robust &&
-        fitted.noise_units > far && !zero)
-      fit.warnings.push_back(said_of_noise(*experiments[fitted.rows.experiment], fitted, fit, who));
-    if (is_noise(fitted.p_value) || (!signal.is_sampled && contradicts_stated(fitted) > 0)) continue;
-    std::string text = who;
+    if (is_noise(fitted.p_value) && scatter_beside_stated(fitted) == Scatter::as_stated && signal.is_sampled &&
+        !robust && fitted.noise_units > far && !zero)
+      fit.warnings.push_back(foreign_noise_warning(*experiments[fitted.rows.experiment], fitted, fit, subject));
+    if (is_noise(fitted.p_value) || (!signal.is_sampled && scatter_beside_stated(fitted) == Scatter::more))
+      continue;
+    std::string text = subject;
     if (fitted.noise_units > 1.0) text += ", " + core::format_number(fitted.noise_units, 3) + " times the noise,";
     text +=
         std::string(signal.is_sampled
@@ -289,7 +291,7 @@ void warn_of_residuals(const Experiments& experiments, bool robust, const std::v
         (is_undriven(*experiments[fitted.rows.experiment], fit)
              ? "the mass was held or pushed at first, while the fit takes all samples for free motion, "
              : "") +
-        said_of_open_zero(experiments, fitted, fit) +
+        open_zero_cause(experiments, fitted, fit) +
         "or the search missed the best fit (try more starts, bounds, stated values); the intervals hold only for the "
         "right law";
     fit.warnings.push_back(std::move(text));

@@ -28,6 +28,7 @@
 #include <vector>
 
 #include "identify/fit/fit.hpp"
+#include "identify/statistics/statistics.hpp"
 
 namespace dualdamp::identify {
 
@@ -46,8 +47,8 @@ namespace dualdamp::identify {
 /// `freedom`: number of independent readings, minus the parameters that they determine.
 void compare_with_stated(double deviation, double freedom, FittedSignal& signal);
 
-/// Whether the residuals contradict the stated noise. > 0: they are larger; < 0: they are smaller; 0: no.
-[[nodiscard]] int contradicts_stated(const FittedSignal& signal);
+/// How the residuals scatter beside the stated noise.
+[[nodiscard]] Scatter scatter_beside_stated(const FittedSignal& signal);
 
 /// A sentence for each signal whose residuals contradict its stated noise.
 [[nodiscard]] std::vector<std::string> contradictions_of_stated(const Experiments& experiments, const Fit& fit);

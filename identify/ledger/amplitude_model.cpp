@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <numeric>
 #include <optional>
 #include <set>
@@ -417,13 +416,13 @@ std::variant<JointModel, std::string> amplitude_model(const Record& record, cons
     if (drop_sticking(points, fit.at.friction, said)) continue;
     const double freedom = static_cast<double>(states.amplitudes() - states.smooth_columns());
     if (is_stated(stated)) ratio = fit.scatter;
-    const int contradicts = contradiction(ratio, is_stated(known) ? freedom : 0.0);
-    if (contradicts > 0 && is_stated(stated)) {
+    const Scatter scatter = scatter_of(ratio, is_stated(known) ? freedom : 0.0);
+    if (scatter == Scatter::more && is_stated(stated)) {
       stated = {};
       continue;
     }
     JointModel model = amplitude_model_of(fit, states, {}, unit, constants);
-    note_contradiction(contradicts, ratio, "amplitudes", model);
+    note_contradiction(scatter, ratio, "amplitudes", model);
     model.left_out = std::move(said);
     return model;
   }

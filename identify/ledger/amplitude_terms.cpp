@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "identify/models/sticking.hpp"
 #include "sim/analytic/den_hartog.hpp"
 
 namespace dualdamp::identify {
@@ -153,9 +154,9 @@ bool drop_sticking(std::vector<SteadyPoint>& points, const PlainFriction& fricti
                    std::vector<std::string>& said) {
   if (!(friction.x_f > 0.0)) return false;
   const std::size_t before = points.size();
+  Sticking sticking(friction.zeta, friction.x_f);
   std::erase_if(points, [&](const SteadyPoint& point) {
-    const double limit = sim::analytic::non_sticking_limit(sim::analytic::den_hartog(friction.zeta, point.r));
-    const bool sticks = !(point.x > limit * friction.x_f);
+    const bool sticks = sticking.sticks(point.x, point.r);
     if (sticks) said.push_back("state " + std::to_string(point.number) + " sticks at the fit and is left out");
     return sticks;
   });

@@ -270,12 +270,12 @@ JointModel fitted(const Setting& setting, const Eigen::VectorXd& measured, const
 void compare_with_stated(Setting& setting, const Eigen::VectorXd& measured, const Decay& start, JointModel& model) {
   JointModel rescaled = model;
   const ChannelScale own = scale_channel(rescaled, 0, setting.count);
-  const int contradicts = contradiction(own.deviation, own.freedom);
-  if (contradicts > 0) {
+  const Scatter scatter = scatter_of(own.deviation, own.freedom);
+  if (scatter == Scatter::more) {
     setting.known = 0.0;
     model = fitted(setting, measured, start, {});
   }
-  note_contradiction(contradicts, own.deviation, "extremes", model);
+  note_contradiction(scatter, own.deviation, "extremes", model);
 }
 
 }  // namespace

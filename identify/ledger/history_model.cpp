@@ -28,8 +28,8 @@ using Numbers = std::vector<std::size_t>;
 /// The histories of one record with their fit, at which the joint model is linearised.
 class Histories {
  public:
-  Histories(const Record& record, const KnownConstants& constants, double sigma_x, Estimate& taken)
-      : record_(record), constants_(constants), sigma_x_(sigma_x), fit_(record, constants, {}, taken) {
+  Histories(const Record& record, const KnownConstants& constants, double sigma_x, Estimate& exclusions)
+      : record_(record), constants_(constants), sigma_x_(sigma_x), fit_(record, constants, {}, exclusions) {
     if (!fit_.problem().empty()) return;
     start_.p = fit_.found().parameters;
     const ForceParameters force = fit_.layout().force(start_.p);
@@ -410,27 +410,27 @@ class Histories {
 std::variant<JointModel, std::string> history_model(const Record& record, const KnownConstants& constants,
                                                     double sigma_x) {
   if (std::string fault = fault_of_histories(record); !fault.empty()) return fault;
-  Estimate taken;
-  const auto histories = std::make_shared<Histories>(record, constants, sigma_x, taken);
+  Estimate exclusions;
+  const auto histories = std::make_shared<Histories>(record, constants, sigma_x, exclusions);
   ForwardFit& fit = histories->fit();
   if (!fit.problem().empty()) return fit.problem();
   if (std::string fault = histories->fault_of_fit(); !fault.empty()) return fault;
   JointModel model = histories->fitted({});
-  const double scatter = histories->scatter();
+  const double ratio = histories->scatter();
   const auto freedom = static_cast<double>(sigma_x > 0.0 ? model.residuals.size() : 0);
-  const int contradicts = contradiction(scatter, freedom);
-  if (contradicts > 0) {
+  const Scatter scatter = scatter_of(ratio, freedom);
+  if (scatter == Scatter::more) {
     histories->forget_stated();
     model = histories->fitted({});
   }
-  note_contradiction(contradicts, scatter, "samples of x", model);
+  note_contradiction(scatter, ratio, "samples of x", model);
   if (model.residuals.size() == 0 || !model.residuals.allFinite() || !model.base.allFinite())
     return "the simulated motion, fitted with the mass and the stiffness as stated, grows beyond all numbers";
   model.refit = [histories](const Numbers& numbers) { return histories->fitted(numbers); };
   model.of_histories = true;
   model.data = std::to_string(fit.residuals().count()) + " samples of " + std::to_string(fit.tests().size()) +
                (fit.tests().size() == 1 ? " history" : " histories");
-  for (const Exclusion& exclusion : taken.excluded)
+  for (const Exclusion& exclusion : exclusions.excluded)
     model.left_out.push_back("history " + std::to_string(exclusion.number) + ": " + exclusion.reason);
   return model;
 }

@@ -335,8 +335,8 @@ Rest rest_of(const JointModel& model, std::vector<std::size_t> taken, std::size_
 /// The departure that the tests show: the relaxation that explains it best, and those that explain it as well. Far
 /// from the fit a linearised model ranks them wrongly. Where the model can be fitted again, candidates are
 /// therefore judged by the misfit that they leave. `missed`: the model misses the whole record.
-FoundDeparture charged(const JointModel& model, const std::vector<std::size_t>& taken,
-                       const std::vector<RelaxationTest>& tests, double least_change, bool missed) {
+FoundDeparture departure_shown(const JointModel& model, const std::vector<std::size_t>& taken,
+                               const std::vector<RelaxationTest>& tests, double least_change, bool missed) {
   std::vector<RelaxationTest> list = candidates(model, tests, missed);
   if (!model.refit || list.size() <= 1) return {list};
   std::vector<Rest> rests;
@@ -395,7 +395,7 @@ RelaxationTests test_relaxations(const JointModel& model, double least_change) {
     if (least == result.tests.end() || taken.size() == most_departures) break;
     const bool rejects = least->p_value < family_level;
     if (!rejects && !(result.misfit && model.refit)) break;
-    FoundDeparture found = charged(here, taken, result.tests, least_change, result.misfit.has_value());
+    FoundDeparture found = departure_shown(here, taken, result.tests, least_change, result.misfit.has_value());
     if (found.explanations.empty()) break;
     RelaxationTest& best = found.explanations.front();
     std::vector<std::size_t> further = taken;

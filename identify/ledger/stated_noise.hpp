@@ -17,11 +17,12 @@ namespace dualdamp::identify {
 /// If either deviation is positive both are stated, and the other reading is exact.
 [[nodiscard]] bool is_stated(const KnownDeviations& known);
 
-/// `contradicts_stated` for the deviation of readings over the stated one; 0 without a degree of freedom.
-[[nodiscard]] int contradiction(double ratio, double freedom);
+/// `scatter_beside_stated` for the deviation of readings over the stated one; as stated without a degree of
+/// freedom.
+[[nodiscard]] Scatter scatter_of(double ratio, double freedom);
 
-/// Notes in the model that its readings (the word for a message) contradict the statement. Nothing at 0.
-void note_contradiction(int contradicts, double ratio, const std::string& readings, JointModel& model);
+/// Notes in the model that its readings (the word for a message) contradict the statement; nothing if they do not.
+void note_contradiction(Scatter scatter, double ratio, const std::string& readings, JointModel& model);
 
 /// What is known of the noise of steady states: of `amplitudes` rows, and of the rows of `phases` that follow them.
 void set_noise(Eigen::Index amplitudes, Eigen::Index phases, Eigen::Index smooth_columns, JointModel& model);

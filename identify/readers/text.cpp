@@ -173,12 +173,6 @@ std::string to_utf8(std::string_view text) {
   return result;
 }
 
-std::string_view trimmed(std::string_view text) {
-  const auto first = text.find_first_not_of(" \t");
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t") - first + 1);
-}
-
 std::string excerpt(std::string_view text) { return std::string(core::beginning(text, 200)); }
 
 std::string quoted(std::string_view text) { return "'" + excerpt(text) + "'"; }

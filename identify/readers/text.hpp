@@ -7,6 +7,8 @@
 #include <string_view>
 #include <vector>
 
+#include "core/units.hpp"
+
 namespace dualdamp::identify {
 
 /// Whether the text is UTF-16: it begins with a byte order mark, or every other one of the first bytes is zero.
@@ -28,8 +30,7 @@ void refuse_binary(std::string_view text, const std::string& file);
 /// `text` if it is UTF-8, else `text` read as Latin-1 ("m/s²"). Control characters become question marks.
 [[nodiscard]] std::string to_utf8(std::string_view text);
 
-/// `text` without blanks and tabs at its ends.
-[[nodiscard]] std::string_view trimmed(std::string_view text);
+using core::trimmed;
 
 /// The beginning of `text` that fits into a message, cut between characters.
 [[nodiscard]] std::string excerpt(std::string_view text);

@@ -117,11 +117,6 @@ std::vector<double> five_point_average(std::span<const double> x) {
   return mean;
 }
 
-double five_point_gain(double omega, double sample_rate) {
-  const double angle = omega / sample_rate;
-  return (1.0 + 2.0 * std::cos(angle) + 2.0 * std::cos(2.0 * angle)) / 5.0;
-}
-
 ZeroPhaseFilter::ZeroPhaseFilter(double cutoff, double sample_rate) {
   if (!(sample_rate > 0.0) || !std::isfinite(sample_rate) || !(cutoff > 0.0 && cutoff < 0.5 * sample_rate))
     throw core::InputError(
@@ -311,12 +306,14 @@ std::optional<NumberedHistory> longest_history(const Record& record, const Known
   return longest;
 }
 
-double least_speed_for(const std::vector<Motion>& motions, const RegressionOptions& options) {
-  if (options.least_speed > 0.0) return options.least_speed;
+double largest_speed(const Motion& motion) {
   double fastest = 0.0;
-  for (const Motion& motion : motions)
-    for (const double v : motion.v) fastest = std::max(fastest, std::abs(v));
-  return 0.01 * fastest;
+  for (const double v : motion.v) fastest = std::max(fastest, std::abs(v));
+  return fastest;
+}
+
+double least_speed_for(double largest_speed, double share, const RegressionOptions& options) {
+  return options.least_speed > 0.0 ? options.least_speed : share * largest_speed;
 }
 
 std::string lacks_histories(const Record& record) {

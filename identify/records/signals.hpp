@@ -39,9 +39,6 @@ namespace dualdamp::identify {
 /// Mean of x[i-2] ... x[i+2]; near the ends of fewer samples, still centred. No lag.
 [[nodiscard]] std::vector<double> five_point_average(std::span<const double> x);
 
-/// Gain of `five_point_average` at `omega` [rad/s]: (1 + 2 cos wT + 2 cos 2wT)/5.
-[[nodiscard]] double five_point_gain(double omega, double sample_rate);
-
 /// Butterworth's low-pass filter of second order, run forwards and backwards: no lag and the gain
 /// 1/(1 + (tan(w T/2)/tan(wc T/2))^4), one half at the cut-off. The ends are continued by point reflection.
 class ZeroPhaseFilter {
@@ -107,9 +104,12 @@ struct NumberedHistory {
 [[nodiscard]] std::optional<NumberedHistory> longest_history(const Record& record, const KnownConstants& constants,
                                                              Estimate& estimate);
 
-/// Least speed of the samples in a regression [m/s]: the option, or a hundredth of the largest speed. The sign of a
-/// slower sample is that of its noise.
-[[nodiscard]] double least_speed_for(const std::vector<Motion>& motions, const RegressionOptions& options);
+/// m/s
+[[nodiscard]] double largest_speed(const Motion& motion);
+
+/// Least speed of the samples in a regression [m/s]: the option, or a share of the largest speed of the record. The
+/// sign of a slower sample is that of its noise.
+[[nodiscard]] double least_speed_for(double largest_speed, double share, const RegressionOptions& options);
 
 /// `lacks` of the methods that need histories: "the record holds no time histories", or empty.
 [[nodiscard]] std::string lacks_histories(const Record& record);

@@ -155,7 +155,7 @@ Trial fit_at(const Basis& basis, std::span<const double> signal) {
   return trial;
 }
 
-/// Amplitudes and phases at the first sample, with the errors from the coefficients and from the frequency.
+/// Amplitudes and phases at the first sample; errors of the amplitudes from the coefficients and the frequency.
 void describe(SineFit& fit, const Basis& basis, const Trial& trial, std::size_t samples, bool refined) {
   const double parameters = static_cast<double>(basis.size()) + (refined ? 1.0 : 0.0);
   const double variance = trial.sum_of_squares / (static_cast<double>(samples) - parameters);
@@ -163,7 +163,6 @@ void describe(SineFit& fit, const Basis& basis, const Trial& trial, std::size_t 
   const VectorXd lever = basis.solve(trial.slope_moments);
   const double theta_variance = refined ? variance / trial.slope_square : 0.0;
   const MatrixXd covariance = variance * basis.inverse() + theta_variance * lever * lever.transpose();
-  const VectorXd with_theta = -theta_variance * lever;
 
   fit.noise = std::sqrt(variance);
   fit.correlation = trial.sum_of_squares > 0.0 ? trial.lagged_product / trial.sum_of_squares : 0.0;
@@ -175,20 +174,13 @@ void describe(SineFit& fit, const Basis& basis, const Trial& trial, std::size_t 
     const double b = trial.coefficients(s);
     const double amplitude = std::hypot(a, b);
     // a cos + b sin = A cos(k theta tau - psi); the first sample is at tau = -middle.
-    const double lead = k * middle;
-    const double phase = -std::atan2(b, a) - lead * basis.theta();
-    Harmonic harmonic{amplitude, std::remainder(phase, two_pi), 0.0, 0.0};
+    const double phase = -std::atan2(b, a) - k * middle * basis.theta();
+    Harmonic harmonic{amplitude, std::remainder(phase, two_pi), 0.0};
     if (amplitude > 0.0) {
       const double cos = a / amplitude;
       const double sin = b / amplitude;
       harmonic.amplitude_std = std::sqrt(cos * cos * covariance(c, c) + sin * sin * covariance(s, s) +
                                          2.0 * sin * cos * covariance(c, s));
-      const double psi_variance =
-          (sin * sin * covariance(c, c) + cos * cos * covariance(s, s) - 2.0 * sin * cos * covariance(c, s)) /
-          (amplitude * amplitude);
-      const double psi_with_theta = (cos * with_theta(s) - sin * with_theta(c)) / amplitude;
-      harmonic.phase_std =
-          std::sqrt(std::max(0.0, psi_variance + lead * lead * theta_variance + 2.0 * lead * psi_with_theta));
     }
     fit.harmonics.push_back(harmonic);
   }

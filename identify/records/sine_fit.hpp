@@ -28,7 +28,6 @@ struct Harmonic {
   double amplitude = 0.0;  ///< A_k, unit of the signal, >= 0
   double phase = 0.0;      ///< phi_k [rad], in (-pi, pi]
   double amplitude_std = 0.0;
-  double phase_std = 0.0;  ///< rad
 };
 
 struct SineFit {

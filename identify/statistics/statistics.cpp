@@ -159,15 +159,15 @@ void conclude(Estimate& estimate, const std::vector<std::string>& faults, std::s
 }
 
 double stated_noise_p_value(double ratio, double freedom) {
-  const double above = f_test_p_value(ratio, freedom, known_freedom);
+  const double above = chi_square_p_value(ratio * freedom, freedom);
   return std::min(1.0, 2.0 * std::min(above, 1.0 - above));
 }
 
-int contradicts_stated(double ratio, double p_value) {
+Scatter scatter_beside_stated(double ratio, double p_value) {
   constexpr double level = 1e-3;
   constexpr double factor = 1.3;
-  if (!(p_value < level)) return 0;
-  return ratio > factor ? 1 : ratio < 1.0 / factor ? -1 : 0;
+  if (!(p_value < level)) return Scatter::as_stated;
+  return ratio > factor ? Scatter::more : ratio < 1.0 / factor ? Scatter::less : Scatter::as_stated;
 }
 
 void warn_of_scatter(double ratio, double freedom, Estimate& estimate) {

@@ -78,9 +78,11 @@ inline constexpr double known_freedom = 1e9;
 /// Two-sided p-value of a mean square of residuals that is `ratio` times the stated variance.
 [[nodiscard]] double stated_noise_p_value(double ratio, double freedom);
 
-/// Whether readings contradict their stated noise. 1: they scatter clearly more, -1: clearly less; 0: no. `ratio`:
-/// of the deviations; `p_value`: that of its square.
-[[nodiscard]] int contradicts_stated(double ratio, double p_value);
+/// How readings scatter beside their stated noise: as stated, or clearly less or more.
+enum class Scatter { less, as_stated, more };
+
+/// `ratio`: of the deviations; `p_value`: that of its square.
+[[nodiscard]] Scatter scatter_beside_stated(double ratio, double p_value);
 
 /// Warns of readings that scatter clearly more than their stated deviations say. `ratio`: the mean square of the
 /// residuals over the stated variance; `freedom`: degrees of freedom of the residuals.

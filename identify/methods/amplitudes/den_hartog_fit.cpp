@@ -11,6 +11,7 @@
 #include "core/numbers.hpp"
 #include "identify/methods/amplitudes/bootstrap.hpp"
 #include "identify/methods/amplitudes/line_estimate.hpp"
+#include "identify/models/sticking.hpp"
 #include "identify/statistics/least_squares.hpp"
 #include "identify/statistics/profile_likelihood.hpp"
 #include "identify/statistics/statistics.hpp"
@@ -187,13 +188,9 @@ std::optional<ExactFit> fit_sliding(AmplitudeLaw& law, double unit, const KnownC
     if (!fit) return std::nullopt;
     const double x_f = fit->p[1];
     std::vector<Datum> left;
-    double r = 0.0;
-    double least_ratio = 0.0;
+    Sticking sticking(fit->p[0], x_f);
     for (const Datum& datum : law.pairs()) {
-      if (datum.r != r) {
-        r = datum.r;
-        least_ratio = analytic::non_sticking_limit(analytic::den_hartog(fit->p[0], r * std::exp(-fit->p[2])));
-      }
+      const double least_ratio = sticking.limit(datum.r * std::exp(-fit->p[2]));
       if (x_f <= 0.0 || datum.x > least_ratio * x_f) {
         left.push_back(datum);
         continue;

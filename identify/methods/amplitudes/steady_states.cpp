@@ -8,6 +8,7 @@
 #include "core/constants.hpp"
 #include "core/numbers.hpp"
 #include "identify/models/force_parameters.hpp"
+#include "identify/models/sticking.hpp"
 #include "identify/statistics/distributions.hpp"
 #include "identify/statistics/statistics.hpp"
 #include "sim/analytic/den_hartog.hpp"
@@ -67,16 +68,10 @@ std::optional<std::vector<Pair>> take_states(const Record& record, const KnownCo
 bool drop_sticking(std::vector<Pair>& states, const ParameterSet& value, const KnownConstants& constants,
                    Estimate& estimate) {
   if (!(value.zeta > 0.0) || !(value.x_f > 0.0)) return false;
-  double omega = 0.0;
-  double limit = 0.0;
-  const auto sticks = [&](const Pair& pair) {
-    if (pair.omega != omega) {
-      omega = pair.omega;
-      limit = analytic::non_sticking_limit(analytic::den_hartog(value.zeta, omega / constants.natural_frequency()));
-    }
-    return !(pair.x > limit * value.x_f);
-  };
-  const auto left = std::ranges::stable_partition(states, [&](const Pair& pair) { return !sticks(pair); });
+  Sticking sticking(value.zeta, value.x_f);
+  const double natural = constants.natural_frequency();
+  const auto slides = [&](const Pair& pair) { return !sticking.sticks(pair.x, pair.omega / natural); };
+  const auto left = std::ranges::stable_partition(states, slides);
   for (const Pair& pair : left)
     estimate.excluded.push_back(
         {pair.number, "the mass sticks: x/x_f = " + core::format_number(pair.x / value.x_f, 4)});

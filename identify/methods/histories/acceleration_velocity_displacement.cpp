@@ -187,7 +187,10 @@ Regression regress(const std::vector<NumberedHistory>& histories, std::size_t ch
     motions.push_back(motion_of(*item.history, cutoffs[std::min(choice, cutoffs.size() - 1)]));
   }
   Regression regression;
-  regression.rows = motion_rows(histories, motions, least_speed_for(motions, options), columns, constants);
+  constexpr double share = 0.01;
+  double fastest = 0.0;
+  for (const Motion& motion : motions) fastest = std::max(fastest, largest_speed(motion));
+  regression.rows = motion_rows(histories, motions, least_speed_for(fastest, share, options), columns, constants);
   regression.fit = fit_correlated(regression.rows.columns, regression.rows.target, regression.rows.blocks);
   return regression;
 }

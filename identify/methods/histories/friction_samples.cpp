@@ -48,11 +48,10 @@ std::vector<FrictionSamples> friction_samples(const Record& record, const KnownC
 }
 
 double least_speed_for(const std::vector<FrictionSamples>& histories, const RegressionOptions& options) {
-  if (options.least_speed > 0.0) return options.least_speed;
+  constexpr double share = 0.05;
   double fastest = 0.0;
-  for (const FrictionSamples& samples : histories)
-    for (const double v : samples.motion.v) fastest = std::max(fastest, std::abs(v));
-  return 0.05 * fastest;
+  for (const FrictionSamples& samples : histories) fastest = std::max(fastest, largest_speed(samples.motion));
+  return least_speed_for(fastest, share, options);
 }
 
 }  // namespace dualdamp::identify

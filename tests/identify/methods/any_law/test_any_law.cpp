@@ -191,9 +191,14 @@ TEST_CASE("any_law: what it cannot read is refused with a reason") {
   Normal normal(15);
   Record few = states(nullptr, 0.0, true, normal);
   few.pairs->pairs.resize(3);
-  CHECK_FALSE(any_law(few, known).outcome.ok());
-  CHECK_FALSE(any_law({}, known).outcome.ok());
-  CHECK_FALSE(any_law(states(nullptr, 0.0, true, normal), {mass, unknown, natural}).outcome.ok());
+  const auto reason = [](const Record& record, const KnownConstants& constants) {
+    const Estimate estimate = any_law(record, constants);
+    CHECK_FALSE(estimate.outcome.ok());
+    return estimate.outcome.reason;
+  };
+  CHECK_THAT(reason(few, known), Catch::Contains("fewer than four steady states"));
+  CHECK_THAT(reason({}, known), Catch::Contains("holds neither steady states nor extremes"));
+  CHECK_THAT(reason(states(nullptr, 0.0, true, normal), {mass, unknown, natural}), Catch::Contains("stiffness"));
 }
 
 TEST_CASE("any_law: next to no Coulomb friction has a range that begins at zero") {
