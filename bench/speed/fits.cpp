@@ -56,8 +56,8 @@ identify::Fit fit_from_nothing(identify::Rig rig, const identify::Experiments& e
   rig.laws.front().values = {};
   std::vector<std::string> faults;
   std::vector<identify::FitParameter> parameters = identify::unstated_parameters(rig, faults);
-  for (const identify::Own own : experiments.front()->own_free)
-    parameters.push_back(identify::own_parameter(*experiments.front(), 0, own, true));
+  for (const identify::RecordParameter each : experiments.front()->record_free)
+    parameters.push_back(identify::parameter_of_record(*experiments.front(), 0, each, true));
   return identify::fit_rig(rig, std::move(parameters), experiments);
 }
 

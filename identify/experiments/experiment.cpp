@@ -9,9 +9,9 @@ namespace {
 class Alike final : public Neighbours {
  public:
   explicit Alike(const Experiment& experiment) : experiment_(experiment) {}
-  [[nodiscard]] bool predict(const sim::Model& model, const OwnValues& own,
+  [[nodiscard]] bool predict(const sim::Model& model, const RecordValues& of_record,
                              Eigen::VectorXd& outputs) const override {
-    return experiment_.predict(model, own, outputs);
+    return experiment_.predict(model, of_record, outputs);
   }
 
  private:
@@ -32,31 +32,35 @@ std::unique_ptr<Experiment> Experiment::thinned() const { return nullptr; }
 
 std::unique_ptr<Experiment> Experiment::tied(double /*strength*/) const { return nullptr; }
 
-std::vector<std::string> Experiment::objections(const sim::Model& /*model*/, const OwnValues& /*own*/) const {
+std::vector<std::string> Experiment::objections(const sim::Model& /*model*/,
+                                                const RecordValues& /*of_record*/) const {
   return {};
 }
 
-std::unique_ptr<Neighbours> Experiment::neighbours(const sim::Model& model, const OwnValues& own,
+std::unique_ptr<Neighbours> Experiment::neighbours(const sim::Model& model, const RecordValues& of_record,
                                                    const Neighbours* /*near*/, Eigen::VectorXd& outputs) const {
-  if (!predict(model, own, outputs)) return nullptr;
+  if (!predict(model, of_record, outputs)) return nullptr;
   return std::make_unique<Alike>(*this);
 }
 
-FitParameter own_parameter(const Experiment& experiment, std::size_t index, Own own, bool is_alone) {
-  static constexpr std::array<const char*, own_count> units = {"m", "m/s", "m", "s", "m/s", "m/s^2", "m"};
-  const auto at = static_cast<std::size_t>(own);
-  return {.name = std::string(own_names[at]) + (is_alone ? std::string() : "[" + std::to_string(index) + "]"),
+FitParameter parameter_of_record(const Experiment& experiment, std::size_t index, RecordParameter which,
+                                 bool is_alone) {
+  static constexpr std::array<const char*, record_parameter_count> units = {"m",   "m/s",   "m", "s",
+                                                                            "m/s", "m/s^2", "m"};
+  const auto at = static_cast<std::size_t>(which);
+  return {.name = std::string(record_parameter_names[at]) +
+                  (is_alone ? std::string() : "[" + std::to_string(index) + "]"),
           .unit = units[at],
           .owner = Owner::record,
           .index = index,
-          .own = own,
-          .stated = experiment.own_start[at]};
+          .record_parameter = which,
+          .stated = experiment.record_start[at]};
 }
 
-std::vector<Own> sought_own(const Experiment& experiment, bool feels_place) {
-  std::vector<Own> sought = experiment.own_free;
-  for (const Own own : experiment.own_of_place)
-    if (feels_place && std::ranges::find(sought, own) == sought.end()) sought.push_back(own);
+std::vector<RecordParameter> sought_of_record(const Experiment& experiment, bool feels_place) {
+  std::vector<RecordParameter> sought = experiment.record_free;
+  for (const RecordParameter each : experiment.record_of_place)
+    if (feels_place && std::ranges::find(sought, each) == sought.end()) sought.push_back(each);
   return sought;
 }
 

@@ -64,7 +64,7 @@ class Neighbours {
   virtual ~Neighbours() = default;
   Neighbours(const Neighbours&) = delete;
   Neighbours& operator=(const Neighbours&) = delete;
-  [[nodiscard]] virtual bool predict(const sim::Model& model, const OwnValues& own,
+  [[nodiscard]] virtual bool predict(const sim::Model& model, const RecordValues& of_record,
                                      Eigen::VectorXd& outputs) const = 0;
   /// Whether the models of a search beside it take less time by these neighbours.
   [[nodiscard]] virtual bool lead() const { return false; }
@@ -81,15 +81,16 @@ class Experiment {
   std::vector<Signal> signals;
   /// Of a history: its own drive, in place of that of the model. It begins with the record.
   std::optional<sim::Excitation> drive;
-  std::optional<MotionSize> motion;  ///< of a loop: the force alone is compared, and does not show it
-  OwnValues own_start{};             ///< start values, from the record or known
-  std::vector<Own> own_free;         ///< parameters that are sought unless they are known
-  std::vector<Own> own_of_place;     ///< also sought unless they are known, if a force depends on the position
-  std::vector<Own> own_others;       ///< parameters that may be sought as well
-  bool is_force_driven = false;      ///< of steady states: the levels are amplitudes of a force
+  std::optional<MotionSize> motion;          ///< of a loop: the force alone is compared, and does not show it
+  RecordValues record_start{};               ///< start values, from the record or known
+  std::vector<RecordParameter> record_free;  ///< parameters that are sought unless they are known
+  std::vector<RecordParameter>
+      record_of_place;  ///< also sought unless they are known, if a force depends on the position
+  std::vector<RecordParameter> record_others;  ///< parameters that may be sought as well
+  bool is_force_driven = false;                ///< of steady states: the levels are amplitudes of a force
   std::vector<std::string> derived;  ///< of a loop: signals it needs that are derivatives of measured ones
   bool knows_load = false;           ///< `travel` is known: the caller stated the first state
-  std::vector<std::pair<Own, std::string>> remarks;  ///< why parameters of `own_of_place` are sought
+  std::vector<std::pair<RecordParameter, std::string>> remarks;  ///< why parameters of `record_of_place` are sought
   /// Work of all predictions so far, those of parts of the record included: in units of `sim::Engine::work`, of
   /// steady states without the answers of smooth laws; of a loop, in steps of its law.
   std::shared_ptr<std::atomic<long>> work = std::make_shared<std::atomic<long>>(0);
@@ -101,7 +102,7 @@ class Experiment {
   [[nodiscard]] Eigen::Index size() const;
 
   /// Predicted readings, signal after signal. False: the model has no such motion.
-  [[nodiscard]] virtual bool predict(const sim::Model& model, const OwnValues& own,
+  [[nodiscard]] virtual bool predict(const sim::Model& model, const RecordValues& of_record,
                                      Eigen::VectorXd& outputs) const = 0;
   /// The record up to this share of its duration, 0 < share <= 1. Null if the record is no motion in time.
   [[nodiscard]] virtual std::unique_ptr<Experiment> first_part(double share) const;
@@ -110,10 +111,12 @@ class Experiment {
   /// The record with models tied to its motion (`tie.hpp`). Null if the record is no motion in time.
   [[nodiscard]] virtual std::unique_ptr<Experiment> tied(double strength) const;
   /// What the readings say against `model` although they have no weight; a sentence each.
-  [[nodiscard]] virtual std::vector<std::string> objections(const sim::Model& model, const OwnValues& own) const;
+  [[nodiscard]] virtual std::vector<std::string> objections(const sim::Model& model,
+                                                            const RecordValues& of_record) const;
   /// Predicts `model`, and returns what predicts models near it. Null: the model has no such motion. `near`:
   /// neighbours of a model beside it, or null. By default, each model is predicted independently.
-  [[nodiscard]] virtual std::unique_ptr<Neighbours> neighbours(const sim::Model& model, const OwnValues& own,
+  [[nodiscard]] virtual std::unique_ptr<Neighbours> neighbours(const sim::Model& model,
+                                                               const RecordValues& of_record,
                                                                const Neighbours* near,
                                                                Eigen::VectorXd& outputs) const;
 
@@ -122,10 +125,11 @@ class Experiment {
 };
 
 /// A parameter of a single record. `is_alone`: there is one record only, so the name needs no number.
-[[nodiscard]] FitParameter own_parameter(const Experiment& experiment, std::size_t index, Own own, bool is_alone);
+[[nodiscard]] FitParameter parameter_of_record(const Experiment& experiment, std::size_t index,
+                                               RecordParameter which, bool is_alone);
 
 /// The parameters of a record that are sought unless they are known. `feels_place`: that of the rig.
-[[nodiscard]] std::vector<Own> sought_own(const Experiment& experiment, bool feels_place);
+[[nodiscard]] std::vector<RecordParameter> sought_of_record(const Experiment& experiment, bool feels_place);
 
 /// What the caller states about a record.
 struct ExperimentOptions {

@@ -69,20 +69,20 @@ class FrictionLoop final : public Experiment {
       if (stuck_[i]) signal.stuck.push_back(i - edge_);
     }
     signals.push_back(std::move(signal));
-    own_others = {Own::offset, Own::travel};
-    if (history.x.empty()) own_of_place = {Own::offset};
+    record_others = {RecordParameter::offset, RecordParameter::travel};
+    if (history.x.empty()) record_of_place = {RecordParameter::offset};
   }
 
-  [[nodiscard]] bool predict(const sim::Model& model, const OwnValues& own,
+  [[nodiscard]] bool predict(const sim::Model& model, const RecordValues& of_record,
                              Eigen::VectorXd& outputs) const override {
     const sim::Oscillator& o = model.oscillator;
-    const double offset = own[static_cast<std::size_t>(Own::offset)];
+    const double offset = of_record[static_cast<std::size_t>(RecordParameter::offset)];
     std::vector<double> force(x_.size());
     const bool holds = std::ranges::any_of(model.friction, &friction::Law::holds_mass);
     constexpr long samples_of_unit = 8;
     *work += static_cast<long>(x_.size()) / samples_of_unit;
     for (const friction::Law& law : model.friction)
-      if (!add(law, offset, own[static_cast<std::size_t>(Own::travel)], force)) return false;
+      if (!add(law, offset, of_record[static_cast<std::size_t>(RecordParameter::travel)], force)) return false;
     bridge(force);
     for (std::size_t i = 0; i < force.size(); ++i) {
       if (o.mass > 0.0) force[i] += o.mass * a_[i];
@@ -98,11 +98,12 @@ class FrictionLoop final : public Experiment {
   }
 
   /// Says if the mass sticks under forces that the friction does not hold.
-  [[nodiscard]] std::vector<std::string> objections(const sim::Model& model, const OwnValues& own) const override {
+  [[nodiscard]] std::vector<std::string> objections(const sim::Model& model,
+                                                    const RecordValues& of_record) const override {
     if (!std::ranges::any_of(model.friction, &friction::Law::holds_mass) ||
         std::ranges::any_of(model.friction, depends_on_past))
       return {};
-    const double offset = own[static_cast<std::size_t>(Own::offset)];
+    const double offset = of_record[static_cast<std::size_t>(RecordParameter::offset)];
     constexpr double rare = 4.0;
     double most = 0.0;
     double bound = 0.0;

@@ -149,23 +149,24 @@ class MeasuredMotion final : public Experiment {
       signals.push_back(std::move(signal));
     }
     samples_ = signals.front().measured.size();
-    own_free = {Own::position, Own::velocity};
-    own_others = {Own::offset, Own::travel};
-    if (!history.v.empty()) own_others.push_back(Own::offset_v);
-    if (!history.a.empty()) own_others.push_back(Own::offset_a);
+    record_free = {RecordParameter::position, RecordParameter::velocity};
+    record_others = {RecordParameter::offset, RecordParameter::travel};
+    if (!history.v.empty()) record_others.push_back(RecordParameter::offset_v);
+    if (!history.a.empty()) record_others.push_back(RecordParameter::offset_a);
     begin(history);
     seek_zeros(history);
   }
 
-  [[nodiscard]] bool predict(const sim::Model& model, const OwnValues& own,
+  [[nodiscard]] bool predict(const sim::Model& model, const RecordValues& of_record,
                              Eigen::VectorXd& outputs) const override {
     sim::Model there = model;
-    there.initial = {own[static_cast<std::size_t>(Own::position)], own[static_cast<std::size_t>(Own::velocity)]};
-    if (!sim::load_contacts(there, own[static_cast<std::size_t>(Own::travel)])) return false;
+    there.initial = {of_record[static_cast<std::size_t>(RecordParameter::position)],
+                     of_record[static_cast<std::size_t>(RecordParameter::velocity)]};
+    if (!sim::load_contacts(there, of_record[static_cast<std::size_t>(RecordParameter::travel)])) return false;
     const double end = static_cast<double>(samples_ - 1) / rate_;
     there.excitation = drive ? *drive : drive_from(model.excitation, start_, end);
     if (tie_) {
-      std::optional<sim::Model> tied = tie_->tied(there, own);
+      std::optional<sim::Model> tied = tie_->tied(there, of_record);
       if (!tied) return false;
       there = std::move(*tied);
     }
@@ -174,7 +175,7 @@ class MeasuredMotion final : public Experiment {
     std::size_t next = 0;
     const auto take_until = [&](const sim::Interval& interval, double until) {
       for (; next < samples_ && static_cast<double>(next) / rate_ <= until; ++next)
-        write(interval.state_at(static_cast<double>(next) / rate_), own, next, outputs);
+        write(interval.state_at(static_cast<double>(next) / rate_), of_record, next, outputs);
     };
     // A little longer than the record, so that the last sample is inside an interval.
     while (const sim::Interval* interval = engine->next(end * (1.0 + 1e-9) + 1e-12)) {
@@ -243,8 +244,8 @@ class MeasuredMotion final : public Experiment {
   }
 
   void begin(const History& history) {
-    double& position = own_start[static_cast<std::size_t>(Own::position)];
-    double& velocity = own_start[static_cast<std::size_t>(Own::velocity)];
+    double& position = record_start[static_cast<std::size_t>(RecordParameter::position)];
+    double& velocity = record_start[static_cast<std::size_t>(RecordParameter::velocity)];
     if (!history.x.empty()) std::tie(position, velocity) = begin_of(history.x, rate_);
     if (!history.v.empty()) velocity = begin_of(history.v, rate_).first;
     if (!history.x.empty()) return;
@@ -262,20 +263,21 @@ class MeasuredMotion final : public Experiment {
       const bool is_v = signal.name == "v";
       const Zero zero = is_v ? zero_of(history.v, 1, rate_) : zero_of(history.a, 2, rate_);
       if (!is_off(zero, is_v ? 3.0 / duration : 24.0 / (duration * duration), signal.noise, samples_)) continue;
-      own_of_place.push_back(is_v ? Own::offset_v : Own::offset_a);
-      remarks.emplace_back(own_of_place.back(),
+      record_of_place.push_back(is_v ? RecordParameter::offset_v : RecordParameter::offset_a);
+      remarks.emplace_back(record_of_place.back(),
                            "the mean of " + signal.name + ", " + core::format_number(zero.value, 3) +
                                " in SI units, would carry the mass away: the zero of " + signal.name +
                                " is sought as " + (is_v ? "offset_v" : "offset_a"));
     }
   }
 
-  void write(const sim::Sample& sample, const OwnValues& own, std::size_t i, Eigen::VectorXd& outputs) const {
+  void write(const sim::Sample& sample, const RecordValues& of_record, std::size_t i,
+             Eigen::VectorXd& outputs) const {
     for (std::size_t s = 0; s < signals.size(); ++s)
       outputs[static_cast<Eigen::Index>(s * samples_ + i)] =
-          signals[s].name == "x"   ? sample.x + own[static_cast<std::size_t>(Own::offset)]
-          : signals[s].name == "v" ? sample.v + own[static_cast<std::size_t>(Own::offset_v)]
-                                   : sample.a + own[static_cast<std::size_t>(Own::offset_a)];
+          signals[s].name == "x"   ? sample.x + of_record[static_cast<std::size_t>(RecordParameter::offset)]
+          : signals[s].name == "v" ? sample.v + of_record[static_cast<std::size_t>(RecordParameter::offset_v)]
+                                   : sample.a + of_record[static_cast<std::size_t>(RecordParameter::offset_a)];
   }
 
   double start_;

@@ -155,10 +155,10 @@ void add_missing(const RigLaw& law, std::size_t index, const std::vector<FitPara
   for (const friction::ParameterFault& fault : friction::complete(*law.entry, completed)) {
     if (!fault.is_missing) continue;
     const std::vector<std::string> instead = names_instead_of(law.entry->parameters, fault.name);
-    const auto own = std::ranges::find(law.entry->parameters, fault.name, &Parameter::name);
-    const bool is_known = own != law.entry->parameters.end();
-    if (is_known && (own->kind == ParameterKind::number || instead.empty())) {
-      need(*own);
+    const auto stated = std::ranges::find(law.entry->parameters, fault.name, &Parameter::name);
+    const bool is_known = stated != law.entry->parameters.end();
+    if (is_known && (stated->kind == ParameterKind::number || instead.empty())) {
+      need(*stated);
       continue;
     }
     for (const Parameter& parameter : law.entry->parameters)
@@ -262,8 +262,10 @@ void arrange(const Rig& rig, std::vector<FitParameter>& parameters) {
     if (parameter.owner == Owner::record) continue;
     const auto same = std::ranges::count(all, parameter.name, &FitParameter::name);
     const std::string_view head = std::string_view(parameter.name).substr(0, parameter.name.find_first_of(".["));
-    const bool is_like_own = parameter.owner == Owner::law && std::ranges::find(own_names, head) != own_names.end();
-    if (same > 1 || is_like_own) parameter.name = qualified(parameter, rig.laws.size());
+    const bool is_like_one_of_a_record =
+        parameter.owner == Owner::law &&
+        std::ranges::find(record_parameter_names, head) != record_parameter_names.end();
+    if (same > 1 || is_like_one_of_a_record) parameter.name = qualified(parameter, rig.laws.size());
     if (parameter.at_least.empty()) continue;
     for (std::size_t j = 0; j < parameters.size(); ++j)
       if (parameters[j].owner == Owner::law && parameters[j].index == parameter.index &&

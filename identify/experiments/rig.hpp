@@ -32,12 +32,12 @@ struct RigLaw {
 };
 
 /// The parameters of a single record, in this order.
-enum class Own { position, velocity, offset, release, offset_v, offset_a, travel };
-inline constexpr std::size_t own_count = 7;
-inline constexpr std::array<std::string_view, own_count> own_names = {"position", "velocity", "offset", "release",
-                                                                      "offset_v", "offset_a", "travel"};
+enum class RecordParameter { position, velocity, offset, release, offset_v, offset_a, travel };
+inline constexpr std::size_t record_parameter_count = 7;
+inline constexpr std::array<std::string_view, record_parameter_count> record_parameter_names = {
+    "position", "velocity", "offset", "release", "offset_v", "offset_a", "travel"};
 /// m, m/s, m, s, m/s, m/s^2, m
-using OwnValues = std::array<double, own_count>;
+using RecordValues = std::array<double, record_parameter_count>;
 
 /// What a parameter belongs to.
 enum class Owner {
@@ -56,11 +56,11 @@ struct FitParameter {
   std::string name;
   std::string unit;  ///< SI; "1" for a number without unit
   Owner owner = Owner::law;
-  std::size_t index = 0;                  ///< of the law or of the record
-  std::string path = {};                  ///< if it belongs to a law: path in the values of the law
-  Own own = Own::position;                ///< if it belongs to a record
-  friction::Range range = {};             ///< allowed by the law, and by the caller
-  double stated = unknown;                ///< stated value, at which the search begins
+  std::size_t index = 0;  ///< of the law or of the record
+  std::string path = {};  ///< if it belongs to a law: path in the values of the law
+  RecordParameter record_parameter = RecordParameter::position;  ///< if it belongs to a record
+  friction::Range range = {};                                    ///< allowed by the law, and by the caller
+  double stated = unknown;                                       ///< stated value, at which the search begins
   std::optional<std::size_t> above = {};  ///< index of the parameter that this one must not be below
   std::string at_least = {};              ///< name of that parameter in the table of the law
 };

@@ -60,7 +60,7 @@ Guess guess_of(const FitParameter& parameter, const DataScale& s) {
     case Owner::damping_ratio:
       return {0.05, 10.0};
     case Owner::record:
-      if (parameter.own == Own::travel) return {0.03 * s.length, 1.0};
+      if (parameter.record_parameter == RecordParameter::travel) return {0.03 * s.length, 1.0};
       return {parameter.unit == "s"       ? time
               : parameter.unit == "m/s"   ? s.speed
               : parameter.unit == "m/s^2" ? s.speed / time
@@ -191,7 +191,7 @@ DataScale scale_of(const Rig& rig, const std::vector<std::unique_ptr<Experiment>
 
 double size_of(const FitParameter& parameter, const DataScale& scale) {
   const double stated = std::abs(parameter.stated);
-  const bool is_size = parameter.owner != Owner::record || parameter.own == Own::travel;
+  const bool is_size = parameter.owner != Owner::record || parameter.record_parameter == RecordParameter::travel;
   double size = is_known(stated) && is_size ? stated : guess_of(parameter, scale).size;
   // The search is around the size: it is moved between the bounds.
   const auto& [low, high, low_open, high_open] = parameter.range;
@@ -217,7 +217,8 @@ Eigen::VectorXd start_of(const std::vector<FitParameter>& parameters, const std:
     const double about_stated = all_stated ? 1.5 : 1.0;
     const double spread = is_stated ? about_stated : guess_of(parameter, scale).spread;
     double value = sizes[i] * std::pow(spread, 2.0 * share - 1.0);
-    if (parameter.owner == Owner::record && parameter.own == Own::travel && parameter.stated == 0.0)
+    if (parameter.owner == Owner::record && parameter.record_parameter == RecordParameter::travel &&
+        parameter.stated == 0.0)
       value = sizes[i] * travels[static_cast<std::size_t>(number) % travels.size()];
     else if (parameter.owner == Owner::record || (is_stated && (number == 0 || !(parameter.stated > 0.0))))
       value = parameter.stated;

@@ -53,7 +53,8 @@ class SteadyStates final : public Experiment {
     if (!with_phase_.empty()) signals.push_back(std::move(phase));
   }
 
-  [[nodiscard]] bool predict(const sim::Model& model, const OwnValues&, Eigen::VectorXd& outputs) const override {
+  [[nodiscard]] bool predict(const sim::Model& model, const RecordValues&,
+                             Eigen::VectorXd& outputs) const override {
     return fill(model, outputs, [&](std::size_t i) {
       return sim::steady_state(driven(model, levels_[i], by_force_), options(model));
     });
@@ -65,7 +66,7 @@ class SteadyStates final : public Experiment {
     return list;
   }
 
-  [[nodiscard]] std::unique_ptr<Neighbours> neighbours(const sim::Model& model, const OwnValues&,
+  [[nodiscard]] std::unique_ptr<Neighbours> neighbours(const sim::Model& model, const RecordValues&,
                                                        const Neighbours* near,
                                                        Eigen::VectorXd& outputs) const override {
     auto found = std::make_unique<Near>(*this, model, dynamic_cast<const Near*>(near), outputs);
@@ -101,7 +102,8 @@ class SteadyStates final : public Experiment {
     [[nodiscard]] bool is_complete() const { return is_complete_; }
     /// The orbits of laws of the exact engine are found in no time from nothing.
     [[nodiscard]] bool lead() const override { return is_smooth_; }
-    [[nodiscard]] bool predict(const sim::Model& model, const OwnValues&, Eigen::VectorXd& outputs) const override {
+    [[nodiscard]] bool predict(const sim::Model& model, const RecordValues&,
+                               Eigen::VectorXd& outputs) const override {
       return states_.fill(model, outputs, [&](std::size_t i) {
         return sim::steady_state_near(orbits_[i], driven(model, states_.levels_[i], states_.by_force_),
                                       states_.options(model));

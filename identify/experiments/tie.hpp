@@ -39,7 +39,7 @@ class Tie {
 
   /// The model with the tie, and with a force in place of its drive. Nothing if its spring is not linear and its
   /// base moves.
-  [[nodiscard]] std::optional<sim::Model> tied(const sim::Model& model, const OwnValues& own) const;
+  [[nodiscard]] std::optional<sim::Model> tied(const sim::Model& model, const RecordValues& of_record) const;
 
  private:
   double strength_;

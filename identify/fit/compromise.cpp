@@ -34,7 +34,7 @@ class Compromiser {
         parameters_(all_of(known, held)),
         sizes_(sizes_of(parameters_)),
         alone_(alone),
-        problem_(known.rig, parameters_, second, sizes_, held.own) {
+        problem_(known.rig, parameters_, second, sizes_, held.of_records) {
     Eigen::VectorXd at_held(size());
     for (Eigen::Index i = 0; i < size(); ++i) at_held[i] = parameters_[static_cast<std::size_t>(i)].stated;
     held_ = problem_.coordinates(at_held);

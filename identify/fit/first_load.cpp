@@ -17,7 +17,7 @@ namespace {
 
 using core::infinity;
 
-constexpr auto travel_of_record = static_cast<std::size_t>(Own::travel);
+constexpr auto travel_of_record = static_cast<std::size_t>(RecordParameter::travel);
 
 /// Whether the load of the contacts of a record is open.
 bool may_be_loaded(const FitTask& task, const Eigen::VectorXd& values, std::size_t index) {
@@ -25,7 +25,8 @@ bool may_be_loaded(const FitTask& task, const Eigen::VectorXd& values, std::size
   if (experiment.kind == ExperimentKind::steady_states || experiment.knows_load) return false;
   if (task.begins[index][travel_of_record] != 0.0) return false;
   const bool is_sought = std::ranges::any_of(task.parameters, [index](const FitParameter& parameter) {
-    return parameter.owner == Owner::record && parameter.index == index && parameter.own == Own::travel;
+    return parameter.owner == Owner::record && parameter.index == index &&
+           parameter.record_parameter == RecordParameter::travel;
   });
   if (is_sought) return false;
   const std::optional<Rig> rig = with_values(task.rig, task.parameters, values);
@@ -61,7 +62,7 @@ class LoadSearch {
 
   [[nodiscard]] std::unique_ptr<FitTask> task_with(std::vector<FitParameter> parameters, std::vector<double> sizes,
                                                    double travel) const {
-    std::vector<OwnValues> begins = before_.begins;
+    std::vector<RecordValues> begins = before_.begins;
     begins[index_][travel_of_record] = travel;
     auto task = std::make_unique<FitTask>(before_.rig, before_.experiments, std::move(parameters), std::move(sizes),
                                           std::move(begins));
@@ -124,8 +125,8 @@ class LoadSearch {
     for (const double travel : travels) size = std::min(size, std::abs(travel));
     std::vector<FitParameter> parameters = before_.parameters;
     std::vector<double> sizes = before_.sizes;
-    parameters.push_back(
-        own_parameter(*before_.experiments[index_], index_, Own::travel, before_.experiments.size() == 1));
+    parameters.push_back(parameter_of_record(*before_.experiments[index_], index_, RecordParameter::travel,
+                                             before_.experiments.size() == 1));
     parameters.back().stated = 0.0;
     // Contacts that yield later than over the whole motion are not contacts.
     constexpr double most = 10.0;

@@ -96,7 +96,7 @@ std::string law_fault(const Rig& rig, const std::vector<FitParameter>& parameter
     Eigen::VectorXd outputs;
     if (model)
       for (const auto& experiment : experiments)
-        static_cast<void>(experiment->predict(*model, experiment->own_start, outputs));
+        static_cast<void>(experiment->predict(*model, experiment->record_start, outputs));
   } catch (const friction::LawFault& fault) {
     return fault.what();
   } catch (const core::InputError&) {
@@ -133,7 +133,7 @@ core::Outcome without_derivative(const FitProblem& problem, const Request& reque
   std::vector<std::string> ends;
   for (std::size_t i = 0; i < request.parameters.size(); ++i) {
     const auto at = static_cast<Eigen::Index>(i);
-    const Coordinate& range = problem.coordinates()[i];
+    const SearchCoordinate& range = problem.coordinates()[i];
     const FitParameter& parameter = request.parameters[i];
     const std::string unit = parameter.unit == "1" ? "" : " " + core::unit_for(coordinate, parameter.unit);
     all.push_back(parameter.name + " = " + core::format_number(values[at], 3) + unit);
@@ -158,9 +158,9 @@ core::Outcome without_derivative(const FitProblem& problem, const Request& reque
 /// Warns of parameters of records that are sought because of what the record shows.
 void say_why_sought(const Request& request, Fit& result) {
   for (std::size_t e = 0; e < request.experiments.size(); ++e)
-    for (const auto& [own, why] : request.experiments[e]->remarks)
-      if (std::ranges::any_of(request.parameters, [e, own](const FitParameter& parameter) {
-            return parameter.owner == Owner::record && parameter.index == e && parameter.own == own;
+    for (const auto& [which, why] : request.experiments[e]->remarks)
+      if (std::ranges::any_of(request.parameters, [e, which](const FitParameter& parameter) {
+            return parameter.owner == Owner::record && parameter.index == e && parameter.record_parameter == which;
           }))
         result.warnings.push_back(request.experiments[e]->label + ": " + why);
 }
@@ -169,7 +169,7 @@ void say_why_sought(const Request& request, Fit& result) {
 void add_objections(const Request& request, Fit& result) {
   const std::optional<sim::Model> model = model_of(result.rig);
   for (std::size_t e = 0; model && e < request.experiments.size(); ++e)
-    for (const std::string& objection : request.experiments[e]->objections(*model, result.own[e]))
+    for (const std::string& objection : request.experiments[e]->objections(*model, result.of_records[e]))
       result.warnings.push_back(request.experiments[e]->label + ": " + objection);
 }
 
@@ -204,7 +204,7 @@ std::optional<Eigen::VectorXd> describe(const FitProblem& problem, const Request
   }
   const Eigen::VectorXd values = problem.values(q);
   result.rig = with_values(request.rig, request.parameters, values).value_or(request.rig);
-  result.own = problem.own(values);
+  result.of_records = problem.of_records(values);
   const Eigen::VectorXd misses = problem.misses(result.outputs);
   describe_signals(problem, found.weights, misses, jacobian, request.options.robust, result);
   for (std::size_t i = 0; i < request.parameters.size(); ++i)
@@ -242,9 +242,9 @@ Fit fit_rig(const Rig& rig, std::vector<FitParameter> parameters, const Experime
   const DataScale scale = scale_of(rig, experiments);
   std::vector<double> sizes;
   for (const FitParameter& parameter : parameters) sizes.push_back(size_of(parameter, scale));
-  std::vector<OwnValues> known = options.known;
+  std::vector<RecordValues> known = options.known;
   if (known.empty())
-    for (const auto& experiment : experiments) known.push_back(experiment->own_start);
+    for (const auto& experiment : experiments) known.push_back(experiment->record_start);
   auto task = std::make_unique<FitTask>(rig, experiments, parameters, sizes, std::move(known));
   const FitProblem& problem = task->problem;
   const auto readings = static_cast<Eigen::Index>(problem.counted().sum());

@@ -38,9 +38,9 @@ namespace dualdamp::identify {
 struct FitOptions {
   bool robust = false;
   bool profile = true;
-  bool seeks_loads = true;            ///< of contacts at the first samples (`first_load.hpp`)
-  std::vector<OwnValues> known = {};  ///< as in `FitProblem`
-  int starts = 0;                     ///< 0: 8 if all parameters have stated values, else 40
+  bool seeks_loads = true;               ///< of contacts at the first samples (`first_load.hpp`)
+  std::vector<RecordValues> known = {};  ///< as in `FitProblem`
+  int starts = 0;                        ///< 0: 8 if all parameters have stated values, else 40
   /// Of a search, and of all profiles (`Experiment::work`): some ten minutes of processor time.
   long most_work = 400'000'000;
 };
@@ -97,7 +97,7 @@ struct Fit {
   double AICc = unknown;
   int starts = 0;  ///< number of starts that were tried
   Rig rig;         ///< with the fitted values
-  std::vector<OwnValues> own;
+  std::vector<RecordValues> of_records;
   Eigen::VectorXd outputs;
   Eigen::MatrixXd slopes;  ///< d(outputs)/d(values)
   std::vector<std::string> warnings;

@@ -16,12 +16,12 @@ namespace dualdamp::identify {
 
 namespace {
 
-std::vector<FitParameter> own_parameters(const Rig& rig, const Experiments& experiments) {
+std::vector<FitParameter> parameters_of_records(const Rig& rig, const Experiments& experiments) {
   std::vector<FitParameter> list;
   const bool placed = feels_place(rig, {});
   for (std::size_t e = 0; e < experiments.size(); ++e)
-    for (const Own own : sought_own(*experiments[e], placed))
-      list.push_back(own_parameter(*experiments[e], e, own, experiments.size() == 1));
+    for (const RecordParameter each : sought_of_record(*experiments[e], placed))
+      list.push_back(parameter_of_record(*experiments[e], e, each, experiments.size() == 1));
   return list;
 }
 
@@ -71,7 +71,7 @@ double uncertainty_of(const Fit& held, const Rig& rig, const std::vector<FitPara
     values[values.size() - 1] = fitted.value;
     sizes.push_back(fitted.value == 0.0 ? 1.0 : std::abs(fitted.value));
   }
-  const FitProblem problem(rig, all, experiments, sizes, held.own);
+  const FitProblem problem(rig, all, experiments, sizes, held.of_records);
   const Eigen::VectorXd q = problem.coordinates(values);
   Eigen::VectorXd outputs;
   Eigen::MatrixXd jacobian;
@@ -186,10 +186,12 @@ struct Load {
 };
 
 Load load_of(const Fit& fit, std::size_t record) {
-  Load load{.travel = fit.own[record][static_cast<std::size_t>(Own::travel)]};
+  Load load{.travel = fit.of_records[record][static_cast<std::size_t>(RecordParameter::travel)]};
   for (const FittedParameter& fitted : fit.parameters) {
     const FitParameter& parameter = fitted.parameter;
-    if (parameter.owner != Owner::record || parameter.index != record || parameter.own != Own::travel) continue;
+    if (parameter.owner != Owner::record || parameter.index != record ||
+        parameter.record_parameter != RecordParameter::travel)
+      continue;
     load.sought = parameter;
     load.sought->stated = load.travel;
   }
@@ -208,7 +210,7 @@ bool loads_differ(const Fit& one, const Fit& other, std::size_t records) {
 
 /// The loads for both fits: those of the prediction, or if it found none, those of the other fit.
 struct Loads {
-  std::vector<OwnValues> known;
+  std::vector<RecordValues> known;
   std::vector<FitParameter> sought;
 };
 
@@ -217,11 +219,11 @@ Loads loads_of_both(const Fit& held, const Fit& alone, const Experiments& experi
   for (std::size_t e = 0; e < experiments.size(); ++e) {
     Load load = load_of(held, e);
     if (load.is_none()) load = load_of(alone, e);
-    loads.known.push_back(experiments[e]->own_start);
+    loads.known.push_back(experiments[e]->record_start);
     if (load.sought)
       loads.sought.push_back(*load.sought);
     else
-      loads.known.back()[static_cast<std::size_t>(Own::travel)] = load.travel;
+      loads.known.back()[static_cast<std::size_t>(RecordParameter::travel)] = load.travel;
   }
   return loads;
 }
@@ -256,7 +258,7 @@ Prediction predict_records(const Rig& rig, const std::vector<FitParameter>& para
   Prediction found;
   FitOptions quick = options;
   quick.profile = false;
-  found.fit = fit_rig(rig, own_parameters(rig, experiments), experiments, quick);
+  found.fit = fit_rig(rig, parameters_of_records(rig, experiments), experiments, quick);
   if (!found.fit.outcome.ok()) {
     found.outcome = found.fit.outcome;
     found.text = found.outcome.reason;
@@ -275,7 +277,7 @@ Prediction predict_records(const Rig& rig, const std::vector<FitParameter>& para
   describe_held(rig, parameters, known, experiments, found);
   const std::vector<FitParameter> shared = at_values_of(rig, parameters);
   std::vector<FitParameter> all = shared;
-  std::ranges::move(own_parameters(rig, experiments), std::back_inserter(all));
+  std::ranges::move(parameters_of_records(rig, experiments), std::back_inserter(all));
   Fit attainable = fit_rig(rig, all, experiments, quick);
   if (!attainable.outcome.ok()) {
     found.text = "the record alone does not determine the rig: " + attainable.outcome.reason;
@@ -285,10 +287,10 @@ Prediction predict_records(const Rig& rig, const std::vector<FitParameter>& para
     const Loads loads = loads_of_both(found.fit, attainable, experiments);
     quick.seeks_loads = false;
     quick.known = loads.known;
-    std::vector<FitParameter> own = own_parameters(rig, experiments);
-    std::ranges::copy(loads.sought, std::back_inserter(own));
+    std::vector<FitParameter> of_records = parameters_of_records(rig, experiments);
+    std::ranges::copy(loads.sought, std::back_inserter(of_records));
     std::ranges::copy(loads.sought, std::back_inserter(all));
-    Fit held = fit_rig(rig, own, experiments, quick);
+    Fit held = fit_rig(rig, of_records, experiments, quick);
     Fit alone = fit_rig(rig, all, experiments, quick);
     if (held.outcome.ok() && alone.outcome.ok()) {
       found.fit = std::move(held);

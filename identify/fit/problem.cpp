@@ -22,7 +22,7 @@ constexpr double reach = 1e4;
 constexpr double far = 1e6;
 
 /// A bound, of the law or of the caller, takes the place of these two.
-Coordinate coordinate_of(const FitParameter& parameter, double size) {
+SearchCoordinate coordinate_of(const FitParameter& parameter, double size) {
   const auto& [low, high, low_open, high_open] = parameter.range;
   if (!parameter.above && low >= 0.0 && (low_open || low > 0.0))
     return {true, size, std::log(low > 0.0 ? low / size : 1.0 / reach),
@@ -46,13 +46,13 @@ bool guarded(const Work& work) {
 }  // namespace
 
 FitProblem::FitProblem(const Rig& rig, const std::vector<FitParameter>& parameters, const Experiments& experiments,
-                       const std::vector<double>& sizes, std::vector<OwnValues> known)
+                       const std::vector<double>& sizes, std::vector<RecordValues> known)
     : rig_(rig), holds_mass_(holds_mass(rig, parameters)), parameters_(parameters), known_(std::move(known)) {
   for (std::size_t i = 0; i < parameters.size(); ++i)
     coordinates_.push_back(coordinate_of(parameters[i], sizes[i]));
   for (const auto& experiment : experiments) experiments_.push_back(experiment.get());
   if (known_.empty())
-    for (const Experiment* experiment : experiments_) known_.push_back(experiment->own_start);
+    for (const Experiment* experiment : experiments_) known_.push_back(experiment->record_start);
   number_rows();
 }
 
@@ -155,7 +155,7 @@ const Signal& FitProblem::signal(const SignalRows& rows) const {
 Eigen::VectorXd FitProblem::values(const Eigen::VectorXd& q) const {
   Eigen::VectorXd result(q.size());
   for (std::size_t i = 0; i < coordinates_.size(); ++i) {
-    const Coordinate& c = coordinates_[i];
+    const SearchCoordinate& c = coordinates_[i];
     const auto at = static_cast<Eigen::Index>(i);
     result[at] = c.size * (c.logarithmic ? std::exp(q[at]) : q[at]);
   }
@@ -168,7 +168,7 @@ Eigen::VectorXd FitProblem::values(const Eigen::VectorXd& q) const {
 Eigen::VectorXd FitProblem::coordinates(const Eigen::VectorXd& values) const {
   Eigen::VectorXd result(values.size());
   for (std::size_t i = 0; i < coordinates_.size(); ++i) {
-    const Coordinate& c = coordinates_[i];
+    const SearchCoordinate& c = coordinates_[i];
     const auto at = static_cast<Eigen::Index>(i);
     double value = values[at];
     if (parameters_[i].above) value -= values[static_cast<Eigen::Index>(*parameters_[i].above)];
@@ -182,7 +182,7 @@ Eigen::MatrixXd FitProblem::slope(const Eigen::VectorXd& q) const {
   const Eigen::Index count = q.size();
   Eigen::MatrixXd result = Eigen::MatrixXd::Zero(count, count);
   for (Eigen::Index i = 0; i < count; ++i) {
-    const Coordinate& c = coordinates_[static_cast<std::size_t>(i)];
+    const SearchCoordinate& c = coordinates_[static_cast<std::size_t>(i)];
     result(i, i) = c.size * (c.logarithmic ? std::exp(q[i]) : 1.0);
   }
   for (Eigen::Index i = 0; i < count; ++i)
@@ -192,11 +192,11 @@ Eigen::MatrixXd FitProblem::slope(const Eigen::VectorXd& q) const {
   return result;
 }
 
-std::vector<OwnValues> FitProblem::own(const Eigen::VectorXd& values) const {
-  std::vector<OwnValues> result = known_;
+std::vector<RecordValues> FitProblem::of_records(const Eigen::VectorXd& values) const {
+  std::vector<RecordValues> result = known_;
   for (std::size_t i = 0; i < parameters_.size(); ++i)
     if (parameters_[i].owner == Owner::record)
-      result[parameters_[i].index][static_cast<std::size_t>(parameters_[i].own)] =
+      result[parameters_[i].index][static_cast<std::size_t>(parameters_[i].record_parameter)] =
           values[static_cast<Eigen::Index>(i)];
   return result;
 }
@@ -215,12 +215,12 @@ bool FitProblem::predict_each(const Eigen::VectorXd& q, Eigen::VectorXd& result,
   return guarded([&] {
     const std::optional<sim::Model> model = model_at(p);
     if (!model) return false;
-    const std::vector<OwnValues> owned = own(p);
+    const std::vector<RecordValues> of_each = of_records(p);
     result.resize(rows_);
     std::atomic<bool> ok = true;
     sim::in_parts(experiments_.size(), 1, 0, [&](std::size_t e, std::size_t) {
       Eigen::VectorXd part;
-      if (!within_limit(e, [&] { return predict(e, *model, owned[e], part); }))
+      if (!within_limit(e, [&] { return predict(e, *model, of_each[e], part); }))
         ok = false;
       else
         result.segment(begins_[e], part.size()) = part;
@@ -230,10 +230,12 @@ bool FitProblem::predict_each(const Eigen::VectorXd& q, Eigen::VectorXd& result,
 }
 
 bool FitProblem::outputs(const Eigen::VectorXd& q, Eigen::VectorXd& result, const Trail* trail) const {
-  return predict_each(q, result, [&](std::size_t e, const sim::Model& model, const OwnValues& own, auto& part) {
-    const Neighbours* near = leader(trail, e);
-    return near != nullptr ? near->predict(model, own, part) : experiments_[e]->predict(model, own, part);
-  });
+  return predict_each(q, result,
+                      [&](std::size_t e, const sim::Model& model, const RecordValues& of_record, auto& part) {
+                        const Neighbours* near = leader(trail, e);
+                        return near != nullptr ? near->predict(model, of_record, part)
+                                               : experiments_[e]->predict(model, of_record, part);
+                      });
 }
 
 /// A jump of the acceleration within a step of a difference passes over a reading on one side of it only. Such a
@@ -251,7 +253,7 @@ void FitProblem::mend_jumps(const Eigen::VectorXd& below, const Eigen::VectorXd&
 
 bool FitProblem::column(const Eigen::VectorXd& q, const Eigen::VectorXd& middle, const All& neighbours,
                         Eigen::Index i, double step, bool seeks, Eigen::VectorXd& slope) const {
-  const Coordinate& c = coordinates_[static_cast<std::size_t>(i)];
+  const SearchCoordinate& c = coordinates_[static_cast<std::size_t>(i)];
   const FitParameter& parameter = parameters_[static_cast<std::size_t>(i)];
   const double h = step * (c.logarithmic ? 1.0 : std::max(1.0, std::abs(q[i])));
   std::array<double, 2> at = {std::max(q[i] - h, c.low), std::min(q[i] + h, c.high)};
@@ -263,11 +265,11 @@ bool FitProblem::column(const Eigen::VectorXd& q, const Eigen::VectorXd& middle,
     const bool ok = guarded([&] {
       const std::optional<sim::Model> model = model_at(p);
       if (!model) return false;
-      const std::vector<OwnValues> owned = own(p);
+      const std::vector<RecordValues> of_each = of_records(p);
       Eigen::VectorXd part;
       for (std::size_t e = 0; e < experiments_.size(); ++e) {
         if (parameter.owner == Owner::record && parameter.index != e) continue;
-        if (!within_limit(e, [&] { return neighbours[e]->predict(*model, owned[e], part); })) return false;
+        if (!within_limit(e, [&] { return neighbours[e]->predict(*model, of_each[e], part); })) return false;
         outputs[side].segment(begins_[e], part.size()) = part;
       }
       return true;
@@ -290,9 +292,9 @@ const Neighbours* FitProblem::leader(const Trail* trail, std::size_t e) {
 std::optional<FitProblem::All> FitProblem::neighbours(const Eigen::VectorXd& q, const Trail* trail,
                                                       Eigen::VectorXd& result) const {
   All found(experiments_.size());
-  const bool is_possible =
-      predict_each(q, result, [&](std::size_t e, const sim::Model& model, const OwnValues& own, auto& part) {
-        found[e] = experiments_[e]->neighbours(model, own, leader(trail, e), part);
+  const bool is_possible = predict_each(
+      q, result, [&](std::size_t e, const sim::Model& model, const RecordValues& of_record, auto& part) {
+        found[e] = experiments_[e]->neighbours(model, of_record, leader(trail, e), part);
         return found[e] != nullptr;
       });
   if (!is_possible) return std::nullopt;

@@ -22,7 +22,7 @@
 namespace dualdamp::identify {
 
 /// The coordinate of a parameter in the search.
-struct Coordinate {
+struct SearchCoordinate {
   bool logarithmic = false;
   double size = 1.0;  ///< one unit of the coordinate; a factor e if it is a logarithm
   double low = 0.0;   ///< in coordinates
@@ -57,7 +57,7 @@ class FitProblem {
   /// `sizes`: of each parameter, > 0, in its unit. `known`: values of the records' own parameters that are not
   /// sought, in place of those of the experiments. The other arguments must outlive this.
   FitProblem(const Rig& rig, const std::vector<FitParameter>& parameters, const Experiments& experiments,
-             const std::vector<double>& sizes, std::vector<OwnValues> known = {});
+             const std::vector<double>& sizes, std::vector<RecordValues> known = {});
 
   // `this` must outlive the problems returned by roughly(), first_part() and tied().
 
@@ -75,7 +75,7 @@ class FitProblem {
 
   [[nodiscard]] Eigen::Index rows() const { return rows_; }
   [[nodiscard]] const std::vector<SignalRows>& signals() const { return signals_; }
-  [[nodiscard]] const std::vector<Coordinate>& coordinates() const { return coordinates_; }
+  [[nodiscard]] const std::vector<SearchCoordinate>& coordinates() const { return coordinates_; }
   [[nodiscard]] const Signal& signal(const SignalRows& rows) const;
   [[nodiscard]] const Experiment& experiment(const SignalRows& rows) const {
     return *experiments_[rows.experiment];
@@ -107,7 +107,7 @@ class FitProblem {
   /// Root mean square of the misses of a signal, over the readings that count.
   [[nodiscard]] double rms(const Eigen::VectorXd& misses, const SignalRows& rows) const;
   /// The values of each experiment's own parameters.
-  [[nodiscard]] std::vector<OwnValues> own(const Eigen::VectorXd& values) const;
+  [[nodiscard]] std::vector<RecordValues> of_records(const Eigen::VectorXd& values) const;
 
  private:
   using All = std::vector<std::unique_ptr<Neighbours>>;
@@ -118,8 +118,8 @@ class FitProblem {
   [[nodiscard]] std::optional<All> neighbours(const Eigen::VectorXd& q, const Trail* trail,
                                               Eigen::VectorXd& result) const;
   /// Predicts the outputs of one experiment; false if the model has no such motion.
-  using Prediction = std::function<bool(std::size_t experiment, const sim::Model& model, const OwnValues& own,
-                                        Eigen::VectorXd& part)>;
+  using Prediction = std::function<bool(std::size_t experiment, const sim::Model& model,
+                                        const RecordValues& of_record, Eigen::VectorXd& part)>;
   /// The outputs of all experiments at `q`, side by side. False if one has none.
   [[nodiscard]] bool predict_each(const Eigen::VectorXd& q, Eigen::VectorXd& result,
                                   const Prediction& predict) const;
@@ -138,8 +138,8 @@ class FitProblem {
   const std::vector<FitParameter>& parameters_;
   Experiments parts_;  ///< experiments that this problem owns
   std::vector<const Experiment*> experiments_;
-  std::vector<Coordinate> coordinates_;
-  std::vector<OwnValues> known_;  ///< of each experiment
+  std::vector<SearchCoordinate> coordinates_;
+  std::vector<RecordValues> known_;  ///< of each experiment
   std::vector<SignalRows> signals_;
   std::vector<Eigen::Index> begins_;  ///< of each experiment
   Eigen::VectorXd measured_;
@@ -154,7 +154,7 @@ struct FitTask {
   /// `known`: values of the records' own parameters that are not sought. The rig and the experiments must outlive
   /// this.
   FitTask(const Rig& of_rig, const FitProblem::Experiments& records, std::vector<FitParameter> sought,
-          std::vector<double> sizes_of_sought, std::vector<OwnValues> known)
+          std::vector<double> sizes_of_sought, std::vector<RecordValues> known)
       : rig(of_rig),
         experiments(records),
         parameters(std::move(sought)),
@@ -171,7 +171,7 @@ struct FitTask {
   const FitProblem::Experiments& experiments;
   std::vector<FitParameter> parameters;
   std::vector<double> sizes;
-  std::vector<OwnValues> begins;
+  std::vector<RecordValues> begins;
   FitProblem problem;
 };
 

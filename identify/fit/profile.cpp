@@ -98,7 +98,7 @@ Eigen::VectorXd Profiler::step(Eigen::Index i, double value, const Way& way, dou
     Eigen::VectorXd q = way.q + way.unit.cwiseProduct(found.head(size));
     Eigen::Index leaving = -1;
     for (Eigen::Index j = 0; j < size; ++j) {
-      const Coordinate& c = problem_.coordinates()[static_cast<std::size_t>(j)];
+      const SearchCoordinate& c = problem_.coordinates()[static_cast<std::size_t>(j)];
       const double inside = std::clamp(q[j], c.low, c.high);
       constexpr double rounding = 1e-12;
       const bool may_be_held = j != i || other_of(i, way.q) >= 0;
@@ -243,7 +243,7 @@ std::optional<double> Profiler::grown_from(Eigen::Index i, double value, double 
 }
 
 double Profiler::end(Eigen::Index i, const FittedParameter& fitted, double limit, double sign) const {
-  const Coordinate& c = problem_.coordinates()[static_cast<std::size_t>(i)];
+  const SearchCoordinate& c = problem_.coordinates()[static_cast<std::size_t>(i)];
   const friction::Range& range = fitted.parameter.range;
   const auto value_at = [&](double way) {
     const double value =

@@ -180,22 +180,25 @@ std::string foreign_noise_warning(const Experiment& experiment, const FittedSign
 constexpr double most_mean_errors = 4.0;
 
 /// The zero of a signal of a history; of a loop that of x. Nothing if it is sought.
-std::optional<Own> open_zero(const Experiments& experiments, const FittedSignal& fitted, const Fit& fit) {
+std::optional<RecordParameter> open_zero(const Experiments& experiments, const FittedSignal& fitted,
+                                         const Fit& fit) {
   const std::string& name = signal_of(experiments, fitted).name;
   const ExperimentKind kind = experiments[fitted.rows.experiment]->kind;
   if (kind != ExperimentKind::history && kind != ExperimentKind::loop) return std::nullopt;
-  const Own zero = name == "v" ? Own::offset_v : name == "a" ? Own::offset_a : Own::offset;
+  const RecordParameter zero = name == "v"   ? RecordParameter::offset_v
+                               : name == "a" ? RecordParameter::offset_a
+                                             : RecordParameter::offset;
   const bool is_sought = std::ranges::any_of(fit.parameters, [&](const FittedParameter& found) {
     return found.parameter.owner == Owner::record && found.parameter.index == fitted.rows.experiment &&
-           found.parameter.own == zero;
+           found.parameter.record_parameter == zero;
   });
   return is_sought ? std::nullopt : std::optional(zero);
 }
 
 /// The zero of a signal of a history that its residuals speak of; nothing if they do not, or if it is sought.
 /// `gain`: of this zero.
-std::optional<Own> zero_off(const Experiments& experiments, const FittedSignal& fitted, double gain,
-                            const Fit& fit) {
+std::optional<RecordParameter> zero_off(const Experiments& experiments, const FittedSignal& fitted, double gain,
+                                        const Fit& fit) {
   constexpr double third = 1.0 / 3.0;
   if (experiments[fitted.rows.experiment]->kind != ExperimentKind::history) return std::nullopt;
   const bool is_mean = std::abs(fitted.mean_score) >= most_mean_errors &&
@@ -204,7 +207,8 @@ std::optional<Own> zero_off(const Experiments& experiments, const FittedSignal& 
   return open_zero(experiments, fitted, fit);
 }
 
-std::string zero_warning(const FittedSignal& fitted, Own zero, double gain, const std::string& subject) {
+std::string zero_warning(const FittedSignal& fitted, RecordParameter zero, double gain,
+                         const std::string& subject) {
   return subject + " have a mean of " + core::format_number(fitted.mean, 3) + " in SI units, " +
          (std::abs(fitted.mean_score) >= most_mean_errors
               ? core::format_number(std::abs(fitted.mean_score), 2) + " standard errors"
@@ -212,15 +216,15 @@ std::string zero_warning(const FittedSignal& fitted, Own zero, double gain, cons
                     " % of their sum of squares at once") +
          ": the zero of the sensor is off, or the law differs between the directions. Seek the zero: "
          "'free' with " +
-         std::string(own_names[static_cast<std::size_t>(zero)]);
+         std::string(record_parameter_names[static_cast<std::size_t>(zero)]);
 }
 
 /// The zero among the possible causes; empty if it is sought.
 std::string open_zero_cause(const Experiments& experiments, const FittedSignal& fitted, const Fit& fit) {
-  const std::optional<Own> zero = open_zero(experiments, fitted, fit);
+  const std::optional<RecordParameter> zero = open_zero(experiments, fitted, fit);
   if (!zero) return {};
-  return "the zero of the sensor is off ('free' with " + std::string(own_names[static_cast<std::size_t>(*zero)]) +
-         " seeks it), ";
+  return "the zero of the sensor is off ('free' with " +
+         std::string(record_parameter_names[static_cast<std::size_t>(*zero)]) + " seeks it), ";
 }
 
 }  // namespace
@@ -268,7 +272,7 @@ void warn_of_residuals(const Experiments& experiments, bool robust, const std::v
                              (scatter_beside_stated(fitted) == Scatter::less
                                   ? "; the intervals use it and are too wide by up to the same factor"
                                   : "; the intervals are widened in proportion to the residuals"));
-    const std::optional<Own> zero = zero_off(experiments, fitted, zero_gains[s], fit);
+    const std::optional<RecordParameter> zero = zero_off(experiments, fitted, zero_gains[s], fit);
     if (zero) fit.warnings.push_back(zero_warning(fitted, *zero, zero_gains[s], subject));
     // For readings that are not samples, `stated_noise_warning` has already reported residuals above the stated
     // noise.

@@ -27,7 +27,7 @@ class Uncertainty {
     rows_ = end.unbounded.asDiagonal() * end.jacobian;
     if (size_ > 0) strongest_ = effects(whole_all()).maxCoeff();
     for (Eigen::Index i = 0; i < size_; ++i) {
-      const Coordinate& c = end.problem.coordinates()[static_cast<std::size_t>(i)];
+      const SearchCoordinate& c = end.problem.coordinates()[static_cast<std::size_t>(i)];
       constexpr double near = 1e-6;
       const bool low = end.q[i] <= c.low + near * std::max(1.0, std::abs(c.low));
       const bool high = end.q[i] >= c.high - near * std::max(1.0, std::abs(c.high));
@@ -79,7 +79,7 @@ class Uncertainty {
 
   /// A change of 100 % of a parameter, in coordinates.
   [[nodiscard]] double whole(Eigen::Index i) const {
-    const Coordinate& c = end_.problem.coordinates()[static_cast<std::size_t>(i)];
+    const SearchCoordinate& c = end_.problem.coordinates()[static_cast<std::size_t>(i)];
     return c.logarithmic ? 1.0 : std::max(std::abs(end_.q[i]), small);
   }
 
@@ -87,7 +87,7 @@ class Uncertainty {
   /// effect of that is small, up to the largest value of the search. Within it a spring that is nearly zero makes
   /// up for all of a mass, which a factor e of it does not show.
   [[nodiscard]] double unit(Eigen::Index i) const {
-    const Coordinate& c = end_.problem.coordinates()[static_cast<std::size_t>(i)];
+    const SearchCoordinate& c = end_.problem.coordinates()[static_cast<std::size_t>(i)];
     if (!c.logarithmic) return whole(i);
     constexpr double least = 0.1;
     const double effect = rows_.col(i).norm();
@@ -97,7 +97,7 @@ class Uncertainty {
 
   /// A parameter that is so small that its own value is no measure of it.
   [[nodiscard]] bool is_near_zero(Eigen::Index i) const {
-    const Coordinate& c = end_.problem.coordinates()[static_cast<std::size_t>(i)];
+    const SearchCoordinate& c = end_.problem.coordinates()[static_cast<std::size_t>(i)];
     return (c.logarithmic ? std::exp(end_.q[i]) : std::abs(end_.q[i])) < small;
   }
 
@@ -228,7 +228,7 @@ class Uncertainty {
 
   void add_interval(Eigen::Index i) {
     FittedParameter& fitted = fit_.parameters[static_cast<std::size_t>(i)];
-    const Coordinate& c = end_.problem.coordinates()[static_cast<std::size_t>(i)];
+    const SearchCoordinate& c = end_.problem.coordinates()[static_cast<std::size_t>(i)];
     if (fitted.at_bound) {
       fitted.reason = "it lies at the end of its range";
       return;

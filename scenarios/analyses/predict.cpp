@@ -174,11 +174,11 @@ std::string undriven_record(const identify::Rig& rig, const identify::Fit& held,
   constexpr double good = 0.25;  // of the motion: a rig at rest misses by all of it
   identify::Rig undriven = rig;
   undriven.known.excitation = {};
-  std::vector<identify::FitParameter> own;
+  std::vector<identify::FitParameter> of_records;
   for (std::size_t e = 0; e < data.size(); ++e)
-    for (const identify::Own each : data[e]->own_free)
-      own.push_back(identify::own_parameter(*data[e], e, each, data.size() == 1));
-  const identify::Fit fit = identify::fit_rig(undriven, own, data, {.profile = false});
+    for (const identify::RecordParameter each : data[e]->record_free)
+      of_records.push_back(identify::parameter_of_record(*data[e], e, each, data.size() == 1));
+  const identify::Fit fit = identify::fit_rig(undriven, of_records, data, {.profile = false});
   if (!fit.outcome.ok()) return {};
   const std::vector<double> with = errors_of(held, data.size());
   const std::vector<double> without = errors_of(fit, data.size());

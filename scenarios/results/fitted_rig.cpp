@@ -16,7 +16,7 @@ namespace dualdamp::scenarios {
 namespace {
 
 using identify::ExperimentKind;
-using identify::Own;
+using identify::RecordParameter;
 
 bool is_plain(const std::string& text) {
   constexpr std::string_view letters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ_";
@@ -103,21 +103,21 @@ void begin_at(const sim::Excitation& drive, double start, double duration, Json&
 }
 
 /// Contacts that were loaded at the first sample.
-void state_load(const identify::OwnValues& own, Json& scenario) {
-  const double travel = own[static_cast<std::size_t>(Own::travel)];
+void state_load(const identify::RecordValues& of_record, Json& scenario) {
+  const double travel = of_record[static_cast<std::size_t>(RecordParameter::travel)];
   if (travel != 0.0) scenario["initial"]["travel"] = travel;
 }
 
 void ask_for_motion(const identify::Fit& fit, const identify::Experiment& experiment, std::size_t index,
                     Json& scenario) {
-  const identify::OwnValues& own = fit.own[index];
+  const identify::RecordValues& of_record = fit.of_records[index];
   const std::vector<double>& t = experiment.signals.front().at;
   const double rate = static_cast<double>(t.size() - 1) / (t.back() - t.front());
   if (scenario.contains("excitation") && !experiment.drive)
     begin_at(fit.rig.known.excitation, t.front(), t.back() - t.front(), scenario["excitation"]);
-  scenario["initial"] = {{"position", own[static_cast<std::size_t>(Own::position)]},
-                         {"velocity", own[static_cast<std::size_t>(Own::velocity)]}};
-  state_load(own, scenario);
+  scenario["initial"] = {{"position", of_record[static_cast<std::size_t>(RecordParameter::position)]},
+                         {"velocity", of_record[static_cast<std::size_t>(RecordParameter::velocity)]}};
+  state_load(of_record, scenario);
   scenario["analysis"] = {{"type", "simulate"}, {"duration", t.back() - t.front()}, {"sample_rate", rate}};
 }
 
@@ -209,7 +209,7 @@ std::string scenario_text(const identify::Fit& fit, const identify::Experiments&
   const identify::Experiment& experiment = *experiments[index];
   Json scenario = rig_json(fit, text, experiment.drive ? *experiment.drive : fit.rig.known.excitation);
   const bool is_friction_alone = fill_in_constants(scenario["system"]);
-  const identify::OwnValues& own = fit.own[index];
+  const identify::RecordValues& of_record = fit.of_records[index];
   std::string remark;
   if (is_recorded(experiment, text) && !scenario["excitation"].contains("times") &&
       !scenario["excitation"].contains("file")) {
@@ -225,8 +225,9 @@ std::string scenario_text(const identify::Fit& fit, const identify::Experiments&
       break;
     case ExperimentKind::decay:
       scenario.erase("excitation");
-      scenario["initial"] = {{"position", own[static_cast<std::size_t>(Own::position)]}, {"velocity", 0.0}};
-      state_load(own, scenario);
+      scenario["initial"] = {{"position", of_record[static_cast<std::size_t>(RecordParameter::position)]},
+                             {"velocity", 0.0}};
+      state_load(of_record, scenario);
       scenario["analysis"] = {{"type", "free_decay"}, {"peaks", experiment.signals.front().measured.size()}};
       break;
     case ExperimentKind::history:

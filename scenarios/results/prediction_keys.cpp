@@ -13,7 +13,8 @@ namespace {
 
 /// Whether a name, such as `offset[2]`, is that of a parameter of one record.
 bool is_of_one_record(const std::string& name) {
-  return std::ranges::find(identify::own_names, name.substr(0, name.find('['))) != identify::own_names.end();
+  return std::ranges::find(identify::record_parameter_names, name.substr(0, name.find('['))) !=
+         identify::record_parameter_names.end();
 }
 
 }  // namespace

@@ -24,8 +24,8 @@ namespace dualdamp::scenarios {
 namespace {
 
 using identify::FitParameter;
-using identify::Own;
 using identify::Owner;
+using identify::RecordParameter;
 
 identify::RigLaw law_from(const Json& section, core::Coordinate coordinate) {
   const friction::LawEntry* entry = friction::find_law(section.at("law").get<std::string>());
@@ -38,13 +38,13 @@ bool is_loop_alone(const identify::Experiments& experiments) {
 }
 
 /// "position" means that of all records, "position[1]" that of one.
-bool take_own(const std::string& name, const identify::Experiments& experiments,
-              std::vector<FitParameter>& parameters) {
+bool take_of_record(const std::string& name, const identify::Experiments& experiments,
+                    std::vector<FitParameter>& parameters) {
   bool found = false;
   for (std::size_t e = 0; e < experiments.size(); ++e)
-    for (const auto* list : {&experiments[e]->own_free, &experiments[e]->own_others})
-      for (const Own own : *list) {
-        FitParameter parameter = identify::own_parameter(*experiments[e], e, own, experiments.size() == 1);
+    for (const auto* list : {&experiments[e]->record_free, &experiments[e]->record_others})
+      for (const RecordParameter each : *list) {
+        FitParameter parameter = identify::parameter_of_record(*experiments[e], e, each, experiments.size() == 1);
         if (name != parameter.name && name != parameter.name.substr(0, parameter.name.find('['))) continue;
         found = true;
         if (std::ranges::find(parameters, parameter.name, &FitParameter::name) == parameters.end())
@@ -326,16 +326,17 @@ identify::Experiments experiments_from(const std::vector<DataItem>& items, const
     if (!fault.empty()) faults.push_back({place, items[i].file + ": " + fault});
     if (std::string idle = idle_drive(items[i], model); !idle.empty()) faults.push_back({place, std::move(idle)});
     for (const std::size_t h : items[i].zeroed)
-      if (found.size() == items[i].data.record.histories.size()) found[h]->own_free.push_back(Own::offset);
+      if (found.size() == items[i].data.record.histories.size())
+        found[h]->record_free.push_back(RecordParameter::offset);
     for (auto& experiment : found) {
       if (experiment->kind == identify::ExperimentKind::history && !experiment->drive && drive.is_harmonic() &&
           !(drive.amplitude > 0.0))
         faults.push_back({place, items[i].file + ": a history under a harmonic drive needs 'excitation.amplitude'; "
                                                  "'drive: none' beside 'file' in a scenario, if nothing drove it"});
       if (sought.initial_is_known && experiment->kind == identify::ExperimentKind::history) {
-        experiment->own_start[static_cast<std::size_t>(Own::position)] = model.initial.position;
-        experiment->own_start[static_cast<std::size_t>(Own::velocity)] = model.initial.velocity;
-        experiment->own_start[static_cast<std::size_t>(Own::travel)] = model.initial.travel;
+        experiment->record_start[static_cast<std::size_t>(RecordParameter::position)] = model.initial.position;
+        experiment->record_start[static_cast<std::size_t>(RecordParameter::velocity)] = model.initial.velocity;
+        experiment->record_start[static_cast<std::size_t>(RecordParameter::travel)] = model.initial.travel;
         experiment->knows_load = true;
       }
       all.push_back(std::move(experiment));
@@ -359,11 +360,11 @@ std::vector<FitParameter> parameters_for(const identify::Rig& rig, const identif
   }
   for (const std::string& lack : lacking) faults.push_back({"laws", lack});
   const std::vector<FitParameter> all = identify::parameters_of(rig);
-  std::vector<FitParameter> own;
+  std::vector<FitParameter> of_records;
   for (const std::string& name : sought.free) {
     std::string fault;
     std::vector<FitParameter> found = identify::named(all, name, fault);
-    if (found.empty() && take_own(name, experiments, own)) continue;
+    if (found.empty() && take_of_record(name, experiments, of_records)) continue;
     if (!fault.empty()) {
       std::string names;
       for (const FitParameter& parameter : all) names += (names.empty() ? "" : ", ") + parameter.name;
@@ -375,15 +376,17 @@ std::vector<FitParameter> parameters_for(const identify::Rig& rig, const identif
   refuse_without_scale(rig, parameters, experiments, faults);
   const bool placed = identify::feels_place(rig, parameters);
   for (std::size_t e = 0; e < experiments.size(); ++e)
-    for (const Own free : identify::sought_own(*experiments[e], placed)) {
+    for (const RecordParameter free : identify::sought_of_record(*experiments[e], placed)) {
       const bool is_history = experiments[e]->kind == identify::ExperimentKind::history;
-      if (sought.initial_is_known && is_history && (free == Own::position || free == Own::velocity)) continue;
-      FitParameter parameter = identify::own_parameter(*experiments[e], e, free, experiments.size() == 1);
-      if (std::ranges::find(own, parameter.name, &FitParameter::name) == own.end())
-        own.push_back(std::move(parameter));
+      if (sought.initial_is_known && is_history &&
+          (free == RecordParameter::position || free == RecordParameter::velocity))
+        continue;
+      FitParameter parameter = identify::parameter_of_record(*experiments[e], e, free, experiments.size() == 1);
+      if (std::ranges::find(of_records, parameter.name, &FitParameter::name) == of_records.end())
+        of_records.push_back(std::move(parameter));
     }
   identify::arrange(rig, parameters);
-  std::ranges::move(own, std::back_inserter(parameters));
+  std::ranges::move(of_records, std::back_inserter(parameters));
   for (const Bound& bound : sought.bounds) take_bound(bound, rig.known.oscillator.coordinate, parameters, faults);
   return parameters;
 }

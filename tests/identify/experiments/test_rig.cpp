@@ -64,8 +64,9 @@ identify::Fit fit_of_loop(const RigLoop& plan, std::uint64_t seed, double sigma 
   REQUIRE(fault.empty());
   std::vector<identify::FitParameter> parameters =
       test::sought_in(rig, {"mass", "stiffness", "damping", "kinetic"}, 1.0);
-  for (const identify::Own own : identify::sought_own(*experiments.front(), identify::feels_place(rig, parameters)))
-    parameters.push_back(identify::own_parameter(*experiments.front(), 0, own, true));
+  for (const identify::RecordParameter each :
+       identify::sought_of_record(*experiments.front(), identify::feels_place(rig, parameters)))
+    parameters.push_back(identify::parameter_of_record(*experiments.front(), 0, each, true));
   identify::Fit fit = identify::fit_rig(rig, parameters, experiments, {.profile = false});
   REQUIRE(fit.outcome.ok());
   return fit;
@@ -192,8 +193,9 @@ identify::Fit fit_of_one_sine(const identify::Rig& rig, const identify::History&
   const identify::Experiments experiments =
       identify::experiments_of(record, {.name = "loop", .loop = true, .has_mass = true}, fault);
   REQUIRE(fault.empty());
-  for (const identify::Own own : identify::sought_own(*experiments.front(), identify::feels_place(rig, parameters)))
-    parameters.push_back(identify::own_parameter(*experiments.front(), 0, own, true));
+  for (const identify::RecordParameter each :
+       identify::sought_of_record(*experiments.front(), identify::feels_place(rig, parameters)))
+    parameters.push_back(identify::parameter_of_record(*experiments.front(), 0, each, true));
   identify::Fit fit = identify::fit_rig(rig, parameters, experiments, {.profile = false});
   REQUIRE(fit.outcome.ok());
   return fit;

@@ -153,8 +153,8 @@ identify::Fit fit_of(const RandomRig& rig, bool profile) {
     identify::arrange(rig.sought, parameters);
   }
   if (!fault.empty() || !faults.empty()) throw std::runtime_error("a random rig cannot be fitted: " + fault);
-  for (const identify::Own own : experiments.at(0)->own_free)
-    parameters.push_back(identify::own_parameter(*experiments[0], 0, own, true));
+  for (const identify::RecordParameter each : experiments.at(0)->record_free)
+    parameters.push_back(identify::parameter_of_record(*experiments[0], 0, each, true));
   return identify::fit_rig(rig.sought, std::move(parameters), experiments, {.profile = profile});
 }
 

@@ -282,8 +282,8 @@ identify::Fit fit_of(identify::Rig rig, const std::vector<std::string>& sought,
                      const identify::Experiments& experiments, bool profile) {
   constexpr double off = 1.15;
   std::vector<identify::FitParameter> parameters = sought_in(rig, sought, off);
-  for (const identify::Own own : experiments.front()->own_free)
-    parameters.push_back(identify::own_parameter(*experiments.front(), 0, own, true));
+  for (const identify::RecordParameter each : experiments.front()->record_free)
+    parameters.push_back(identify::parameter_of_record(*experiments.front(), 0, each, true));
   return identify::fit_rig(rig, std::move(parameters), experiments, {.profile = profile});
 }
 

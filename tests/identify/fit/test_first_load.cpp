@@ -44,8 +44,8 @@ struct Sought {
 Sought sought_in(identify::Rig rig, const std::vector<std::string>& names,
                  const identify::Experiments& experiments) {
   std::vector<identify::FitParameter> parameters = test::sought_in(rig, names, 1.15);
-  for (const identify::Own own : experiments.front()->own_free)
-    parameters.push_back(identify::own_parameter(*experiments.front(), 0, own, true));
+  for (const identify::RecordParameter each : experiments.front()->record_free)
+    parameters.push_back(identify::parameter_of_record(*experiments.front(), 0, each, true));
   return {std::move(rig), std::move(parameters)};
 }
 
@@ -86,7 +86,7 @@ TEST_CASE("fit: a contact that had yielded at the first sample is known, not sou
   REQUIRE(fit.outcome.ok());
   CHECK(fit.noise_units < 1.1);
   CHECK(test::find_fitted(fit, "travel") == nullptr);
-  CHECK(fit.own.front()[static_cast<std::size_t>(identify::Own::travel)] > 1e-3);
+  CHECK(fit.of_records.front()[static_cast<std::size_t>(identify::RecordParameter::travel)] > 1e-3);
   CHECK(fit.not_identifiable.empty());
   for (const char* name : {"kinetic", "contact_stiffness"}) check_value(fit, name, test::truth_of(truth, name));
 }

@@ -34,8 +34,8 @@ Fit fit_records(identify::Rig rig, const std::vector<std::string>& names, const 
   REQUIRE(fault.empty());
   std::vector<identify::FitParameter> parameters = test::sought_in(rig, names, factor);
   for (std::size_t e = 0; e < experiments.size(); ++e)
-    for (const identify::Own own : experiments[e]->own_free)
-      parameters.push_back(identify::own_parameter(*experiments[e], e, own, experiments.size() == 1));
+    for (const identify::RecordParameter each : experiments[e]->record_free)
+      parameters.push_back(identify::parameter_of_record(*experiments[e], e, each, experiments.size() == 1));
   return identify::fit_rig(rig, std::move(parameters), experiments);
 }
 
@@ -94,8 +94,8 @@ TEST_CASE("fit: a free vibration to its rest gives friction and damping, whichev
         experiments.push_back(std::move(experiment));
       std::vector<identify::FitParameter> parameters = identify::unstated_parameters(sought, faults);
       REQUIRE(faults.empty());
-      for (const identify::Own own : experiments.at(0)->own_free)
-        parameters.push_back(identify::own_parameter(*experiments[0], 0, own, true));
+      for (const identify::RecordParameter each : experiments.at(0)->record_free)
+        parameters.push_back(identify::parameter_of_record(*experiments[0], 0, each, true));
       const Fit fit = identify::fit_rig(sought, std::move(parameters), experiments, {.profile = false});
       REQUIRE(fit.outcome.ok());
       CHECK(named(fit, "damping").value == Approx(damping).epsilon(1e-5));
@@ -249,8 +249,10 @@ TEST_CASE("fit: a cubic spring that the scenario leaves at zero is found with th
     std::vector<identify::FitParameter> parameters = identify::unstated_parameters(sought, faults);
     for (identify::FitParameter& cubic : identify::named(identify::parameters_of(sought), "cubic_stiffness", fault))
       parameters.push_back(std::move(cubic));
-    for (const identify::Own own : {identify::Own::position, identify::Own::velocity, identify::Own::offset})
-      parameters.push_back(identify::own_parameter(*experiments.front(), 0, own, true));
+    for (const identify::RecordParameter each :
+         {identify::RecordParameter::position, identify::RecordParameter::velocity,
+          identify::RecordParameter::offset})
+      parameters.push_back(identify::parameter_of_record(*experiments.front(), 0, each, true));
     const Fit fit = identify::fit_rig(sought, std::move(parameters), experiments, {.profile = false});
     REQUIRE(fit.outcome.ok());
     CHECK(fit.warnings.empty());
@@ -365,8 +367,8 @@ TEST_CASE("fit: Huber's weights bound what spikes do", "[identify][fit]") {
   std::string fault;
   const identify::Experiments experiments = identify::experiments_of(record, {.name = "spikes"}, fault);
   std::vector<identify::FitParameter> parameters = test::sought_in(rig, {"kinetic"}, 1.2);
-  for (const identify::Own own : experiments.front()->own_free)
-    parameters.push_back(identify::own_parameter(*experiments.front(), 0, own, true));
+  for (const identify::RecordParameter each : experiments.front()->record_free)
+    parameters.push_back(identify::parameter_of_record(*experiments.front(), 0, each, true));
   const Fit plain = identify::fit_rig(rig, parameters, experiments, {.profile = false});
   const Fit robust = identify::fit_rig(rig, parameters, experiments, {.robust = true, .profile = false});
   REQUIRE(plain.outcome.ok());
@@ -411,8 +413,8 @@ TEST_CASE("fit: outliers that a robust fit bounds prove nothing against the law"
     std::string fault;
     const identify::Experiments experiments = identify::experiments_of(record, {.name = "outliers"}, fault);
     std::vector<identify::FitParameter> parameters = test::sought_in(rig, {"kinetic"}, 1.2);
-    for (const identify::Own own : experiments.front()->own_free)
-      parameters.push_back(identify::own_parameter(*experiments.front(), 0, own, true));
+    for (const identify::RecordParameter each : experiments.front()->record_free)
+      parameters.push_back(identify::parameter_of_record(*experiments.front(), 0, each, true));
     const Fit fit = identify::fit_rig(rig, parameters, experiments, {.robust = true, .profile = false});
     REQUIRE(fit.outcome.ok());
     CHECK(std::abs(fit.parameters[0].value - 1.0) < 4.0 * fit.parameters[0].std);

@@ -72,8 +72,8 @@ Fit fit_of_resting_loop(const RestingLoop& plan, bool robust = false) {
   rig.known.excitation = {};
   std::vector<identify::FitParameter> parameters =
       test::sought_in(rig, {"mass", "stiffness", "damping", "kinetic"}, 1.3);
-  for (const identify::Own own : identify::sought_own(*experiments.front(), true))
-    parameters.push_back(identify::own_parameter(*experiments.front(), 0, own, true));
+  for (const identify::RecordParameter each : identify::sought_of_record(*experiments.front(), true))
+    parameters.push_back(identify::parameter_of_record(*experiments.front(), 0, each, true));
   Fit fit = identify::fit_rig(rig, parameters, experiments, {.robust = robust, .profile = false});
   REQUIRE(fit.outcome.ok());
   return fit;
@@ -139,8 +139,8 @@ TEST_CASE("fit: intervals beside a parameter at its bound hold what trades with 
     for (identify::FitParameter& parameter : identify::named(identify::parameters_of(sought), name, fault))
       parameters.push_back(std::move(parameter));
   identify::arrange(sought, parameters);
-  for (const identify::Own own : experiments.front()->own_free)
-    parameters.push_back(identify::own_parameter(*experiments.front(), 0, own, true));
+  for (const identify::RecordParameter each : experiments.front()->record_free)
+    parameters.push_back(identify::parameter_of_record(*experiments.front(), 0, each, true));
   const Fit fit = identify::fit_rig(sought, parameters, experiments);
   REQUIRE(fit.outcome.ok());
   for (const auto& [name, true_value] : {std::pair{"kinetic_forward", 2.0},

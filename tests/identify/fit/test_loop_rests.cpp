@@ -78,7 +78,7 @@ TEST_CASE("loop: a sample at rest costs no more than one in motion", "[identify]
     const identify::Experiment& loop = *experiments.front();
     Eigen::VectorXd outputs;
     sim::Model model = dahl_alone().known;
-    REQUIRE(loop.predict(model, loop.own_start, outputs));
+    REQUIRE(loop.predict(model, loop.record_start, outputs));
     const auto samples = static_cast<double>(record.histories[0].force.size());
     CHECK(static_cast<double>(*loop.work) < 1.15 * samples);
   }

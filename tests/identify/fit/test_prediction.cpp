@@ -31,8 +31,8 @@ identify::Prediction prediction_by(const std::string& law, std::vector<std::stri
   identify::Rig rig = truth;
   if (law != "stribeck") rig.laws = {{friction::find_law(law), {{"kinetic", 1.2}}}};
   std::vector<identify::FitParameter> parameters = test::sought_in(rig, names, 1.2);
-  for (const identify::Own own : first.front()->own_free)
-    parameters.push_back(identify::own_parameter(*first.front(), 0, own, true));
+  for (const identify::RecordParameter each : first.front()->record_free)
+    parameters.push_back(identify::parameter_of_record(*first.front(), 0, each, true));
   identify::Fit fit = identify::fit_rig(rig, parameters, first, {.profile = false});
   REQUIRE(fit.outcome.ok());
   fit.rig.known.excitation.amplitude *= 0.6;

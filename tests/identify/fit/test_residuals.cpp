@@ -68,8 +68,8 @@ TEST_CASE("residuals: a fit that leaves more than noise says so", "[identify][fi
   std::string fault;
   const identify::Experiments experiments = identify::experiments_of(record, {.name = "record.csv"}, fault);
   std::vector<identify::FitParameter> parameters = test::sought_in(rig, {"kinetic", "damping"}, 1.2);
-  for (const identify::Own own : experiments.front()->own_free)
-    parameters.push_back(identify::own_parameter(*experiments.front(), 0, own, true));
+  for (const identify::RecordParameter each : experiments.front()->record_free)
+    parameters.push_back(identify::parameter_of_record(*experiments.front(), 0, each, true));
   const Fit fit = identify::fit_rig(rig, parameters, experiments, {.profile = false});
   REQUIRE(fit.outcome.ok());
   REQUIRE(fit.warnings.size() == 1);
@@ -87,8 +87,8 @@ TEST_CASE("residuals: a stated noise that is ten times off is told, and interval
     const identify::Experiments experiments =
         identify::experiments_of(record, {.name = "record.csv", .sigma_x = sigma}, fault);
     std::vector<identify::FitParameter> parameters = test::sought_in(rig, {"kinetic"}, 1.2);
-    for (const identify::Own own : experiments.front()->own_free)
-      parameters.push_back(identify::own_parameter(*experiments.front(), 0, own, true));
+    for (const identify::RecordParameter each : experiments.front()->record_free)
+      parameters.push_back(identify::parameter_of_record(*experiments.front(), 0, each, true));
     return identify::fit_rig(rig, std::move(parameters), experiments, {.profile = false});
   };
   const Fit right = fit_with(1e-5);

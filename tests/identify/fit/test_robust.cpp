@@ -34,8 +34,8 @@ Fit fit_of_few(const FewExtremes& plan, std::uint64_t seed) {
       identify::experiments_of(record, {.name = "decay", .sigma_x = plan.sigma_x}, fault);
   REQUIRE(fault.empty());
   std::vector<identify::FitParameter> parameters = test::sought_in(rig, {"kinetic", "damping"}, 1.15);
-  for (const identify::Own own : experiments.front()->own_free)
-    parameters.push_back(identify::own_parameter(*experiments.front(), 0, own, true));
+  for (const identify::RecordParameter each : experiments.front()->record_free)
+    parameters.push_back(identify::parameter_of_record(*experiments.front(), 0, each, true));
   Fit fit = identify::fit_rig(rig, parameters, experiments, {.robust = plan.robust, .profile = plan.profile});
   REQUIRE(fit.outcome.ok());
   return fit;

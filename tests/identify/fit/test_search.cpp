@@ -63,8 +63,8 @@ identify::Fit fit_of_record(const identify::Rig& rig, const identify::Record& re
   const identify::Experiments experiments =
       identify::experiments_of(record, {.name = "record", .loop = is_loop, .has_mass = has_mass}, fault);
   REQUIRE(fault.empty());
-  for (const identify::Own own : experiments.at(0)->own_free)
-    parameters.push_back(identify::own_parameter(*experiments[0], 0, own, true));
+  for (const identify::RecordParameter each : experiments.at(0)->record_free)
+    parameters.push_back(identify::parameter_of_record(*experiments[0], 0, each, true));
   identify::Fit fit = identify::fit_rig(rig, std::move(parameters), experiments, {.profile = false});
   REQUIRE(fit.outcome.ok());
   return fit;
@@ -197,8 +197,8 @@ TEST_CASE("search: a search that takes too much work is cut short, and says so",
         identify::experiments_of(record, {.name = "record", .loop = is_loop}, fault);
     REQUIRE(fault.empty());
     std::vector<identify::FitParameter> parameters = test::sought_in(rig, {"kinetic"}, 1.2);
-    for (const identify::Own own : experiments.front()->own_free)
-      parameters.push_back(identify::own_parameter(*experiments.front(), 0, own, true));
+    for (const identify::RecordParameter each : experiments.front()->record_free)
+      parameters.push_back(identify::parameter_of_record(*experiments.front(), 0, each, true));
     return identify::fit_rig(rig, parameters, experiments, {.most_work = 500}).outcome;
   };
   for (const char* law : {"coulomb", "dahl"}) {

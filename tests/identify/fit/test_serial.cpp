@@ -18,8 +18,8 @@ identify::Fit fit_to(identify::Rig rig, const identify::Record& record, const st
   const identify::Experiments experiments = identify::experiments_of(record, {.name = "record"}, fault);
   REQUIRE(fault.empty());
   std::vector<identify::FitParameter> parameters = test::sought_in(rig, names, 1.1);
-  for (const identify::Own own : experiments.front()->own_free)
-    parameters.push_back(identify::own_parameter(*experiments.front(), 0, own, true));
+  for (const identify::RecordParameter each : experiments.front()->record_free)
+    parameters.push_back(identify::parameter_of_record(*experiments.front(), 0, each, true));
   return identify::fit_rig(rig, std::move(parameters), experiments, {.profile = false});
 }
 

@@ -48,7 +48,8 @@ Record decay_with_zeros(const identify::Rig& rig, const std::string& signals, do
 }
 
 /// A fit of friction and damping, with the parameters of the record that a fit seeks by itself and `also`.
-Fit fit_of_zeros(const identify::Rig& truth, const Record& record, std::optional<identify::Own> also = {}) {
+Fit fit_of_zeros(const identify::Rig& truth, const Record& record,
+                 std::optional<identify::RecordParameter> also = {}) {
   identify::Rig sought = truth;
   sought.known.oscillator.damping = identify::unknown;
   sought.laws[0].values = {};
@@ -56,10 +57,10 @@ Fit fit_of_zeros(const identify::Rig& truth, const Record& record, std::optional
   std::string fault;
   const identify::Experiments experiments = identify::experiments_of(record, {.name = "record"}, fault);
   std::vector<identify::FitParameter> parameters = identify::unstated_parameters(sought, faults);
-  std::vector<identify::Own> owned = identify::sought_own(*experiments.at(0), true);
-  if (also) owned.push_back(*also);
-  for (const identify::Own own : owned)
-    parameters.push_back(identify::own_parameter(*experiments[0], 0, own, true));
+  std::vector<identify::RecordParameter> free = identify::sought_of_record(*experiments.at(0), true);
+  if (also) free.push_back(*also);
+  for (const identify::RecordParameter each : free)
+    parameters.push_back(identify::parameter_of_record(*experiments[0], 0, each, true));
   return identify::fit_rig(sought, std::move(parameters), experiments, {.profile = false});
 }
 
@@ -113,7 +114,8 @@ TEST_CASE("fit: a small zero of a or v is told, and sought if it is free", "[ide
     CHECK_THAT(told.warnings.back(),
                Catch::Contains(signals == "v" ? "'free' with offset_v" : "'free' with offset_a"));
   }
-  const Fit found = fit_of_zeros(truth, decay_with_zeros(truth, "a", 0.0, 0.003), identify::Own::offset_a);
+  const Fit found =
+      fit_of_zeros(truth, decay_with_zeros(truth, "a", 0.0, 0.003), identify::RecordParameter::offset_a);
   CHECK(found.warnings.empty());
   const double stiffness_by_mass = truth.known.oscillator.stiffness / truth.known.oscillator.mass;
   CHECK(parameter_of(found, "offset_a").value ==
