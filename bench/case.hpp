@@ -6,8 +6,8 @@
 #include <string>
 
 #include "bench/consequence.hpp"
+#include "bench/departure_names.hpp"
 #include "bench/grid.hpp"
-#include "bench/rigs.hpp"
 #include "identify/record.hpp"
 #include "sim/orbits/steady_state.hpp"
 

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "bench/rigs.hpp"
+#include "bench/departure_names.hpp"
 
 namespace dualdamp::bench {
 

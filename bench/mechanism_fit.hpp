@@ -18,8 +18,8 @@
 #include <span>
 #include <vector>
 
+#include "bench/departure_names.hpp"
 #include "bench/mechanisms.hpp"
-#include "bench/rigs.hpp"
 #include "core/outcome.hpp"
 #include "identify/record.hpp"
 #include "sim/orbits/steady_state_near.hpp"

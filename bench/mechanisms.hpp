@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/rigs.hpp"
+#include "bench/departure_names.hpp"
 #include "scenarios/analysis.hpp"
 
 namespace dualdamp::bench {

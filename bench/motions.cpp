@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <iterator>
 
+#include "bench/departure_names.hpp"
 #include "bench/random_response.hpp"
-#include "bench/rigs.hpp"
 #include "identify/statistics/median.hpp"
 
 namespace dualdamp::bench {

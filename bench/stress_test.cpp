@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "bench/campaign.hpp"
+#include "bench/departure_names.hpp"
 #include "bench/random_response.hpp"
-#include "bench/rigs.hpp"
 #include "bench/score/program_answer.hpp"
 #include "bench/score/score_tables.hpp"
 #include "bench/truth.hpp"

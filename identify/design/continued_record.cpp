@@ -43,7 +43,7 @@ VectorXd extended(const VectorXd& of, Index count) {
 
 /// The states of a plan, with about the amplitudes that they will have; all with phases.
 std::vector<Pair> states_of(const StudiedRecord& record, const std::vector<PlannedState>& planned) {
-  const rigs::ReferenceMotion& reference = record.model.reference();
+  const departures::ReferenceMotion& reference = record.model.reference();
   std::vector<Pair> states;
   for (const PlannedState& state : planned) {
     Pair pair{.Y = state.Y,

@@ -6,9 +6,9 @@
 #include <cstdint>
 #include <memory>
 
+#include "identify/departures/departures.hpp"
 #include "identify/ledger/ledger.hpp"
 #include "identify/methods/any_law/any_law.hpp"
-#include "identify/rigs/rigs.hpp"
 #include "sim/orbits/steady_state.hpp"
 #include "tests/identify/records.hpp"
 
@@ -60,13 +60,13 @@ Record mixed_states(bool (*has_phase)(int), std::uint64_t seed = 5) {
   Record record;
   record.pairs.emplace();
   for (int i = 0; i < 15; ++i) {
-    rigs::Truth rig;
+    departures::Truth rig;
     rig.F0 = F0;
     rig.model.oscillator = {.mass = 1.0, .stiffness = 100.0, .damping = 2.0 * zeta * 10.0};
     rig.model.excitation = {.type = dualdamp::sim::ExcitationType::base_harmonic,
                             .amplitude = 0.05 + 0.01 * (i % 5),
                             .frequency = 9.0 + 0.5 * (i / 5)};
-    const dualdamp::sim::Model model = rigs::undisturbed(rig);
+    const dualdamp::sim::Model model = departures::undisturbed(rig);
     const auto state = dualdamp::sim::steady_state(model);
     REQUIRE(state.outcome.ok());
     Pair pair{.Y = model.excitation.amplitude, .x = state.amplitude * (1.0 + 1e-3 * normal()), .number = i + 1};

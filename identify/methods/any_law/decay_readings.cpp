@@ -118,14 +118,15 @@ class DecayReadings final : public ReadingModel {
   }
 
   [[nodiscard]] sim::Model model_of(const LawAt& law, const VectorXd& p, double accuracy) const {
-    rigs::Truth truth;
+    departures::Truth truth;
     truth.model.oscillator.mass = constants_.mass;
     truth.model.oscillator.stiffness = constants_.stiffness;
     truth.model.oscillator.damping = p[1] * c_unit_;
     truth.model.initial.position = release_ * (1.0 + p[2]);
     truth.F0 = p[0] * F0_unit_;
-    sim::Model model = law.departure == nullptr ? rigs::undisturbed(truth)
-                                                : rigs::departed(*law.departure, truth, reference_, law.severity);
+    sim::Model model = law.departure == nullptr
+                           ? departures::undisturbed(truth)
+                           : departures::departed(*law.departure, truth, reference_, law.severity);
     model.solver.tolerance = accuracy;
     return model;
   }

@@ -10,11 +10,11 @@
 /// No law is exactly that of the rig: beside the noise, each has an error of `law_error` times the effect of the
 /// departure on the readings. Plain friction has no such error, nor has a law whose chi2 is more than half that of
 /// plain friction.
-/// zeta and F0 of a law are those of the Coulomb + viscous friction that it departs from (identify/rigs/rigs.hpp):
-/// what remains as its severity goes to zero. If every law is rejected, the noise is raised until the best one is
-/// not, and `inflation` states the factor (birge1932). Source: brynjarsdottir2014, pasquier2015. Docs:
-/// docs/methods/any_law.md. Cost: one record of eight states with phases takes seconds; laws are shared out to all
-/// cores.
+/// zeta and F0 of a law are those of the Coulomb + viscous friction that it departs from
+/// (identify/departures/departures.hpp): what remains as its severity goes to zero. If every law is rejected, the
+/// noise is raised until the best one is not, and `inflation` states the factor (birge1932). Source:
+/// brynjarsdottir2014, pasquier2015. Docs: docs/methods/any_law.md. Cost: one record of eight states with phases
+/// takes seconds; laws are shared out to all cores.
 
 #include <array>
 #include <string>

@@ -228,8 +228,8 @@ bool is_open(const std::vector<SeverityFit>& fits, double least) {
 }
 
 /// Adds fits at growing severities until no region reaches further, or up to `furthest`.
-void follow(const ReadingModel& model, const rigs::Departure& departure, const ChannelNoise& noise, double furthest,
-            NearbyOrbits& near, std::vector<SeverityFit>& fits) {
+void follow(const ReadingModel& model, const departures::Departure& departure, const ChannelNoise& noise,
+            double furthest, NearbyOrbits& near, std::vector<SeverityFit>& fits) {
   const SeverityScale scale(&departure);
   constexpr double growth = 1.5;
   constexpr double out_of_region = 15.0;
@@ -341,7 +341,7 @@ std::optional<PlainFit> with_law_error(const ReadingModel& model, PlainFit plain
   return plain;
 }
 
-LawProfile law_profile(const ReadingModel& model, const rigs::Departure& departure, double largest,
+LawProfile law_profile(const ReadingModel& model, const departures::Departure& departure, double largest,
                        const ChannelNoise& noise, const SeverityFit& plain, double furthest) {
   constexpr int count = 5;
   constexpr double out_of_reach = 60.0;

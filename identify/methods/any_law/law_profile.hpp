@@ -81,7 +81,8 @@ struct LawProfile {
 /// early once a severity fits so much worse than a milder one that no region reaches it. Negative `largest`:
 /// severities of the other sign. If the law fits best at `largest`, and far better than plain friction, it is
 /// followed on to `furthest`, of the same sign; zero: it is not followed on.
-[[nodiscard]] LawProfile law_profile(const ReadingModel& model, const rigs::Departure& departure, double largest,
-                                     const ChannelNoise& noise, const SeverityFit& plain, double furthest = 0.0);
+[[nodiscard]] LawProfile law_profile(const ReadingModel& model, const departures::Departure& departure,
+                                     double largest, const ChannelNoise& noise, const SeverityFit& plain,
+                                     double furthest = 0.0);
 
 }  // namespace dualdamp::identify

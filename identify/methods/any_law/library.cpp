@@ -8,8 +8,8 @@
 #include <string_view>
 #include <utility>
 
+#include "identify/departures/groups.hpp"
 #include "identify/methods/any_law/any_law.hpp"
-#include "identify/rigs/groups.hpp"
 #include "sim/parallel.hpp"
 
 namespace dualdamp::identify {
@@ -23,63 +23,64 @@ constexpr std::array two_sided = {"cubic_spring", "detuning", "film_beside_dampe
 /// Positive severity: a film takes half of the viscous force and thins with speed. Negative severity: a drag with
 /// the square of speed beside the damper. c is that of low speeds, as under `viscous_saturating`. To the first
 /// order in the severity both give c v (1 - s |v|/V).
-sim::Model film_beside_damper(const rigs::RigBase& base, rigs::DepartureValues p) {
-  sim::Model model = rigs::with_coulomb(base);
+sim::Model film_beside_damper(const departures::RigBase& base, departures::DepartureValues p) {
+  sim::Model model = departures::with_coulomb(base);
   const double V = base.reference.speed();
   if (p[0] < 0.0)
-    return rigs::with_law(std::move(model), "viscous_power",
-                          {{"coefficient", -p[0] * base.c() / V}, {"exponent", 2.0}});
+    return departures::with_law(std::move(model), "viscous_power",
+                                {{"coefficient", -p[0] * base.c() / V}, {"exponent", 2.0}});
   constexpr double share = 0.5;
   model.oscillator.damping *= 1.0 - share;
-  return rigs::with_law(std::move(model), "viscous_saturating",
-                        {{"coefficient", share * base.c()}, {"saturation_velocity", share * V / p[0]}});
+  return departures::with_law(std::move(model), "viscous_saturating",
+                              {{"coefficient", share * base.c()}, {"saturation_velocity", share * V / p[0]}});
 }
 
 /// Half of the friction acts directly, the other half behind free play.
-sim::Model partial_play(const rigs::RigBase& base, rigs::DepartureValues p) {
+sim::Model partial_play(const departures::RigBase& base, departures::DepartureValues p) {
   constexpr double share = 0.5;
-  rigs::RigBase rigid = base;
+  departures::RigBase rigid = base;
   rigid.F0 *= 1.0 - share;
-  return rigs::with_law(rigs::with_coulomb(rigid), "free_play", {{"kinetic", share * base.F0}, {"play", p[0]}});
+  return departures::with_law(departures::with_coulomb(rigid), "free_play",
+                              {{"kinetic", share * base.F0}, {"play", p[0]}});
 }
 
 /// Friction falls from F0 (1 + s) at rest to F0 at the peak speed, and further beyond.
-sim::Model wide_stribeck(const rigs::RigBase& base, rigs::DepartureValues p) {
+sim::Model wide_stribeck(const departures::RigBase& base, departures::DepartureValues p) {
   const double fallen = 1.0 - std::exp(-1.0);
-  return rigs::with_law(base.model, "stribeck",
-                        {{"kinetic", (1.0 + p[0] - p[0] / fallen) * base.F0},
-                         {"static", (1.0 + p[0]) * base.F0},
-                         {"stribeck_velocity", base.reference.speed()}});
+  return departures::with_law(base.model, "stribeck",
+                              {{"kinetic", (1.0 + p[0] - p[0] / fallen) * base.F0},
+                               {"static", (1.0 + p[0]) * base.F0},
+                               {"stribeck_velocity", base.reference.speed()}});
 }
 
 /// Laws of the library that are not in the stress test.
-const std::vector<rigs::Departure>& further_laws() {
-  static const std::vector<rigs::Departure> list = {
+const std::vector<departures::Departure>& further_laws() {
+  static const std::vector<departures::Departure> list = {
       {.name = "film_beside_damper",
        .meaning = "a film that thins under shear, or a drag, beside the damper",
        .parameters = {},
        .build = film_beside_damper,
        .severity = "fall of the viscous force at the peak speed, of the first order",
        .largest = 10.0,
-       .values_at = [](const rigs::RigBase&, double s) { return std::vector{s}; },
-       .family = rigs::Family::velocity},
+       .values_at = [](const departures::RigBase&, double s) { return std::vector{s}; },
+       .family = departures::Family::velocity},
       {.name = "partial_play",
        .meaning = "half of the friction lies behind free play",
        .parameters = {},
        .build = partial_play,
        .severity = "half of the free play over the amplitude X",
        .largest = 0.5,
-       .values_at = [](const rigs::RigBase& base,
+       .values_at = [](const departures::RigBase& base,
                        double s) { return std::vector{2.0 * s * base.reference.amplitude}; },
-       .family = rigs::Family::presliding},
+       .family = departures::Family::presliding},
       {.name = "wide_stribeck",
        .meaning = "friction falls over the whole range of speeds",
        .parameters = {},
        .build = wide_stribeck,
        .severity = "excess of friction at rest over F0, that of the peak speed",
        .largest = 1.0,
-       .values_at = [](const rigs::RigBase&, double s) { return std::vector{s}; },
-       .family = rigs::Family::velocity}};
+       .values_at = [](const departures::RigBase&, double s) { return std::vector{s}; },
+       .family = departures::Family::velocity}};
   return list;
 }
 
@@ -91,8 +92,8 @@ constexpr std::array no_laws = {"rate_state", "rough_way", "second_mode", "warmi
 constexpr std::array twins = {"detuned_below", "quadratic_drag", "softening_spring", "viscous_power_below"};
 
 /// Severity to which a two-sided law may be followed on its negative side.
-double furthest_below(const rigs::Departure& departure) {
-  if (departure.name == "viscous_power") return -rigs::find_departure("viscous_power_below")->largest;
+double furthest_below(const departures::Departure& departure) {
+  if (departure.name == "viscous_power") return -departures::find_departure("viscous_power_below")->largest;
   return -departure.largest;
 }
 
@@ -102,14 +103,14 @@ bool names(const List& list, std::string_view name) {
 }
 
 /// All laws that the library can hold. Errors of the laboratory (`mislead`) are not laws.
-const std::vector<rigs::Departure>& all_laws() {
-  static const std::vector<rigs::Departure> list = [] {
-    std::vector<rigs::Departure> all = rigs::departures();
+const std::vector<departures::Departure>& all_laws() {
+  static const std::vector<departures::Departure> list = [] {
+    std::vector<departures::Departure> all = departures::departures();
     all.insert(all.end(), further_laws().begin(), further_laws().end());
-    std::erase_if(all, [](const rigs::Departure& departure) {
+    std::erase_if(all, [](const departures::Departure& departure) {
       return names(no_laws, departure.name) || names(twins, departure.name) || departure.mislead != nullptr;
     });
-    std::ranges::sort(all, {}, &rigs::Departure::name);
+    std::ranges::sort(all, {}, &departures::Departure::name);
     return all;
   }();
   return list;
@@ -133,7 +134,7 @@ LawFits fits_of(const ReadingModel& model, const LibraryLaw& law, const PlainFit
 
 std::vector<std::string> library_names() {
   std::vector<std::string> list;
-  for (const rigs::Departure& departure : all_laws()) list.emplace_back(departure.name);
+  for (const departures::Departure& departure : all_laws()) list.emplace_back(departure.name);
   return list;
 }
 
@@ -141,13 +142,13 @@ bool has_free_spring(const ReadingModel& model) {
   return std::ranges::find(model.nuisances(), "stiffness", &Nuisance::name) != model.nuisances().end();
 }
 
-bool is_of_spring(const rigs::Departure& departure) {
+bool is_of_spring(const departures::Departure& departure) {
   return departure.name == "detuning" || departure.name == "cubic_spring";
 }
 
 std::vector<LibraryLaw> law_library(const ReadingModel& model, const LawIntervalOptions& options) {
   std::vector<LibraryLaw> laws;
-  for (const rigs::Departure& departure : all_laws()) {
+  for (const departures::Departure& departure : all_laws()) {
     if (names(options.without, departure.name)) continue;
     if (departure.forced_only && !model.is_driven()) continue;
     LibraryLaw law{.departure = &departure,

@@ -1,6 +1,6 @@
 #pragma once
-/// The library of friction laws that any_law fits: the departures of identify/rigs/ with the severities that a real
-/// rig may have, and the fits of each law to a record.
+/// The library of friction laws that any_law fits: the departures of identify/departures/ with the severities that
+/// a real rig may have, and the fits of each law to a record.
 
 #include <string>
 #include <vector>
@@ -21,10 +21,10 @@ struct LawIntervalOptions {
 };
 
 struct LibraryLaw {
-  const rigs::Departure* departure = nullptr;  ///< nullptr: Coulomb + viscous friction
-  double largest = 0.0;                        ///< severity up to which it is fitted
-  double largest_below = 0.0;                  ///< the same for negative severities, negative; zero: of one sign
-  double furthest = 0.0;                       ///< severity to which it is followed on if it fits best at `largest`
+  const departures::Departure* departure = nullptr;  ///< nullptr: Coulomb + viscous friction
+  double largest = 0.0;                              ///< severity up to which it is fitted
+  double largest_below = 0.0;   ///< the same for negative severities, negative; zero: of one sign
+  double furthest = 0.0;        ///< severity to which it is followed on if it fits best at `largest`
   double furthest_below = 0.0;  ///< the same for negative severities, negative; zero: not followed on
   double deviation = 0.0;       ///< of the prior of its severity
 
@@ -37,7 +37,7 @@ struct LibraryLaw {
 [[nodiscard]] bool has_free_spring(const ReadingModel& model);
 
 /// Whether a law is another spring or frequency. Where the spring is free, these laws are left out.
-[[nodiscard]] bool is_of_spring(const rigs::Departure& departure);
+[[nodiscard]] bool is_of_spring(const departures::Departure& departure);
 
 /// The laws for readings of this kind, sorted by name, without plain friction. Friction that varies at random along
 /// the way and friction that warms are not among them: they have no F0 but that of their history.

@@ -1,8 +1,8 @@
 #pragma once
 /// The forward model behind the ranges over laws: what a record's readings would be under any friction law.
 ///
-/// The law is a departure of `identify/rigs/` at a severity s, or Coulomb + viscous friction. Unknowns are numbers
-/// of order one: F0 and c over their values where the search begins, and the nuisances.
+/// The law is a departure of `identify/departures/` at a severity s, or Coulomb + viscous friction. Unknowns are
+/// numbers of order one: F0 and c over their values where the search begins, and the nuisances.
 
 #include <Eigen/Core>
 #include <algorithm>
@@ -13,15 +13,15 @@
 #include <string>
 #include <vector>
 
+#include "identify/departures/departures.hpp"
 #include "identify/estimate.hpp"
 #include "identify/record.hpp"
-#include "identify/rigs/rigs.hpp"
 
 namespace dualdamp::identify {
 
 /// A law at a severity; without a departure it is Coulomb + viscous friction.
 struct LawAt {
-  const rigs::Departure* departure = nullptr;
+  const departures::Departure* departure = nullptr;
   double severity = 0.0;
 };
 
@@ -66,7 +66,7 @@ class ReadingModel {
   [[nodiscard]] double c_unit() const { return c_unit_; }
 
   /// The motion that severities refer to.
-  [[nodiscard]] const rigs::ReferenceMotion& reference() const { return reference_; }
+  [[nodiscard]] const departures::ReferenceMotion& reference() const { return reference_; }
 
   [[nodiscard]] const Eigen::VectorXd& readings() const { return readings_; }
   /// The channel of each reading. Readings of one channel have the same standard deviation.
@@ -127,7 +127,7 @@ class ReadingModel {
   Eigen::VectorXd start_;
   double F0_unit_ = 0.0;
   double c_unit_ = 0.0;
-  rigs::ReferenceMotion reference_;
+  departures::ReferenceMotion reference_;
   Eigen::VectorXd readings_;
   std::vector<int> channels_;
   std::vector<double> known_deviations_;

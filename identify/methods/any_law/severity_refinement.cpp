@@ -119,7 +119,7 @@ std::optional<std::size_t> differing(const Fitted& fitted) {
 
 }  // namespace
 
-void refine(const ReadingModel& model, const rigs::Departure& departure, const ChannelNoise& noise,
+void refine(const ReadingModel& model, const departures::Departure& departure, const ChannelNoise& noise,
             NearbyOrbits& near, std::vector<SeverityFit>& fits) {
   if (fits.size() < 2) return;
   const SeverityScale scale(&departure);

@@ -12,7 +12,7 @@
 namespace dualdamp::identify {
 
 /// Adds fits to those of one law with severities of one sign, the mildest first. `near`: orbits of one of them.
-void refine(const ReadingModel& model, const rigs::Departure& departure, const ChannelNoise& noise,
+void refine(const ReadingModel& model, const departures::Departure& departure, const ChannelNoise& noise,
             NearbyOrbits& near, std::vector<SeverityFit>& fits);
 
 }  // namespace dualdamp::identify

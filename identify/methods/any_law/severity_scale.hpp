@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "identify/rigs/rigs.hpp"
+#include "identify/departures/departures.hpp"
 
 namespace dualdamp::identify {
 
@@ -12,8 +12,8 @@ namespace dualdamp::identify {
 class SeverityScale {
  public:
   /// nullptr: Coulomb + viscous friction.
-  explicit SeverityScale(const rigs::Departure* departure)
-      : root_(departure != nullptr && departure->family == rigs::Family::presliding) {}
+  explicit SeverityScale(const departures::Departure* departure)
+      : root_(departure != nullptr && departure->family == departures::Family::presliding) {}
 
   /// The coordinate of a severity, of the same sign.
   [[nodiscard]] double of(double severity) const;

@@ -249,7 +249,7 @@ class SteadyReadings final : public ReadingModel {
   }
 
   [[nodiscard]] sim::Model model_of(const LawAt& law, const VectorXd& p, const Pair& state, double accuracy) const {
-    rigs::Truth truth;
+    departures::Truth truth;
     double k = constants_.stiffness;
     if (unknowns() > stiffness_unknown)
       k *= 1.0 + p[stiffness_unknown] + p[stiffness_unknown + 1] * share_of_hardening(state);
@@ -260,8 +260,9 @@ class SteadyReadings final : public ReadingModel {
     truth.model.excitation = {
         .type = sim::ExcitationType::base_harmonic, .amplitude = state.Y, .frequency = state.omega};
     truth.F0 = p[0] * F0_unit_;
-    sim::Model model = law.departure == nullptr ? rigs::undisturbed(truth)
-                                                : rigs::departed(*law.departure, truth, reference_, law.severity);
+    sim::Model model = law.departure == nullptr
+                           ? departures::undisturbed(truth)
+                           : departures::departed(*law.departure, truth, reference_, law.severity);
     model.solver.tolerance = accuracy;
     return model;
   }

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "identify/rigs/rigs.hpp"
+#include "identify/departures/departures.hpp"
 #include "sim/orbits/steady_state.hpp"
 #include "tests/identify/methods/any_law/advice_rates.hpp"
 #include "tests/identify/records.hpp"
@@ -37,7 +37,7 @@ Record amplitudes(Normal& normal, double noise = 0.003, double spread = 0.0) {
   Record record;
   record.pairs.emplace();
   for (int i = 0; i < 8; ++i) {
-    identify::rigs::Truth rig;
+    identify::departures::Truth rig;
     rig.F0 = F0;
     rig.model.oscillator = {
         .mass = mass, .stiffness = stiffness, .damping = 2.0 * zeta * std::sqrt(mass * stiffness)};
@@ -45,10 +45,10 @@ Record amplitudes(Normal& normal, double noise = 0.003, double spread = 0.0) {
     rig.model.excitation = {.type = sim::ExcitationType::base_harmonic,
                             .amplitude = 2.0 * zeta * x + 4.0 / std::numbers::pi * F0 / stiffness,
                             .frequency = natural * (1.0 + spread * (i % 3 - 1))};
-    const identify::rigs::ReferenceMotion reference{
+    const identify::departures::ReferenceMotion reference{
         .amplitude = X, .frequency = natural, .Y = rig.model.excitation.amplitude};
-    const sim::SteadyState state = sim::steady_state(
-        identify::rigs::departed(*identify::rigs::find_departure("contact_compliance"), rig, reference, 0.15));
+    const sim::SteadyState state = sim::steady_state(identify::departures::departed(
+        *identify::departures::find_departure("contact_compliance"), rig, reference, 0.15));
     REQUIRE(state.outcome.ok());
     Pair pair{.Y = rig.model.excitation.amplitude, .x = state.amplitude + noise * X * normal(), .number = i + 1};
     pair.omega = rig.model.excitation.frequency;
@@ -121,8 +121,8 @@ TEST_CASE("design: after a contact that yields little the ranges become as wide 
   // The severities of these contacts lie far below the second one that any_law tries at first.
   for (const auto& [seed, severity] : {std::pair{502000U, 0.0005}, {502001U, 0.0023}}) {
     const LawRig rig = law_rig(LawRecord::phases, seed);
-    const auto followed = followed_advice(rig, *identify::rigs::find_departure("contact_compliance"), severity,
-                                          seed, {.without = slow_laws}, LawRecord::phases);
+    const auto followed = followed_advice(rig, *identify::departures::find_departure("contact_compliance"),
+                                          severity, seed, {.without = slow_laws}, LawRecord::phases);
     REQUIRE(followed);
     INFO(seed << ": " << followed->advice << ", promised " << followed->promised[0] << " / "
               << followed->promised[1] << ", found " << followed->found[0] << " / " << followed->found[1]);
@@ -138,9 +138,9 @@ TEST_CASE("design: the ranges after the advised measurement are as wide as the a
   // Medians over rigs: on one rig the noise and the severity of the true law move them.
   std::array<std::vector<double>, 2> found_over_promised;
   for (const std::uint64_t seed : {78000U, 78002U, 78004U, 78006U, 78008U}) {
-    const auto followed =
-        followed_advice(law_rig(LawRecord::amplitudes, seed), *identify::rigs::find_departure("contact_compliance"),
-                        0.1, seed, {.without = slow_laws});
+    const auto followed = followed_advice(law_rig(LawRecord::amplitudes, seed),
+                                          *identify::departures::find_departure("contact_compliance"), 0.1, seed,
+                                          {.without = slow_laws});
     REQUIRE(followed);
     for (std::size_t i = 0; i < 2; ++i)
       found_over_promised.at(i).push_back(followed->found.at(i) / followed->promised.at(i));

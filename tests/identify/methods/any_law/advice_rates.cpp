@@ -46,7 +46,7 @@ bool rejects_plain(const LawIntervals& laws) {
 
 }  // namespace
 
-std::optional<Followed> followed_advice(const LawRig& rig, const identify::rigs::Departure& departure,
+std::optional<Followed> followed_advice(const LawRig& rig, const identify::departures::Departure& departure,
                                         double severity, std::uint64_t seed, const LawIntervalOptions& options,
                                         LawRecord kind) {
   const Record first = law_record(kind, rig, &departure, severity, seed);

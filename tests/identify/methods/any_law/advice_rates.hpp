@@ -26,7 +26,8 @@ struct Followed {
 };
 
 /// `kind`: amplitudes alone or with phases. Nothing if one of the records has no answer.
-[[nodiscard]] std::optional<Followed> followed_advice(const LawRig& rig, const identify::rigs::Departure& departure,
+[[nodiscard]] std::optional<Followed> followed_advice(const LawRig& rig,
+                                                      const identify::departures::Departure& departure,
                                                       double severity, std::uint64_t seed,
                                                       const LawIntervalOptions& options = {},
                                                       LawRecord kind = LawRecord::amplitudes);

@@ -21,7 +21,7 @@ namespace {
 /// Severity. Beyond it, contacts hardly slide, and a drag hides all other friction.
 constexpr double strong = 1.0;
 
-Record three_sweeps(const LawRig& rig, const identify::rigs::Departure& departure, double severity,
+Record three_sweeps(const LawRig& rig, const identify::departures::Departure& departure, double severity,
                     std::uint64_t seed) {
   constexpr int levels = 8;
   constexpr int sweeps = 3;
@@ -58,7 +58,7 @@ double missed(const Interval& interval, double truth) {
 
 }  // namespace
 
-void print_answers(const identify::rigs::Departure& departure, int records, std::uint64_t first) {
+void print_answers(const identify::departures::Departure& departure, int records, std::uint64_t first) {
   const double severity = std::min(strong, departure.largest);
   int played = 0;
   std::array<int, 2> held{};

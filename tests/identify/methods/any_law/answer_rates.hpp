@@ -11,6 +11,6 @@ namespace dualdamp::identify::testing {
 
 /// Prints one line: how many records have an answer, how many of these hold zeta and F0, how many miss one of both
 /// by more than 5 % of the truth, and which methods answered. Then prints a line for each miss.
-void print_answers(const identify::rigs::Departure& departure, int records, std::uint64_t first);
+void print_answers(const identify::departures::Departure& departure, int records, std::uint64_t first);
 
 }  // namespace dualdamp::identify::testing

@@ -59,7 +59,7 @@ struct Departed {
   double bias = 0.0;
 };
 std::optional<Departed> departed_by(double wanted, LawRecord kind, const LawRig& rig,
-                                    const identify::rigs::Departure& departure, std::uint64_t seed) {
+                                    const identify::departures::Departure& departure, std::uint64_t seed) {
   double severity = std::min(largest_severity, departure.largest);
   std::optional<Departed> best;
   constexpr int rounds = 6;
@@ -77,7 +77,7 @@ std::optional<Departed> departed_by(double wanted, LawRecord kind, const LawRig&
 
 /// Names to leave out: the departure, and the law of the library of which it is one side. A drag beside the damper
 /// is the negative side of a film beside it.
-std::vector<std::string> without(const identify::rigs::Departure& departure) {
+std::vector<std::string> without(const identify::departures::Departure& departure) {
   static const std::map<std::string, std::string> twins = {{"detuned_below", "detuning"},
                                                            {"quadratic_drag", "film_beside_damper"},
                                                            {"softening_spring", "cubic_spring"},
@@ -137,7 +137,7 @@ void tell_miss(const LawIntervals& found, const LawRig& rig, const Departed& dep
   row.misses.emplace_back(text.data());
 }
 
-void count(LawRecord kind, const identify::rigs::Departure* departure, std::uint64_t seed, Row& row) {
+void count(LawRecord kind, const identify::departures::Departure* departure, std::uint64_t seed, Row& row) {
   const LawRig rig = law_rig(kind, seed);
   // Biases evenly spread over their logarithm.
   const double wanted = least_bias * std::pow(largest_bias / least_bias, static_cast<double>(seed % 7) / 6.0);
@@ -179,7 +179,7 @@ void count(LawRecord kind, const identify::rigs::Departure* departure, std::uint
     add(row.single, single.interval95->zeta, single.interval95->F0, rig);
 }
 
-void print(const std::string& name, const identify::rigs::Departure* departure, const Row& row) {
+void print(const std::string& name, const identify::departures::Departure* departure, const Row& row) {
   const double n = std::max(row.records, 1);
   std::printf("%-36s n %3d harmless %3d failed %2d bias %4.1f %% |", name.c_str(), row.records, row.harmless,
               row.failed, 100.0 * row.bias / n);
@@ -200,7 +200,7 @@ void print(const std::string& name, const identify::rigs::Departure* departure, 
 /// Means over departures with equal weights, for those that have records and a value of their own.
 class Means {
  public:
-  void add(const identify::rigs::Departure& departure, const Row& row) {
+  void add(const identify::departures::Departure& departure, const Row& row) {
     if (row.records == 0) return;
     records_ += row.records;
     const std::array own = {departure.has_zeta, departure.has_F0};
@@ -241,12 +241,13 @@ class Means {
 };
 
 /// The departures to play; plain friction first.
-std::vector<const identify::rigs::Departure*> played(LawRecord kind) {
-  std::vector<const identify::rigs::Departure*> list = {nullptr};
+std::vector<const identify::departures::Departure*> played(LawRecord kind) {
+  std::vector<const identify::departures::Departure*> list = {nullptr};
   const bool free = kind == LawRecord::extremes || kind == LawRecord::history;
-  for (const identify::rigs::Departure& departure : identify::rigs::departures()) {
-    const bool of_friction = departure.mislead == nullptr && departure.family != identify::rigs::Family::spring &&
-                             departure.family != identify::rigs::Family::drive;
+  for (const identify::departures::Departure& departure : identify::departures::departures()) {
+    const bool of_friction = departure.mislead == nullptr &&
+                             departure.family != identify::departures::Family::spring &&
+                             departure.family != identify::departures::Family::drive;
     const bool of_drive = departure.name == "base_distortion" && !free;
     if ((of_friction && departure.name != "warming") || of_drive) list.push_back(&departure);
   }
@@ -288,7 +289,7 @@ void print_bound(LawRecord kind, int records, std::uint64_t first) {
   std::fflush(stdout);
 }
 
-void print_advice(const identify::rigs::Departure& departure, int records, std::uint64_t first) {
+void print_advice(const identify::departures::Departure& departure, int records, std::uint64_t first) {
   std::array<std::vector<double>, 2> narrower;
   std::array<std::vector<double>, 2> over_promised;
   std::array<std::vector<double>, 2> over_expected;
@@ -344,7 +345,7 @@ int main(int argc, char** argv) {
   for (const LawRecord kind :
        {LawRecord::phases, LawRecord::amplitudes, LawRecord::response, LawRecord::extremes, LawRecord::history}) {
     Means means;
-    for (const identify::rigs::Departure* departure : played(kind)) {
+    for (const identify::departures::Departure* departure : played(kind)) {
       const std::string name =
           std::string(name_of(kind)) + "/" + (departure == nullptr ? "none" : std::string(departure->name));
       if (!wanted(name)) continue;
@@ -358,8 +359,9 @@ int main(int argc, char** argv) {
   for (const LawRecord kind : {LawRecord::phases, LawRecord::amplitudes, LawRecord::response})
     if (wanted("bound/" + std::string(name_of(kind)))) print_bound(kind, records, first);
   for (const char* name : {"contact_compliance", "dahl", "quadratic_drag", "stribeck"})
-    if (wanted("advice/" + std::string(name))) print_advice(*identify::rigs::find_departure(name), records, first);
-  for (const identify::rigs::Departure& departure : identify::rigs::departures())
+    if (wanted("advice/" + std::string(name)))
+      print_advice(*identify::departures::find_departure(name), records, first);
+  for (const identify::departures::Departure& departure : identify::departures::departures())
     if (departure.mislead == nullptr && departure.name != "warming" &&
         wanted("answers/" + std::string(departure.name)))
       print_answers(departure, records, first);

@@ -22,14 +22,15 @@ namespace {
 /// Relative accuracy of the motions; the noise is thirty thousand times larger.
 constexpr double accuracy = 1e-7;
 
-double natural_frequency(const identify::rigs::Truth& truth) {
+double natural_frequency(const identify::departures::Truth& truth) {
   return std::sqrt(truth.model.oscillator.stiffness / truth.model.oscillator.mass);
 }
 
-sim::Model model_of(const LawRig& rig, const identify::rigs::Truth& truth,
-                    const identify::rigs::Departure* departure, double severity) {
-  sim::Model model = departure == nullptr ? identify::rigs::undisturbed(truth)
-                                          : identify::rigs::departed(*departure, truth, rig.reference, severity);
+sim::Model model_of(const LawRig& rig, const identify::departures::Truth& truth,
+                    const identify::departures::Departure* departure, double severity) {
+  sim::Model model = departure == nullptr
+                         ? identify::departures::undisturbed(truth)
+                         : identify::departures::departed(*departure, truth, rig.reference, severity);
   model.solver.tolerance = accuracy;
   return model;
 }
@@ -39,9 +40,9 @@ double level_for(const LawRig& rig, double x) {
   return 2.0 * rig.zeta * x + 4.0 / pi * rig.truth.F0 / rig.truth.model.oscillator.stiffness;
 }
 
-std::optional<Pair> state_of(const LawRig& rig, const identify::rigs::Departure* departure, double severity,
+std::optional<Pair> state_of(const LawRig& rig, const identify::departures::Departure* departure, double severity,
                              double Y, double omega) {
-  identify::rigs::Truth truth = rig.truth;
+  identify::departures::Truth truth = rig.truth;
   truth.model.excitation = {.type = sim::ExcitationType::base_harmonic, .amplitude = Y, .frequency = omega};
   const sim::SteadyState state =
       sim::steady_state(model_of(rig, truth, departure, severity), {.tolerance = accuracy, .max_periods = 1000});
@@ -83,7 +84,7 @@ class Readings {
   bool complete_ = true;
 };
 
-Record response(const LawRig& rig, const identify::rigs::Departure* departure, double severity,
+Record response(const LawRig& rig, const identify::departures::Departure* departure, double severity,
                 std::uint64_t seed) {
   constexpr int count = 21;
   Readings readings(rig, seed);
@@ -94,13 +95,13 @@ Record response(const LawRig& rig, const identify::rigs::Departure* departure, d
   return readings.record();
 }
 
-sim::Model released(const LawRig& rig, const identify::rigs::Departure* departure, double severity) {
-  identify::rigs::Truth truth = rig.truth;
+sim::Model released(const LawRig& rig, const identify::departures::Departure* departure, double severity) {
+  identify::departures::Truth truth = rig.truth;
   truth.model.initial.position = 2.0 * rig.reference.amplitude;
   return model_of(rig, truth, departure, severity);
 }
 
-Record extremes(const LawRig& rig, const identify::rigs::Departure* departure, double severity,
+Record extremes(const LawRig& rig, const identify::departures::Departure* departure, double severity,
                 std::uint64_t seed) {
   constexpr int most = 24;
   const sim::FreeDecay decay = sim::free_decay(released(rig, departure, severity), most);
@@ -113,7 +114,8 @@ Record extremes(const LawRig& rig, const identify::rigs::Departure* departure, d
   return record;
 }
 
-Record history(const LawRig& rig, const identify::rigs::Departure* departure, double severity, std::uint64_t seed) {
+Record history(const LawRig& rig, const identify::departures::Departure* departure, double severity,
+               std::uint64_t seed) {
   const double period = 2.0 * pi / rig.reference.frequency;
   constexpr double periods = 12.0;
   constexpr double samples = 100.0;  // in a period
@@ -163,7 +165,7 @@ LawRig law_rig(LawRecord kind, std::uint64_t seed) {
   return rig;
 }
 
-Record states_record(const LawRig& rig, const identify::rigs::Departure* departure, double severity,
+Record states_record(const LawRig& rig, const identify::departures::Departure* departure, double severity,
                      const std::vector<PlannedState>& states, bool phases, std::uint64_t seed) {
   Readings readings(rig, seed);
   for (const PlannedState& state : states)
@@ -171,8 +173,8 @@ Record states_record(const LawRig& rig, const identify::rigs::Departure* departu
   return readings.record();
 }
 
-Record law_record(LawRecord kind, const LawRig& rig, const identify::rigs::Departure* departure, double severity,
-                  std::uint64_t seed) {
+Record law_record(LawRecord kind, const LawRig& rig, const identify::departures::Departure* departure,
+                  double severity, std::uint64_t seed) {
   switch (kind) {
     case LawRecord::response:
       return response(rig, departure, severity, seed);

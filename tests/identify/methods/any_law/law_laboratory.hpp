@@ -7,10 +7,10 @@
 #include <string_view>
 #include <vector>
 
+#include "identify/departures/departures.hpp"
 #include "identify/design/candidate.hpp"
 #include "identify/methods/any_law/severity_curve.hpp"
 #include "identify/record.hpp"
-#include "identify/rigs/rigs.hpp"
 
 namespace dualdamp::identify::testing {
 
@@ -26,8 +26,8 @@ enum class LawRecord {
 
 /// A rig with Coulomb and viscous friction and the motion in the middle of its tests.
 struct LawRig {
-  identify::rigs::Truth truth;
-  identify::rigs::ReferenceMotion reference;
+  identify::departures::Truth truth;
+  identify::departures::ReferenceMotion reference;
   double zeta = 0.0;
   double noise = 0.003;  ///< of an amplitude over the reference amplitude, of a phase in rad
   KnownConstants constants;
@@ -39,12 +39,13 @@ struct LawRig {
 
 /// A record of the rig under a departure of this severity; nullptr: under plain friction. The same seed gives the
 /// same noise under every law. Empty if a state was not found.
-[[nodiscard]] Record law_record(LawRecord kind, const LawRig& rig, const identify::rigs::Departure* departure,
+[[nodiscard]] Record law_record(LawRecord kind, const LawRig& rig, const identify::departures::Departure* departure,
                                 double severity, std::uint64_t seed);
 
 /// The same for given states.
-[[nodiscard]] Record states_record(const LawRig& rig, const identify::rigs::Departure* departure, double severity,
-                                   const std::vector<PlannedState>& states, bool phases, std::uint64_t seed);
+[[nodiscard]] Record states_record(const LawRig& rig, const identify::departures::Departure* departure,
+                                   double severity, const std::vector<PlannedState>& states, bool phases,
+                                   std::uint64_t seed);
 
 inline bool holds(const Interval& interval, double value) { return interval[0] <= value && value <= interval[1]; }
 inline double width(const Interval& interval) { return interval[1] - interval[0]; }

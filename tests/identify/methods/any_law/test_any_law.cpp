@@ -7,8 +7,8 @@
 #include <numbers>
 #include <utility>
 
+#include "identify/departures/departures.hpp"
 #include "identify/methods/any_law/law_intervals.hpp"
-#include "identify/rigs/rigs.hpp"
 #include "sim/motion/free_decay.hpp"
 #include "sim/orbits/steady_state.hpp"
 #include "tests/identify/methods/any_law/law_laboratory.hpp"
@@ -29,8 +29,8 @@ constexpr double X = 0.01;
 
 const KnownConstants known{mass, stiffness, natural};
 
-identify::rigs::Truth truth() {
-  identify::rigs::Truth truth;
+identify::departures::Truth truth() {
+  identify::departures::Truth truth;
   truth.model.oscillator.mass = mass;
   truth.model.oscillator.stiffness = stiffness;
   truth.model.oscillator.damping = 2.0 * zeta * std::sqrt(mass * stiffness);
@@ -38,11 +38,11 @@ identify::rigs::Truth truth() {
   return truth;
 }
 
-sim::Model departed(const identify::rigs::Truth& truth, const char* law, double severity) {
-  if (law == nullptr) return identify::rigs::undisturbed(truth);
-  const identify::rigs::ReferenceMotion reference{
+sim::Model departed(const identify::departures::Truth& truth, const char* law, double severity) {
+  if (law == nullptr) return identify::departures::undisturbed(truth);
+  const identify::departures::ReferenceMotion reference{
       .amplitude = X, .frequency = natural, .Y = 2.0 * zeta * X + 4.0 / std::numbers::pi * F0 / stiffness};
-  return identify::rigs::departed(*identify::rigs::find_departure(law), truth, reference, severity);
+  return identify::departures::departed(*identify::departures::find_departure(law), truth, reference, severity);
 }
 
 /// Eight levels at resonance, with noise of 0.3 % of X and 0.003 rad.
@@ -51,7 +51,7 @@ Record states(const char* law, double severity, bool phases, Normal& normal) {
   Record record;
   record.pairs.emplace();
   for (int i = 0; i < 8; ++i) {
-    identify::rigs::Truth rig = truth();
+    identify::departures::Truth rig = truth();
     const double x = X * (0.5 + i / 7.0);
     rig.model.excitation = {.type = sim::ExcitationType::base_harmonic,
                             .amplitude = 2.0 * zeta * x + 4.0 / std::numbers::pi * F0 / stiffness,
@@ -166,14 +166,14 @@ TEST_CASE("any_law: amplitudes alone allow more laws than amplitudes and phases"
 
 TEST_CASE("any_law: extremes of a free vibration") {
   Normal normal(14);
-  identify::rigs::Truth rig = truth();
+  identify::departures::Truth rig = truth();
   rig.F0 = 0.4;
   rig.model.oscillator.damping *= 0.25;
   rig.model.initial.position = 2.0 * X;
   constexpr double severity = 0.2;
-  const identify::rigs::ReferenceMotion reference{.amplitude = X, .frequency = natural, .Y = X};
-  sim::Model model =
-      identify::rigs::departed(*identify::rigs::find_departure("viscous_power"), rig, reference, severity);
+  const identify::departures::ReferenceMotion reference{.amplitude = X, .frequency = natural, .Y = X};
+  sim::Model model = identify::departures::departed(*identify::departures::find_departure("viscous_power"), rig,
+                                                    reference, severity);
   const sim::FreeDecay motion = sim::free_decay(model, 14);
   Record record;
   record.decay.emplace();

@@ -35,7 +35,7 @@ struct Case {
 Case case_of(const char* law, double severity, double noise = 0.003) {
   Case one;
   one.rig.noise = noise;
-  one.record = law_record(LawRecord::phases, one.rig, identify::rigs::find_departure(law), severity, seed);
+  one.record = law_record(LawRecord::phases, one.rig, identify::departures::find_departure(law), severity, seed);
   REQUIRE(one.record.pairs);
   auto readings = steady_readings(one.record, one.rig.constants, {});
   REQUIRE(std::holds_alternative<std::unique_ptr<const ReadingModel>>(readings));
@@ -66,7 +66,7 @@ TEST_CASE("any_law: predictions err by less than a thirtieth of the noise") {
   for (const char* law : {"bouc_wen", "contact_compliance", "dahl", "elasto_plastic", "friction_lag", "iwan",
                           "lugre", "stribeck", "viscous_saturating"}) {
     INFO(law);
-    const identify::rigs::Departure& departure = *identify::rigs::find_departure(law);
+    const identify::departures::Departure& departure = *identify::departures::find_departure(law);
     const auto near = model.no_orbits(noise);
     Eigen::VectorXd unknowns = one.plain.fit.unknowns;
     unknowns.tail(2).setZero();
@@ -77,13 +77,13 @@ TEST_CASE("any_law: predictions err by less than a thirtieth of the noise") {
     REQUIRE(residuals);
     const std::vector<Pair>& states = one.record.pairs->pairs;
     for (std::size_t i = 0; i < states.size(); ++i) {
-      identify::rigs::Truth truth = one.rig.truth;
+      identify::departures::Truth truth = one.rig.truth;
       truth.F0 = unknowns[0] * model.F0_unit();
       truth.model.oscillator.damping = unknowns[1] * model.c_unit();
       truth.model.excitation = {
           .type = sim::ExcitationType::base_harmonic, .amplitude = states[i].Y, .frequency = states[i].omega};
       const sim::SteadyState exact =
-          sim::steady_state(identify::rigs::departed(departure, truth, model.reference(), severity));
+          sim::steady_state(identify::departures::departed(departure, truth, model.reference(), severity));
       REQUIRE(exact.outcome.ok());
       const auto row = static_cast<Eigen::Index>(i);
       const auto phase_row = row + static_cast<Eigen::Index>(states.size());
@@ -98,7 +98,7 @@ TEST_CASE("any_law: predictions err by less than a thirtieth of the noise") {
 TEST_CASE("any_law: fits that share derivatives are those that take their own") {
   const Case one = case_of("contact_compliance", 0.15);
   for (const char* law : {"contact_compliance", "dahl", "stribeck"}) {
-    const identify::rigs::Departure& departure = *identify::rigs::find_departure(law);
+    const identify::departures::Departure& departure = *identify::departures::find_departure(law);
     constexpr double largest = 0.3;
     const std::vector<SeverityFit> fits =
         law_profile(*one.model, departure, largest, one.plain.noise, one.plain.fit).fits;
@@ -240,7 +240,7 @@ TEST_CASE("any_law: a law whose motions hardly decay near the data ends the sear
 TEST_CASE("any_law: the search for a law does no more work than it may, by less than one motion") {
   const Case one = case_of("contact_compliance", 0.1);
   const auto near = one.model->no_orbits(one.plain.noise.deviations);
-  const identify::rigs::Departure& departure = *identify::rigs::find_departure("dahl");
+  const identify::departures::Departure& departure = *identify::departures::find_departure("dahl");
   const LawAt law{&departure, 0.1};
   const auto here = one.model->residuals(law, one.plain.fit.unknowns, *near);
   REQUIRE(here);

@@ -35,7 +35,7 @@ Contact stiff_contact(LawRecord kind, std::uint64_t seed, double severity, doubl
   one.rig = law_rig(kind, seed);
   one.rig.noise = relative_noise;
   const Record record =
-      law_record(kind, one.rig, identify::rigs::find_departure("contact_compliance"), severity, seed);
+      law_record(kind, one.rig, identify::departures::find_departure("contact_compliance"), severity, seed);
   REQUIRE(record.pairs);
   auto readings = steady_readings(record, one.rig.constants, {});
   REQUIRE(std::holds_alternative<std::unique_ptr<const ReadingModel>>(readings));

@@ -24,7 +24,7 @@
 #include "identify/records/sensors.hpp"
 #include "sim/model.hpp"
 
-namespace dualdamp::identify::rigs {
+namespace dualdamp::identify::departures {
 
 /// The motion that parameters are relative to.
 struct ReferenceMotion {
@@ -175,4 +175,4 @@ struct RigFriction {
 /// for another unit.
 [[nodiscard]] double natural_scale(const Apparatus& apparatus, std::string_view unit);
 
-}  // namespace dualdamp::identify::rigs
+}  // namespace dualdamp::identify::departures

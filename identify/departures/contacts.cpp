@@ -1,9 +1,9 @@
 #include <cmath>
 #include <utility>
 
-#include "identify/rigs/groups.hpp"
+#include "identify/departures/groups.hpp"
 
-namespace dualdamp::identify::rigs {
+namespace dualdamp::identify::departures {
 
 namespace {
 
@@ -209,4 +209,4 @@ std::vector<Departure> contact_departures() {
   return of_family(Family::presliding, joined({sliders(), bristles()}));
 }
 
-}  // namespace dualdamp::identify::rigs
+}  // namespace dualdamp::identify::departures

@@ -1,4 +1,4 @@
-#include "identify/rigs/rigs.hpp"
+#include "identify/departures/departures.hpp"
 
 #include <algorithm>
 #include <array>
@@ -7,9 +7,9 @@
 #include <string>
 
 #include "core/constants.hpp"
-#include "identify/rigs/groups.hpp"
+#include "identify/departures/groups.hpp"
 
-namespace dualdamp::identify::rigs {
+namespace dualdamp::identify::departures {
 
 namespace {
 
@@ -116,4 +116,4 @@ double natural_scale(const Apparatus& apparatus, std::string_view unit) {
   throw std::logic_error("no scale for the unit " + std::string(unit));
 }
 
-}  // namespace dualdamp::identify::rigs
+}  // namespace dualdamp::identify::departures

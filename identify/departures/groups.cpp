@@ -1,4 +1,4 @@
-#include "identify/rigs/groups.hpp"
+#include "identify/departures/groups.hpp"
 
 #include <cmath>
 #include <stdexcept>
@@ -7,7 +7,7 @@
 
 #include "friction_models/registry.hpp"
 
-namespace dualdamp::identify::rigs {
+namespace dualdamp::identify::departures {
 
 using friction::ParameterValues;
 
@@ -46,4 +46,4 @@ double when_cold(const RigBase& base, double found, double heat, double power) {
   return base.found_at_reference ? found * std::exp(heat / power) : found;
 }
 
-}  // namespace dualdamp::identify::rigs
+}  // namespace dualdamp::identify::departures

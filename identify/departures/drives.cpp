@@ -3,9 +3,9 @@
 #include <numbers>
 
 #include "core/constants.hpp"
-#include "identify/rigs/groups.hpp"
+#include "identify/departures/groups.hpp"
 
-namespace dualdamp::identify::rigs {
+namespace dualdamp::identify::departures {
 
 namespace {
 
@@ -205,4 +205,4 @@ std::vector<Departure> drive_departures() {
   return joined({of_family(Family::drive, drives()), of_family(Family::spring, springs())});
 }
 
-}  // namespace dualdamp::identify::rigs
+}  // namespace dualdamp::identify::departures

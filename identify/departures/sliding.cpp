@@ -1,9 +1,9 @@
 #include <numbers>
 
 #include "core/constants.hpp"
-#include "identify/rigs/groups.hpp"
+#include "identify/departures/groups.hpp"
 
-namespace dualdamp::identify::rigs {
+namespace dualdamp::identify::departures {
 
 namespace {
 
@@ -243,4 +243,4 @@ std::vector<Departure> sliding_departures() {
                  of_family(Family::position, by_place()), of_family(Family::memory, by_warmth())});
 }
 
-}  // namespace dualdamp::identify::rigs
+}  // namespace dualdamp::identify::departures

@@ -1,8 +1,8 @@
 #include <utility>
 
-#include "identify/rigs/groups.hpp"
+#include "identify/departures/groups.hpp"
 
-namespace dualdamp::identify::rigs {
+namespace dualdamp::identify::departures {
 
 namespace {
 
@@ -107,4 +107,4 @@ std::vector<Departure> film_departures() {
       });
 }
 
-}  // namespace dualdamp::identify::rigs
+}  // namespace dualdamp::identify::departures

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <string>
 
-#include "identify/rigs/rigs.hpp"
+#include "identify/departures/departures.hpp"
 #include "sim/analytic/den_hartog.hpp"
 #include "sim/analytic/free_decay.hpp"
 #include "sim/motion/free_decay.hpp"
@@ -20,15 +20,15 @@ namespace {
 /// The rig of the paper: X = 9.7 mm in mid range.
 const sim::Oscillator oscillator{.mass = 1.042, .stiffness = 1568.0};
 const double natural = sim::natural_frequency(oscillator);
-const identify::rigs::Apparatus rig{.oscillator = oscillator,
-                                    .reference = {.amplitude = 9.7e-3, .frequency = natural, .Y = 5.6e-3}};
-const identify::rigs::RigFriction usual{.F0 = 3.7, .c = 11.0};
+const identify::departures::Apparatus rig{.oscillator = oscillator,
+                                          .reference = {.amplitude = 9.7e-3, .frequency = natural, .Y = 5.6e-3}};
+const identify::departures::RigFriction usual{.F0 = 3.7, .c = 11.0};
 
 sim::SteadyState steady(const std::string& name, const std::vector<double>& values) {
-  const identify::rigs::Departure* mechanism = identify::rigs::find_mechanism(name);
+  const identify::departures::Departure* mechanism = identify::departures::find_mechanism(name);
   REQUIRE(mechanism != nullptr);
   const sim::SteadyState state =
-      sim::steady_state(identify::rigs::driven(*mechanism, rig, usual, values, rig.reference.Y));
+      sim::steady_state(identify::departures::driven(*mechanism, rig, usual, values, rig.reference.Y));
   REQUIRE(state.outcome.ok());
   return state;
 }
@@ -55,31 +55,31 @@ double force_at(const sim::Model& model, double v) {
 }  // namespace
 
 TEST_CASE("mechanisms: sorted, explained, with plausible values and searches within their ranges") {
-  const auto& list = identify::rigs::mechanisms();
+  const auto& list = identify::departures::mechanisms();
   CHECK(list.size() >= 16);
-  CHECK(std::ranges::is_sorted(list, {}, &identify::rigs::Departure::name));
-  for (const identify::rigs::Departure& mechanism : list) {
+  CHECK(std::ranges::is_sorted(list, {}, &identify::departures::Departure::name));
+  for (const identify::departures::Departure& mechanism : list) {
     CAPTURE(mechanism.name);
-    CHECK(identify::rigs::find_mechanism(mechanism.name) == &mechanism);
+    CHECK(identify::departures::find_mechanism(mechanism.name) == &mechanism);
     CHECK_FALSE(mechanism.meaning.empty());
     CHECK_FALSE(mechanism.plausible.empty());
-    for (const identify::rigs::DepartureParameter& parameter : mechanism.parameters) {
+    for (const identify::departures::DepartureParameter& parameter : mechanism.parameters) {
       CAPTURE(parameter.name);
-      const double scale = identify::rigs::natural_scale(rig, parameter.unit);
+      const double scale = identify::departures::natural_scale(rig, parameter.unit);
       CHECK(scale > 0.0);
       CHECK(parameter.low < parameter.start);
       CHECK(parameter.start < parameter.high);
       CHECK(parameter.range.contains(parameter.low * scale));
       CHECK(parameter.range.contains(parameter.high * scale));
     }
-    for (const identify::rigs::PlausibleValues& plausible : mechanism.plausible) {
+    for (const identify::departures::PlausibleValues& plausible : mechanism.plausible) {
       REQUIRE(plausible.values.size() == mechanism.parameters.size());
       CHECK_FALSE(plausible.because.empty());
       for (std::size_t i = 0; i < plausible.values.size(); ++i)
         CHECK(mechanism.parameters[i].range.contains(plausible.values[i]));
     }
   }
-  CHECK(identify::rigs::find_mechanism("gremlins") == nullptr);
+  CHECK(identify::departures::find_mechanism("gremlins") == nullptr);
 }
 
 TEST_CASE("mechanisms: each one vanishes into Coulomb + viscous friction, whose amplitude has a closed form") {
@@ -98,7 +98,7 @@ TEST_CASE("mechanisms: each one vanishes into Coulomb + viscous friction, whose 
       {"viscous_power", {1.000001}}, {"viscous_saturating", {4e5}},
       {"warming_contact", {1e6}},    {"warming_film", {1e6}}};
   const double expected = closed_form(usual.c);
-  for (const identify::rigs::Departure& mechanism : identify::rigs::mechanisms()) {
+  for (const identify::departures::Departure& mechanism : identify::departures::mechanisms()) {
     const std::string name(mechanism.name);
     CAPTURE(name);
     REQUIRE(vanishing.contains(name));
@@ -114,8 +114,8 @@ TEST_CASE("mechanisms: a film has the force of the damper c at the reference spe
   for (const auto& [name, value] :
        std::map<std::string, double>{{"viscous_power", 0.4}, {"viscous_saturating", 0.3}}) {
     CAPTURE(name);
-    const sim::Model model = identify::rigs::driven(*identify::rigs::find_mechanism(name), rig, usual,
-                                                    std::vector{value}, rig.reference.Y);
+    const sim::Model model = identify::departures::driven(*identify::departures::find_mechanism(name), rig, usual,
+                                                          std::vector{value}, rig.reference.Y);
     CHECK(force_at(model, V) == Approx(expected).epsilon(1e-14));
     // Below it sublinear films have more: F = c V (v/V)^n, and c (1 + V/v0) v/(1 + v/v0).
     const double half =
@@ -127,9 +127,9 @@ TEST_CASE("mechanisms: a film has the force of the damper c at the reference spe
 TEST_CASE("mechanisms: a clipped base moves as the formula says and is read by its peak") {
   const double stroke = 6e-3;
   const double Y = 6.75e-3;
-  const sim::Excitation drive =
-      identify::rigs::driven(*identify::rigs::find_mechanism("base_clipping"), rig, usual, std::vector{stroke}, Y)
-          .excitation;
+  const sim::Excitation drive = identify::departures::driven(*identify::departures::find_mechanism("base_clipping"),
+                                                             rig, usual, std::vector{stroke}, Y)
+                                    .excitation;
   const double a = Y / stroke;
   // Coefficients fall by exp(-2 asinh(pi/2a)) = 0.11 from one to the next: eight of them leave 0.11^8 = 2e-8 of Y.
   for (int i = 0; i <= 40; ++i) {
@@ -151,8 +151,8 @@ TEST_CASE("mechanisms: a warm film is a weaker damper, by the power that it turn
   const double cold = usual.c * std::exp(0.5 * usual.c * V * V / power);
   double c = usual.c;
   for (int i = 0; i < 60; ++i) {
-    sim::Model model = identify::rigs::driven(*identify::rigs::find_mechanism("coulomb_viscous"), rig,
-                                              {usual.F0, c}, {}, rig.reference.Y);
+    sim::Model model = identify::departures::driven(*identify::departures::find_mechanism("coulomb_viscous"), rig,
+                                                    {usual.F0, c}, {}, rig.reference.Y);
     const double heat = c * sim::steady_state(model).mean_square_speed;
     c = 0.5 * (c + cold * std::exp(-heat / power));
   }
@@ -164,11 +164,11 @@ TEST_CASE("mechanisms: what lies in drive or spring is not there in a free decay
   const double stiffness = 4365.0;
   const double zeta = usual.c / (2.0 * std::sqrt(oscillator.mass * stiffness));
   const auto expected = sim::analytic::free_decay_extremes(zeta, usual.F0 / stiffness, 14.7e-3, 5);
-  for (const identify::rigs::Departure& mechanism : identify::rigs::mechanisms()) {
+  for (const identify::departures::Departure& mechanism : identify::departures::mechanisms()) {
     CAPTURE(mechanism.name);
     const auto& values = mechanism.plausible.front().values;
     const sim::FreeDecay decay =
-        sim::free_decay(identify::rigs::released(mechanism, rig, usual, values, stiffness, 14.7e-3), 5);
+        sim::free_decay(identify::departures::released(mechanism, rig, usual, values, stiffness, 14.7e-3), 5);
     REQUIRE(decay.outcome.ok());
     REQUIRE(decay.extremes.size() == expected.size());
     double distance = 0.0;

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "friction_models/parameters.hpp"
-#include "identify/rigs/rigs.hpp"
+#include "identify/departures/departures.hpp"
 
-namespace dualdamp::identify::rigs {
+namespace dualdamp::identify::departures {
 
 /// Friction that yields before it slips: contacts behind a stiffness, and bristles.
 [[nodiscard]] std::vector<Departure> contact_departures();
@@ -78,4 +78,4 @@ inline constexpr DepartureParameter power_parameter = {
     .low = 0.1,
     .high = 1e3};
 
-}  // namespace dualdamp::identify::rigs
+}  // namespace dualdamp::identify::departures

@@ -1,6 +1,6 @@
-#include "identify/rigs/groups.hpp"
+#include "identify/departures/groups.hpp"
 
-namespace dualdamp::identify::rigs {
+namespace dualdamp::identify::departures {
 
 namespace {
 
@@ -85,4 +85,4 @@ std::vector<Departure> laboratory_departures() {
              })};
 }
 
-}  // namespace dualdamp::identify::rigs
+}  // namespace dualdamp::identify::departures
