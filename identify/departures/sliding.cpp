@@ -67,7 +67,7 @@ sim::Model rate_state(const RigBase& base, DepartureValues p) {
                    {"reference_velocity", base.reference.speed()}});
 }
 
-/// Friction that varies along the way, in the same way at each passage.
+/// Friction that varies along the path, in the same way at each passage.
 sim::Model rough_way(const RigBase& base, DepartureValues p) {
   const ParameterValues roughness{{"ratio", p[0]}, {"correlation_length", p[1]}, {"seed", 1.0}};
   return with_coulomb(base, {{"fluctuation", std::vector<ParameterValues>{roughness}}});

@@ -7,7 +7,7 @@
 #include "core/numbers.hpp"
 #include "identify/experiments/experiment.hpp"
 #include "identify/experiments/starts.hpp"
-#include "identify/records/held_way.hpp"
+#include "identify/records/held_path.hpp"
 #include "identify/records/rest_samples.hpp"
 #include "identify/records/signals.hpp"
 #include "identify/statistics/noise_level.hpp"
@@ -39,10 +39,10 @@ class FrictionLoop final : public Experiment {
     kind = ExperimentKind::loop;
     force_noise_ = options.sigma_force > 0.0 ? options.sigma_force : noise_of(history.force);
     complete(history, options.has_mass);
-    way_x_ = law_x_;
-    way_v_ = law_v_;
-    hold(still_stretches(stuck_, {history.x, noise_of(history.x)}, {history.v, noise_of(history.v)}), way_x_,
-         way_v_);
+    path_x_ = law_x_;
+    path_v_ = law_v_;
+    hold(still_stretches(stuck_, {history.x, noise_of(history.x)}, {history.v, noise_of(history.v)}), path_x_,
+         path_v_);
     agrees_ = !history.x.empty() && !history.v.empty();
     if (agrees_) agree();
     const double speed = largest_swing(law_v_);
@@ -222,9 +222,9 @@ class FrictionLoop final : public Experiment {
     return {static_cast<double>(i) / rate_, law_x_[i] - offset, law_v_[i]};
   }
 
-  /// On the way that moves a law with a memory.
-  [[nodiscard]] Instant on_way(std::size_t i, double offset) const {
-    return {static_cast<double>(i) / rate_, way_x_[i] - offset, way_v_[i]};
+  /// On the path that moves a law with a memory.
+  [[nodiscard]] Instant on_path(std::size_t i, double offset) const {
+    return {static_cast<double>(i) / rate_, path_x_[i] - offset, path_v_[i]};
   }
 
   /// Adds the force of a law. A law without memory needs no path between the samples.
@@ -234,9 +234,9 @@ class FrictionLoop final : public Experiment {
         force[i] += law.force({}, instant(i, offset), direction_of(law_v_[i]));
       return true;
     }
-    sim::LawHost host = sim::loaded_host(law, on_way(0, offset), travel);
+    sim::LawHost host = sim::loaded_host(law, on_path(0, offset), travel);
     host.limit_steps(std::min(most_steps(), sim::WorkLimit::most()));
-    if (const Direction first = direction_of(way_v_[0]); travel == 0.0 || first != host.direction())
+    if (const Direction first = direction_of(path_v_[0]); travel == 0.0 || first != host.direction())
       host.change_direction(first);
     force[0] += host.force();
     for (std::size_t i = 1; i < force.size() && !host.broken(); ++i) {
@@ -258,10 +258,10 @@ class FrictionLoop final : public Experiment {
   /// where the velocity would cross zero and come back: the samples show no reversal there, nor motion beside a
   /// rest.
   [[nodiscard]] double bend(std::size_t i) const {
-    if (i < 2 || i + 1 >= way_v_.size()) return 0.0;
-    const double from = way_v_[i - 1];
-    const double to = way_v_[i];
-    const double bend = 0.25 * rate_ * rate_ * (way_v_[i - 2] - from - to + way_v_[i + 1]);
+    if (i < 2 || i + 1 >= path_v_.size()) return 0.0;
+    const double from = path_v_[i - 1];
+    const double to = path_v_[i];
+    const double bend = 0.25 * rate_ * rate_ * (path_v_[i - 2] - from - to + path_v_[i + 1]);
     const double rise = std::abs(bend) / (rate_ * rate_);
     const bool turns = from * to > 0.0    ? 0.25 * rise >= std::min(std::abs(from), std::abs(to))
                        : from * to == 0.0 ? rise > std::abs(from + to)
@@ -272,41 +272,41 @@ class FrictionLoop final : public Experiment {
   /// The velocity between samples i - 1 and i: v + slope s + curve s^2 at the time s after the first.
   struct Stretch {
     double v = 0.0, slope = 0.0, curve = 0.0;
-    [[nodiscard]] double way(double s) const { return s * (v + s * (slope / 2.0 + s * curve / 3.0)); }
+    [[nodiscard]] double path(double s) const { return s * (v + s * (slope / 2.0 + s * curve / 3.0)); }
   };
   [[nodiscard]] Stretch stretch(std::size_t i) const {
     const double curve = bend(i);
-    return {way_v_[i - 1], (way_v_[i] - way_v_[i - 1]) * rate_ - curve / rate_, curve};
+    return {path_v_[i - 1], (path_v_[i] - path_v_[i - 1]) * rate_ - curve / rate_, curve};
   }
 
   /// Lets the position go on as the velocity says. Measured positions would go against it by their noise, and a
-  /// contact would slip backwards without end. The way follows the measured position by a tenth of the difference
+  /// contact would slip backwards without end. The path follows the measured position by a tenth of the difference
   /// in each sample, as far as half of what the velocity says allows.
   void agree() {
     constexpr double share = 0.1;
     constexpr double most = 0.5;
-    for (std::size_t i = 1; i < way_x_.size(); ++i) {
-      const double step = stretch(i).way(1.0 / rate_);
-      const double allowed = way_v_[i - 1] * way_v_[i] < 0.0 ? 0.0 : most * std::abs(step);
-      const double before = way_x_[i - 1] + step;
-      way_x_[i] = before + std::clamp(share * (way_x_[i] - before), -allowed, allowed);
+    for (std::size_t i = 1; i < path_x_.size(); ++i) {
+      const double step = stretch(i).path(1.0 / rate_);
+      const double allowed = path_v_[i - 1] * path_v_[i] < 0.0 ? 0.0 : most * std::abs(step);
+      const double before = path_x_[i - 1] + step;
+      path_x_[i] = before + std::clamp(share * (path_x_[i] - before), -allowed, allowed);
     }
   }
 
   /// Moves the law from sample i - 1 to sample i. The velocity is a parabola, which may cross zero once.
   void move(sim::LawHost& host, std::size_t i, double offset) const {
-    const Instant from = on_way(i - 1, offset);
-    const Instant to = on_way(i, offset);
+    const Instant from = on_path(i - 1, offset);
+    const Instant to = on_path(i, offset);
     const double h = to.t - from.t;
     const Stretch along = stretch(i);
-    const double step = along.way(h);
+    const double step = along.path(h);
     // The step of the position is that of the velocity, but for a factor if both agree, or for a constant speed.
     const bool has_factor = agrees_ && from.v * to.v >= 0.0 && step != 0.0;
     const double factor = has_factor ? (to.x - from.x) / step : 1.0;
     const double left = agrees_ ? 0.0 : (to.x - from.x - step) / h;
     const sim::Path path = [from, along, factor, left](double t) {
       const double s = t - from.t;
-      return Instant{t, from.x + factor * along.way(s) + left * s, from.v + s * (along.slope + s * along.curve)};
+      return Instant{t, from.x + factor * along.path(s) + left * s, from.v + s * (along.slope + s * along.curve)};
     };
     if (from.v * to.v < 0.0) {
       // The root of the parabola between the samples, without cancellation.
@@ -322,10 +322,10 @@ class FrictionLoop final : public Experiment {
 
   double start_;
   double rate_;
-  std::vector<double> x_, v_, a_;      ///< measured, or derivatives or integrals of what was measured
-  std::vector<double> law_x_, law_v_;  ///< for the laws: filtered before they are differentiated
-  std::vector<double> way_x_, way_v_;  ///< for laws with a memory: see hold(), agree()
-  bool agrees_ = false;                ///< see agree()
+  std::vector<double> x_, v_, a_;        ///< measured, or derivatives or integrals of what was measured
+  std::vector<double> law_x_, law_v_;    ///< for the laws: filtered before they are differentiated
+  std::vector<double> path_x_, path_v_;  ///< for laws with a memory: see hold(), agree()
+  bool agrees_ = false;                  ///< see agree()
   std::optional<ZeroPhaseFilter> filter_;
   std::vector<double> force_;  ///< measured, before the filter
   double force_noise_ = 0.0;

@@ -56,7 +56,7 @@ double swings_of(const std::vector<double>& signal) {
 /// If the zero of a is off by b, b (1/w^2 - t^2/2) is added: a constant and t^2. x_0, v_0, 1/w^2 and b follow by
 /// least squares over all samples; b only if a parabola does not take more than half of a, as in a part of a swing.
 std::pair<double, double> begin_of_acceleration(const std::vector<double>& a, double rate) {
-  const std::vector<double> way = running_integral(running_integral(a, rate), rate);
+  const std::vector<double> path = running_integral(running_integral(a, rate), rate);
   const auto count = static_cast<Eigen::Index>(a.size());
   const Eigen::Map<const Eigen::VectorXd> measured(a.data(), count);
   const double duration = static_cast<double>(count - 1) / rate;
@@ -69,7 +69,7 @@ std::pair<double, double> begin_of_acceleration(const std::vector<double>& a, do
     return (measured - trend * pivoted_least_squares(trend, measured)).squaredNorm();
   };
   if (rest_without(3) < 0.5 * rest_without(2)) columns.col(2).setZero();
-  const Eigen::VectorXd target = -Eigen::Map<const Eigen::VectorXd>(way.data(), count);
+  const Eigen::VectorXd target = -Eigen::Map<const Eigen::VectorXd>(path.data(), count);
   const Eigen::VectorXd found = pivoted_least_squares(columns, target);
   const double zero = 2.0 * found[2] / (duration * duration);
   return {found[0] + zero * found[3], found[1]};

@@ -351,7 +351,7 @@ std::optional<sim::Model> example_of(const Rig& rig, const std::vector<FitParame
   }
 }
 
-/// Whether the force of a law without a way behind it depends on the position.
+/// Whether the force of a law without a path behind it depends on the position.
 bool depends_on_place(const friction::Law& law) {
   constexpr double far = 100.0;      // m
   constexpr double rounding = 1e-5;  // N

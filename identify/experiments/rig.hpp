@@ -6,7 +6,7 @@
 /// path into lists and records ("elements[1].stiffness", "warming.power"). If two parameters have the same name,
 /// "system." or "friction." ("friction[1]." for laws in parallel) is put before it. Each record adds its own
 /// parameters: position and velocity at its first sample, offset, offset_v and offset_a (the readings of x, v and a
-/// at rest), release (the time of the first extreme), travel (the way of the mass that has loaded the contacts
+/// at rest), release (the time of the first extreme), travel (the path of the mass that has loaded the contacts
 /// before the first sample). A law's parameter with such a name also gets "friction." before it.
 ///
 /// Ranges are those of the laws' tables. The last `share` of a list of elements is 1 minus the sum of the others.
@@ -94,11 +94,11 @@ void arrange(const Rig& rig, std::vector<FitParameter>& parameters);
 [[nodiscard]] std::optional<Rig> with_values(const Rig& rig, const std::vector<FitParameter>& parameters,
                                              const Eigen::VectorXd& values);
 
-/// Whether a force of the rig depends on the position itself, as that of a spring, and not only on ways. Sought
+/// Whether a force of the rig depends on the position itself, as that of a spring, and not only on the path. Sought
 /// numbers count as they are stated, but those that are unknown or zero as 1.
 [[nodiscard]] bool feels_place(const Rig& rig, const std::vector<FitParameter>& sought);
 
-/// Whether a law of the rig remembers the way of the mass, so that a travel before the first sample can load it.
+/// Whether a law of the rig remembers the path of the mass, so that a travel before the first sample can load it.
 /// Yes if a law cannot be made of these numbers.
 [[nodiscard]] bool remembers_way(const Rig& rig, const std::vector<FitParameter>& sought);
 

@@ -82,10 +82,11 @@ double share_of(int number, std::size_t dimension, std::size_t dimensions) {
   return std::fmod(0.5 + step * number, 1.0);
 }
 
-/// A number of either sign in units of the size, for -1 < `way` < 1: linear, or logarithmic for a large spread.
-double of_either_sign(double way, double spread) {
+/// A number of either sign in units of the size, for -1 < `position` < 1: linear, or logarithmic for a large
+/// spread.
+double of_either_sign(double position, double spread) {
   constexpr double far = 10.0;
-  return spread < far ? way : std::copysign(std::pow(spread, 2.0 * std::abs(way) - 1.0), way);
+  return spread < far ? position : std::copysign(std::pow(spread, 2.0 * std::abs(position) - 1.0), position);
 }
 
 /// Friction and damping from the energy of a period in each steady state, if there are two amplitudes.

@@ -151,7 +151,7 @@ class LoadSearch {
     loaded.found = std::move(*best);
     const double travel = problem.values(loaded.found.coordinates)[loaded.found.coordinates.size() - 1];
     loaded.text = before_.experiments[index_]->label +
-                  ": the contacts were loaded when the record began, as by a way of " +
+                  ": the contacts were loaded when the record began, as by a path of " +
                   core::format_number(travel, 3) + " " + loaded.task->parameters.back().unit +
                   " from an unloaded state: it is sought as travel; state 'initial' if they were not";
     return loaded;

@@ -1,7 +1,7 @@
 #pragma once
 /// The load of contacts at the first sample of a record.
 ///
-/// A law that remembers the way of the mass starts unloaded. In a record that was cut out of a running test, or
+/// A law that remembers the path of the mass starts unloaded. In a record that was cut out of a running test, or
 /// begins with the release from a pull, its contacts are loaded already. The `travel` of the record
 /// (`sim/conformance/loaded_contacts.hpp`) gives this load. It is sought if the readings show it:
 ///

@@ -18,8 +18,8 @@ constexpr double doubtful = 2.0;
 /// Of the steps that lead out of a place where the others went nowhere.
 constexpr double least_damping = 0.01;
 
-/// Where the growth of a profile reaches its limit: between two ways from the estimate, with the growths there over
-/// the limit.
+/// Where the growth of a profile reaches its limit: between two distances from the estimate, with the growths there
+/// over the limit.
 struct Bracket {
   double inner = 0.0;
   double inner_growth = 0.0;
@@ -27,18 +27,18 @@ struct Bracket {
   double outer_growth = 0.0;
 
   /// The root by a new point. The growth is nearly linear, except at a jump, which is halved.
-  [[nodiscard]] double guess(double way, double growth) const {
+  [[nodiscard]] double guess(double distance, double growth) const {
     constexpr double half = 0.5;
-    if (growth > doubtful) return inner + half * (way - inner);
+    if (growth > doubtful) return inner + half * (distance - inner);
     constexpr double least = 1e-3;
-    return inner + (way - inner) * (1.0 - inner_growth) / std::max(growth - inner_growth, least);
+    return inner + (distance - inner) * (1.0 - inner_growth) / std::max(growth - inner_growth, least);
   }
 
-  void take(double way, double growth) {
+  void take(double distance, double growth) {
     if (growth < 1.0)
-      inner = way, inner_growth = growth;
+      inner = distance, inner_growth = growth;
     else
-      outer = way, outer_growth = growth;
+      outer = distance, outer_growth = growth;
   }
 
   /// A guess, at least a tenth inside of both ends.
@@ -66,47 +66,47 @@ void Profiler::for_each(Eigen::Index count, const std::function<void(Eigen::Inde
                 [&](std::size_t i, std::size_t) { work(static_cast<Eigen::Index>(i)); });
 }
 
-Profiler::Way Profiler::at(const Eigen::VectorXd& q, const Eigen::VectorXd& residuals,
-                           const Eigen::MatrixXd& rows) const {
-  Way way{q, residuals, rows, rows.transpose() * rows, Eigen::VectorXd::Ones(q.size())};
+Profiler::ProfilePath Profiler::at(const Eigen::VectorXd& q, const Eigen::VectorXd& residuals,
+                                   const Eigen::MatrixXd& rows) const {
+  ProfilePath path{q, residuals, rows, rows.transpose() * rows, Eigen::VectorXd::Ones(q.size())};
   for (Eigen::Index j = 0; j < q.size(); ++j)
-    if (way.normal(j, j) > 0.0) way.unit[j] = 1.0 / std::sqrt(way.normal(j, j));
-  return way;
+    if (path.normal(j, j) > 0.0) path.unit[j] = 1.0 / std::sqrt(path.normal(j, j));
+  return path;
 }
 
-Eigen::VectorXd Profiler::step(Eigen::Index i, double value, const Way& way, double damping) const {
-  // Lagrange's multiplier, in units of `way.unit`. A parameter that would leave its range is held at the end of the
-  // range, and the step of the others is computed again.
+Eigen::VectorXd Profiler::step(Eigen::Index i, double value, const ProfilePath& path, double damping) const {
+  // Lagrange's multiplier, in units of `path.unit`. A parameter that would leave its range is held at the end of
+  // the range, and the step of the others is computed again.
   const Eigen::Index size = q_.size();
-  const Eigen::VectorXd row = way.unit.cwiseProduct(problem_.slope(way.q).row(i).transpose());
+  const Eigen::VectorXd row = path.unit.cwiseProduct(problem_.slope(path.q).row(i).transpose());
   const double scale = row.norm();
   Eigen::MatrixXd bordered = Eigen::MatrixXd::Zero(size + 1, size + 1);
-  bordered.topLeftCorner(size, size) = way.unit.asDiagonal() * way.normal * way.unit.asDiagonal();
+  bordered.topLeftCorner(size, size) = path.unit.asDiagonal() * path.normal * path.unit.asDiagonal();
   constexpr double least = 0.1;  // of the size of a coordinate
   for (Eigen::Index j = 0; damping > 0.0 && j < size; ++j) {
     const bool is_logarithm = problem_.coordinates()[static_cast<std::size_t>(j)].logarithmic;
-    const double whole = is_logarithm ? 1.0 : std::max(std::abs(way.q[j]), least);
-    bordered(j, j) += std::pow(damping * growth_of(way.residuals) * way.unit[j] / whole, 2);
+    const double whole = is_logarithm ? 1.0 : std::max(std::abs(path.q[j]), least);
+    bordered(j, j) += std::pow(damping * growth_of(path.residuals) * path.unit[j] / whole, 2);
   }
   bordered.block(0, size, size, 1) = row / scale;
   bordered.block(size, 0, 1, size) = row.transpose() / scale;
   Eigen::VectorXd right(size + 1);
-  right.head(size) = -way.unit.cwiseProduct(way.rows.transpose() * way.residuals);
-  right[size] = (value - problem_.values(way.q)[i]) / scale;
+  right.head(size) = -path.unit.cwiseProduct(path.rows.transpose() * path.residuals);
+  right[size] = (value - problem_.values(path.q)[i]) / scale;
   for (Eigen::Index held = 0;; ++held) {
     const Eigen::VectorXd found = bordered.completeOrthogonalDecomposition().solve(right);
-    Eigen::VectorXd q = way.q + way.unit.cwiseProduct(found.head(size));
+    Eigen::VectorXd q = path.q + path.unit.cwiseProduct(found.head(size));
     Eigen::Index leaving = -1;
     for (Eigen::Index j = 0; j < size; ++j) {
       const SearchCoordinate& c = problem_.coordinates()[static_cast<std::size_t>(j)];
       const double inside = std::clamp(q[j], c.low, c.high);
       constexpr double rounding = 1e-12;
-      const bool may_be_held = j != i || other_of(i, way.q) >= 0;
+      const bool may_be_held = j != i || other_of(i, path.q) >= 0;
       if (std::abs(inside - q[j]) > rounding * (1.0 + std::abs(inside)) && may_be_held && leaving < 0) leaving = j;
       q[j] = inside;
     }
     if (leaving < 0 || held == size) return other_of(i, q) < 0 ? q : placed(i, value, q);
-    const double shift = (q[leaving] - way.q[leaving]) / way.unit[leaving];
+    const double shift = (q[leaving] - path.q[leaving]) / path.unit[leaving];
     right -= shift * bordered.col(leaving);
     bordered.row(leaving).setZero();
     bordered.col(leaving).setZero();
@@ -133,60 +133,60 @@ double Profiler::growth_of(const Eigen::VectorXd& residuals) const {
   return std::sqrt(std::max(residuals.squaredNorm() - squares_, 0.0));
 }
 
-std::optional<double> Profiler::alone(Eigen::Index i, double value, Way& way) const {
-  Eigen::VectorXd q = placed(i, value, way.q);
+std::optional<double> Profiler::alone(Eigen::Index i, double value, ProfilePath& path) const {
+  Eigen::VectorXd q = placed(i, value, path.q);
   Eigen::VectorXd outputs;
   if (!problem_.outputs(q, outputs)) return std::nullopt;
-  way.q = std::move(q);
-  way.residuals = problem_.misses(outputs).cwiseProduct(weights_);
-  return growth_of(way.residuals);
+  path.q = std::move(q);
+  path.residuals = problem_.misses(outputs).cwiseProduct(weights_);
+  return growth_of(path.residuals);
 }
 
-std::optional<double> Profiler::growth(Eigen::Index i, double value, double limit, Way& way) const {
-  const Way before = way;
+std::optional<double> Profiler::growth(Eigen::Index i, double value, double limit, ProfilePath& path) const {
+  const ProfilePath before = path;
   constexpr double nothing = std::numeric_limits<double>::infinity();
-  std::optional<double> best = followed(i, value, nothing, 0.0, way);
+  std::optional<double> best = followed(i, value, nothing, 0.0, path);
   if (best && *best <= limit) return best;
   // The others may have moved across a jump of the sum of squares, such as that of one stick more.
-  Way beside = before;
+  ProfilePath beside = before;
   const std::optional<double> unfollowed = alone(i, value, beside);
   const bool led_nowhere = unfollowed && (!best || *unfollowed < *best);
-  if (led_nowhere) way = beside, best = unfollowed;
+  if (led_nowhere) path = beside, best = unfollowed;
   if (!unfollowed || *best <= limit || (!led_nowhere && *best <= doubtful * limit)) return best;
   // One of the others may have nearly no effect: a small error of its derivative moves it to the end of its range.
   const std::optional<double> damped = followed(i, value, *unfollowed, least_damping, beside);
-  if (damped && *damped < *best) way = std::move(beside), best = damped;
+  if (damped && *damped < *best) path = std::move(beside), best = damped;
   return best;
 }
 
-bool Profiler::take(const Eigen::VectorXd& q, Way& way, double& best) const {
+bool Profiler::take(const Eigen::VectorXd& q, ProfilePath& path, double& best) const {
   Eigen::VectorXd outputs;
   if (!problem_.outputs(q, outputs)) return false;
   Eigen::VectorXd residuals = problem_.misses(outputs).cwiseProduct(weights_);
   const double found = growth_of(residuals);
   if (!(found < best)) return true;
   best = found;
-  way.q = q;
-  way.residuals = std::move(residuals);
-  note(way, best);
+  path.q = q;
+  path.residuals = std::move(residuals);
+  note(path, best);
   return true;
 }
 
-void Profiler::note(const Way& way, double growth) const {
+void Profiler::note(const ProfilePath& path, double growth) const {
   // In units of the variance of a reading. A smaller gain only means that the search ended near enough to the
   // minimum.
   constexpr double margin = 0.05;
-  const double squares = way.residuals.squaredNorm();
+  const double squares = path.residuals.squaredNorm();
   const std::lock_guard lock(mutex_);
   constexpr double beyond_any_limit = 10.0;
-  if (growth < beyond_any_limit) places_.emplace_back(problem_.values(way.q), growth);
+  if (growth < beyond_any_limit) places_.emplace_back(problem_.values(path.q), growth);
   // The smallest of all, so that the order of the threads does not matter.
   const double limit = lower_ ? lower_->second : squares_ * (1.0 - margin / static_cast<double>(residuals_.size()));
-  if (squares < limit) lower_ = {way.q, squares};
+  if (squares < limit) lower_ = {path.q, squares};
 }
 
 std::optional<double> Profiler::followed(Eigen::Index i, double value, double best, double damping,
-                                         Way& way) const {
+                                         ProfilePath& path) const {
   const auto result = [&] { return std::isfinite(best) ? std::optional<double>(best) : std::nullopt; };
   // A bent valley needs many sets of derivatives; elsewhere, the first set suffices.
   constexpr int most_derivatives = 12;
@@ -199,12 +199,12 @@ std::optional<double> Profiler::followed(Eigen::Index i, double value, double be
     bool is_settled = false;
     for (int round = 0; round < most_steps && !is_settled; ++round) {
       const double before = best;
-      const Eigen::VectorXd q = step(i, value, way, damping);
-      const Eigen::VectorXd from = way.q;
-      if (!take(q, way, best)) return result();
+      const Eigen::VectorXd q = step(i, value, path, damping);
+      const Eigen::VectorXd from = path.q;
+      if (!take(q, path, best)) return result();
       // A step out of the range of the derivatives is tried again with a shorter length.
       constexpr double shorter = 0.3;
-      if (!(best < before) && std::isfinite(before) && !take(from + shorter * (q - from), way, best))
+      if (!(best < before) && std::isfinite(before) && !take(from + shorter * (q - from), path, best))
         return result();
       if (!(best < before) && damping > 0.0 && damping < most_damping) {
         damping *= stronger;
@@ -218,12 +218,12 @@ std::optional<double> Profiler::followed(Eigen::Index i, double value, double be
     if (derivative > 1 && !(begun - best > settled * best)) return result();
     Eigen::VectorXd outputs;
     Eigen::MatrixXd jacobian;
-    if (!problem_.derivatives(way.q, outputs, jacobian)) return result();
-    way = at(way.q, way.residuals, weights_.asDiagonal() * jacobian);
+    if (!problem_.derivatives(path.q, outputs, jacobian)) return result();
+    path = at(path.q, path.residuals, weights_.asDiagonal() * jacobian);
   }
 }
 
-double Profiler::first_way(Eigen::Index i, const FittedParameter& fitted, double limit) const {
+double Profiler::first_distance(Eigen::Index i, const FittedParameter& fitted, double limit) const {
   if (!std::isnan(fitted.std)) return limit * fitted.std;
   // A parameter without an effect near the estimate may have one further off.
   const double norm = rows_.col(i).norm();
@@ -231,11 +231,11 @@ double Profiler::first_way(Eigen::Index i, const FittedParameter& fitted, double
   return norm > 0.0 ? limit * problem_.slope(q_)(i, i) / norm : near * std::abs(problem_.slope(q_)(i, i));
 }
 
-std::optional<double> Profiler::grown_from(Eigen::Index i, double value, double limit, const Way* within,
-                                           Way& others) const {
+std::optional<double> Profiler::grown_from(Eigen::Index i, double value, double limit, const ProfilePath* within,
+                                           ProfilePath& others) const {
   std::optional<double> best = growth(i, value, limit, others);
   if (within == nullptr || (best && *best <= limit)) return best;
-  Way again = *within;
+  ProfilePath again = *within;
   const std::optional<double> grown = growth(i, value, limit, again);
   if (!grown || (best && *best <= *grown)) return best;
   others = std::move(again);
@@ -245,27 +245,27 @@ std::optional<double> Profiler::grown_from(Eigen::Index i, double value, double 
 double Profiler::end(Eigen::Index i, const FittedParameter& fitted, double limit, double sign) const {
   const SearchCoordinate& c = problem_.coordinates()[static_cast<std::size_t>(i)];
   const friction::Range& range = fitted.parameter.range;
-  const auto value_at = [&](double way) {
+  const auto value_at = [&](double distance) {
     const double value =
-        c.logarithmic ? fitted.value * std::exp(sign * way / fitted.value) : fitted.value + sign * way;
+        c.logarithmic ? fitted.value * std::exp(sign * distance / fitted.value) : fitted.value + sign * distance;
     return std::clamp(value, range.low, range.high);
   };
-  double way = first_way(i, fitted, limit);
-  Way others = at(q_, residuals_, rows_);
-  Way within = others;
+  double distance = first_distance(i, fitted, limit);
+  ProfilePath others = at(q_, residuals_, rows_);
+  ProfilePath within = others;
   Bracket bracket;
   double last = 0.0;
   constexpr int most_rounds = 16;
   constexpr double close = 0.02;
   for (int round = 0; round < most_rounds; ++round) {
-    const double value = value_at(way);
+    const double value = value_at(distance);
     const std::optional<double> grown = grown_from(i, value, limit, last > 1.0 ? &within : nullptr, others);
     if (!grown) return unknown;
     last = *grown / limit;
     if (std::abs(last - 1.0) < close) return value;
     if (last < 1.0 && value == (sign < 0.0 ? range.low : range.high)) return value;
-    const double next = bracket.guess(way, last);
-    bracket.take(way, last);
+    const double next = bracket.guess(distance, last);
+    bracket.take(distance, last);
     if (last < 1.0) within = others;
     if (bracket.outer - bracket.inner < close * bracket.outer) {
       // The others may reach from here what they did not reach from further off.
@@ -276,10 +276,10 @@ double Profiler::end(Eigen::Index i, const FittedParameter& fitted, double limit
       within = others;
       bracket = {bracket.outer, *again / limit};
     }
-    way = bracket.within(next);
+    distance = bracket.within(next);
   }
   constexpr double near = 0.1;
-  return std::abs(last - 1.0) < near ? value_at(way) : unknown;
+  return std::abs(last - 1.0) < near ? value_at(distance) : unknown;
 }
 
 Interval Profiler::widened(Eigen::Index i, Interval interval, double limit) const {

@@ -42,39 +42,39 @@ class Profiler {
   }
 
  private:
-  /// The current place of a profile, and the derivatives there.
-  struct Way {
+  /// Where the path of a profile is, and the derivatives there.
+  struct ProfilePath {
     Eigen::VectorXd q;
     Eigen::VectorXd residuals;
     Eigen::MatrixXd rows;
     Eigen::MatrixXd normal;
     Eigen::VectorXd unit;  ///< of each coordinate; it scales the diagonal of the normal matrix to one
   };
-  [[nodiscard]] Way at(const Eigen::VectorXd& q, const Eigen::VectorXd& residuals,
-                       const Eigen::MatrixXd& rows) const;
-  /// Least squares with parameter `i` held at `value`, by the derivatives of `way`. `damping`: a change of
+  [[nodiscard]] ProfilePath at(const Eigen::VectorXd& q, const Eigen::VectorXd& residuals,
+                               const Eigen::MatrixXd& rows) const;
+  /// Least squares with parameter `i` held at `value`, by the derivatives of `path`. `damping`: a change of
   /// another parameter by as much as itself counts as this share of the present growth.
-  [[nodiscard]] Eigen::VectorXd step(Eigen::Index i, double value, const Way& way, double damping) const;
+  [[nodiscard]] Eigen::VectorXd step(Eigen::Index i, double value, const ProfilePath& path, double damping) const;
   /// The parameter that `i` must not be below; -1: none.
   [[nodiscard]] Eigen::Index other_of(Eigen::Index i, const Eigen::VectorXd& q) const;
   /// `q` with parameter `i` at `value`. The parameter that it must not be below gives way.
   [[nodiscard]] Eigen::VectorXd placed(Eigen::Index i, double value, const Eigen::VectorXd& q) const;
   /// The square root of the growth of the sum of squares with parameter `i` at `value`. Nothing: no motion.
-  [[nodiscard]] std::optional<double> growth(Eigen::Index i, double value, double limit, Way& way) const;
+  [[nodiscard]] std::optional<double> growth(Eigen::Index i, double value, double limit, ProfilePath& path) const;
   /// The same from `others`, which may lie beyond the limit, or from `within` it, if that is better.
-  [[nodiscard]] std::optional<double> grown_from(Eigen::Index i, double value, double limit, const Way* within,
-                                                 Way& others) const;
-  /// The same by Gauss-Newton steps from `way`, whose growth is `best`; infinite: parameter `i` is elsewhere.
+  [[nodiscard]] std::optional<double> grown_from(Eigen::Index i, double value, double limit,
+                                                 const ProfilePath* within, ProfilePath& others) const;
+  /// The same by Gauss-Newton steps from `path`, whose growth is `best`; infinite: parameter `i` is elsewhere.
   [[nodiscard]] std::optional<double> followed(Eigen::Index i, double value, double best, double damping,
-                                               Way& way) const;
+                                               ProfilePath& path) const;
   /// The same with the other parameters unchanged.
-  [[nodiscard]] std::optional<double> alone(Eigen::Index i, double value, Way& way) const;
-  /// Moves `way` to `q` if the sum of squares is smaller there. False: no motion.
-  [[nodiscard]] bool take(const Eigen::VectorXd& q, Way& way, double& best) const;
-  void note(const Way& way, double growth) const;
+  [[nodiscard]] std::optional<double> alone(Eigen::Index i, double value, ProfilePath& path) const;
+  /// Moves `path` to `q` if the sum of squares is smaller there. False: no motion.
+  [[nodiscard]] bool take(const Eigen::VectorXd& q, ProfilePath& path, double& best) const;
+  void note(const ProfilePath& path, double growth) const;
   [[nodiscard]] double growth_of(const Eigen::VectorXd& residuals) const;
   /// The first distance of the parameter from its estimate.
-  [[nodiscard]] double first_way(Eigen::Index i, const FittedParameter& fitted, double limit) const;
+  [[nodiscard]] double first_distance(Eigen::Index i, const FittedParameter& fitted, double limit) const;
   [[nodiscard]] double end(Eigen::Index i, const FittedParameter& fitted, double limit, double sign) const;
 
   const FitProblem& problem_;

@@ -10,8 +10,8 @@
 
 #include "core/constants.hpp"
 #include "identify/ledger/freed_constants.hpp"
+#include "identify/ledger/history_relaxations.hpp"
 #include "identify/ledger/history_rows.hpp"
-#include "identify/ledger/history_ways.hpp"
 #include "identify/ledger/innovations.hpp"
 #include "identify/ledger/stated_noise.hpp"
 #include "identify/methods/histories/forward_fit.hpp"
@@ -36,7 +36,7 @@ class Histories {
     natural_ = force.natural_frequency();
     scale_ = {fit_.layout().length(), fit_.layout().length() * natural_};
     unit_force_ = force.k * scale_.length;
-    list_ = history_ways(fit_.tests(), constants_);
+    list_ = history_relaxations(fit_.tests(), constants_);
     zeros_ = free_zeros(fit_.tests(), scale_);
     start_.zeros.resize(static_cast<Eigen::Index>(zeros_.size()));
     for (std::size_t i = 0; i < zeros_.size(); ++i) start_.zeros[static_cast<Eigen::Index>(i)] = zeros_[i].near;
@@ -61,7 +61,7 @@ class Histories {
       if (other) best.take_nearer({*other, linearised(*other, taken, false)});
     }
     descend(taken, best);
-    if (!taken.empty() && !of_constants) best.take_nearer(by_way_of_constant(taken));
+    if (!taken.empty() && !of_constants) best.take_nearer(through_constant(taken));
     return joint(best.at, taken, all);
   }
 
@@ -98,7 +98,7 @@ class Histories {
   };
 
   [[nodiscard]] bool is_constant(std::size_t number) const {
-    return list_.ways[number].kind == Way::Kind::constant;
+    return list_.parts[number].kind == FreedPart::Kind::constant;
   }
 
   /// Steps of Gauss and Newton, as long as they bring the motion nearer.
@@ -128,21 +128,21 @@ class Histories {
   /// A fit out of step with the motion is at a minimum of its own, which no step leaves, whatever is relaxed. If
   /// another constant comes much nearer, a fit with that constant free as well keeps in step, and from there the
   /// constant is set back.
-  [[nodiscard]] Fitted by_way_of_constant(const Numbers& taken) {
+  [[nodiscard]] Fitted through_constant(const Numbers& taken) {
     const FreedFit* near = freed_.much_nearer();
-    for (std::size_t j = 0; near != nullptr && j < list_.ways.size(); ++j) {
-      if (!is_constant(j) || freed_.with(list_.ways[j].by) != near) continue;
+    for (std::size_t j = 0; near != nullptr && j < list_.parts.size(); ++j) {
+      if (!is_constant(j) || freed_.with(list_.parts[j].by) != near) continue;
       Numbers both = taken;
       both.push_back(j);
-      Fitted way{*freed(j), {}};
-      way.here = linearised(way.at, both, false);
-      descend(both, way);
+      Fitted through{*freed(j), {}};
+      through.here = linearised(through.at, both, false);
+      descend(both, through);
       Eigen::VectorXd back = Eigen::VectorXd::Zero(count_of_base() + static_cast<Eigen::Index>(both.size()));
-      back[back.size() - 1] = -way.at.g[static_cast<Eigen::Index>(j)];
-      way.at = stepped(way.at, back, both);
-      way.here = linearised(way.at, taken, false);
-      descend(taken, way);
-      return way;
+      back[back.size() - 1] = -through.at.g[static_cast<Eigen::Index>(j)];
+      through.at = stepped(through.at, back, both);
+      through.here = linearised(through.at, taken, false);
+      descend(taken, through);
+      return through;
     }
     return {start_, std::nullopt};
   }
@@ -171,12 +171,12 @@ class Histories {
     model.constants = {force.m, force.k, constants_.frequency};
     model.is_stated = sigma_x_ > 0.0;
     model.scale_freedom = model.is_stated ? known_freedom : static_cast<double>(model.residuals.size());
-    model.F0_parts = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(list_.ways.size()));
+    model.F0_parts = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(list_.parts.size()));
     model.zeta_parts = model.F0_parts;
-    for (std::size_t j = 0; j < list_.ways.size(); ++j) {
+    for (std::size_t j = 0; j < list_.parts.size(); ++j) {
       const auto own = static_cast<Eigen::Index>(j);
-      if (list_.ways[j].kind == Way::Kind::friction_of_history) model.F0_parts[own] = 1.0;
-      if (list_.ways[j].term != nullptr && list_.ways[j].term->one_sided)
+      if (list_.parts[j].kind == FreedPart::Kind::friction_of_history) model.F0_parts[own] = 1.0;
+      if (list_.parts[j].term != nullptr && list_.parts[j].term->one_sided)
         model.zeta_parts[own] = unit_force_ / scale_.speed / critical_damping(force.m, force.k);
     }
     return model;
@@ -188,11 +188,11 @@ class Histories {
   [[nodiscard]] std::optional<Linearised> seen_from_afar(const Place& at, const Numbers& all) {
     const FreedFit* near = freed_.much_nearer();
     std::optional<Linearised> nearer;
-    for (std::size_t j = 0; near != nullptr && !nearer && j < list_.ways.size(); ++j)
-      if (is_constant(j) && freed_.with(list_.ways[j].by) == near) nearer = linearised(*freed(j), {}, true);
+    for (std::size_t j = 0; near != nullptr && !nearer && j < list_.parts.size(); ++j)
+      if (is_constant(j) && freed_.with(list_.parts[j].by) == near) nearer = linearised(*freed(j), {}, true);
     if (!nearer) return linearised(at, all, true);
     std::optional<Linearised> found = linearised(at, all, true, nearer->errors);
-    for (std::size_t j = 0; found && j < list_.ways.size(); ++j) {
+    for (std::size_t j = 0; found && j < list_.parts.size(); ++j) {
       const std::optional<Place> place = is_constant(j) ? freed(j) : std::nullopt;
       const auto own = static_cast<Eigen::Index>(j);
       const std::optional<Linearised> there =
@@ -209,7 +209,7 @@ class Histories {
   /// The fit with this constant unknown. A motion that runs out of step with that of the stated constant is too far
   /// away to be reached by steps from there.
   [[nodiscard]] std::optional<Place> freed(std::size_t number) {
-    const FreedFit* found = freed_.with(list_.ways[number].by);
+    const FreedFit* found = freed_.with(list_.parts[number].by);
     if (found == nullptr) return std::nullopt;
     Place place{found->p, start_.zeros, start_.g};
     place.g[static_cast<Eigen::Index>(number)] = found->change;
@@ -221,8 +221,8 @@ class Histories {
 
   [[nodiscard]] ForceParameters force_at(const Place& at) const {
     ForceParameters force = fit_.layout().force(at.p);
-    for (std::size_t j = 0; j < list_.ways.size(); ++j)
-      if (is_constant(j)) ForwardLayout::value(force, list_.ways[j].by) += at.g[static_cast<Eigen::Index>(j)];
+    for (std::size_t j = 0; j < list_.parts.size(); ++j)
+      if (is_constant(j)) ForwardLayout::value(force, list_.parts[j].by) += at.g[static_cast<Eigen::Index>(j)];
     return force;
   }
 
@@ -290,13 +290,14 @@ class Histories {
     for (const ForwardLayout::Column& column : layout.columns(t, test)) by.push_back(column.by);
     std::vector<SampledOscillator::Force> forces;
     for (const std::size_t j : wanted) {
-      const Way& way = list_.ways[j];
+      const FreedPart& part = list_.parts[j];
       const double g = at.g[static_cast<Eigen::Index>(j)];
-      if (way.kind == Way::Kind::constant) by.push_back(way.by);
-      if (way.kind == Way::Kind::friction_of_history) parameters.F0 += g * share_of(way, t, fit_.tests().size());
-      if (way.kind != Way::Kind::force) continue;
-      const double unit = way.term->assumption == Assumption::sensors ? 1.0 : unit_force_;
-      forces.emplace_back([term = way.term, unit, scale = scale_](const SampledOscillator::Instant& instant) {
+      if (part.kind == FreedPart::Kind::constant) by.push_back(part.by);
+      if (part.kind == FreedPart::Kind::friction_of_history)
+        parameters.F0 += g * share_of(part, t, fit_.tests().size());
+      if (part.kind != FreedPart::Kind::force) continue;
+      const double unit = part.term->assumption == Assumption::sensors ? 1.0 : unit_force_;
+      forces.emplace_back([term = part.term, unit, scale = scale_](const SampledOscillator::Instant& instant) {
         return unit * term->force(instant, scale);
       });
       parameters.further.push_back(g);
@@ -342,7 +343,7 @@ class Histories {
     const Eigen::VectorXd jerk = finely_differentiated(a, rate);
     const Eigen::MatrixXd columns_x = arranged(t, wanted, force, motion.derivatives.x);
     const Eigen::MatrixXd columns_v = arranged(t, wanted, force, motion.derivatives.v);
-    const HistoryReader read{list_.ways, zeros_, scale_.length, at, wanted, t};
+    const HistoryReader read{list_.parts, zeros_, scale_.length, at, wanted, t};
     SensorRows rows;
     rows.x = read(MotionSensor::x, history.x, {motion.x, motion.v, a}, columns_x, columns_v);
     if (!history.v.empty())
@@ -374,16 +375,16 @@ class Histories {
       ++from;
     }
     for (std::size_t j = 0; j < wanted.size(); ++j)
-      if (const Way& way = list_.ways[wanted[j]]; way.kind == Way::Kind::constant) {
-        result.col(base + static_cast<Eigen::Index>(j)) = at_constant_zeta(way.by);
+      if (const FreedPart& part = list_.parts[wanted[j]]; part.kind == FreedPart::Kind::constant) {
+        result.col(base + static_cast<Eigen::Index>(j)) = at_constant_zeta(part.by);
         ++from;
       }
     for (std::size_t j = 0; j < wanted.size(); ++j) {
-      const Way& way = list_.ways[wanted[j]];
+      const FreedPart& part = list_.parts[wanted[j]];
       const Eigen::Index to = base + static_cast<Eigen::Index>(j);
-      if (way.kind == Way::Kind::force) result.col(to) = derivatives.col(from++);
-      if (way.kind == Way::Kind::friction_of_history)
-        result.col(to) = result.col(1) * (share_of(way, t, fit_.tests().size()) / layout.shared()[1].scale);
+      if (part.kind == FreedPart::Kind::force) result.col(to) = derivatives.col(from++);
+      if (part.kind == FreedPart::Kind::friction_of_history)
+        result.col(to) = result.col(1) * (share_of(part, t, fit_.tests().size()) / layout.shared()[1].scale);
     }
     return result;
   }
@@ -397,7 +398,7 @@ class Histories {
   MotionScale scale_;
   double natural_ = 1.0;     ///< rad/s
   double unit_force_ = 1.0;  ///< N
-  HistoryWays list_;
+  HistoryRelaxations list_;
   std::vector<FreeZero> zeros_;
   std::vector<ReadingNoise> noise_;
   std::map<std::size_t, SampledOscillator> shaken_;  ///< of the tests with noise in their drive

@@ -26,7 +26,7 @@ double low_speed(const At& at, const MotionScale& scale) {
 }
 double presliding(const At& at, const MotionScale& scale) {
   constexpr double share = 0.03;
-  return -at.direction * std::exp(-at.way / (share * scale.length));
+  return -at.direction * std::exp(-at.path / (share * scale.length));
 }
 double position_slope(const At& at, const MotionScale& scale) {
   return at.direction * std::abs(at.x) / scale.length;

@@ -182,7 +182,7 @@ double SampledOscillator::acceleration(std::size_t sample) const {
   here.direction = direction_;
   here.y = value_at(y_[interval], nodes, at);
   here.drive = p_.k * here.y + value_at(force_[interval], nodes, at);
-  here.way = std::abs(x_ - reversal_);
+  here.path = std::abs(x_ - reversal_);
   here.course = static_cast<double>(sample) / static_cast<double>(count_ - 1);
   double force = here.drive - p_.k * x_ - p_.c * here.v - p_.F0 * direction_;
   for (const auto& [further, g] : acting_) force -= g * (*further)(here);
@@ -214,7 +214,7 @@ SampledOscillator::Balance SampledOscillator::balance(double at) const {
   here.x = x_;
   here.y = value_at(y_[interval_], nodes, at);
   here.drive = value_at(drive_, nodes, at);
-  here.way = std::abs(x_ - reversal_);
+  here.path = std::abs(x_ - reversal_);
   here.course = course(at);
   Instant back = here;
   here.direction = 1.0;
@@ -298,7 +298,7 @@ SampledOscillator::Instant SampledOscillator::instant(double u) const {
   instant.direction = direction_;
   instant.y = value_at(y_here_, nodes, u);
   instant.drive = value_at(drive_here_, nodes, u);
-  instant.way = std::abs(instant.x - reversal_);
+  instant.path = std::abs(instant.x - reversal_);
   instant.course = course(begin_ + u);
   return instant;
 }
@@ -328,7 +328,7 @@ void SampledOscillator::look_along() {
     at.direction = direction_;
     at.y = y[i];
     at.drive = drive[i];
-    at.way = std::abs(x[i] - reversal_);
+    at.path = std::abs(x[i] - reversal_);
     at.course = course(begin_ + powers(i, 1) * length);
   }
 }

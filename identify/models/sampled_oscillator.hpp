@@ -45,7 +45,7 @@ class SampledOscillator {
     double direction = 0.0;  ///< of sliding, 1 or -1
     double y = 0.0;          ///< m
     double drive = 0.0;      ///< k y + f [N]
-    double way = 0.0;        ///< distance since the last reversal [m]; very large before the first
+    double path = 0.0;       ///< distance since the last reversal [m]; very large before the first
     double course = 0.0;     ///< share of the history that is over
   };
   /// A force on the mass, positive against its positive direction; smooth except at reversals; in any unit.

@@ -62,7 +62,7 @@ void SampledOscillator::linearise() {
         Instant at = middle;
         at.x += sign * in_x;
         at.v += sign * in_v;
-        at.way = std::abs(at.x - reversal_);
+        at.path = std::abs(at.x - reversal_);
         return (*force)(at);
       };
       return step > 0.0 ? (moved(1.0) - moved(-1.0)) / (2.0 * step) : 0.0;

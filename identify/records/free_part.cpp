@@ -23,12 +23,12 @@ History shown_motion(const History& history) {
   return shown;
 }
 
-/// Samples from the end of the hold until nine tenths of the way are done, for a mass that does not turn back.
+/// Samples from the end of the hold until nine tenths of the path are done, for a mass that does not turn back.
 double duration_of_move(const std::vector<double>& x, std::size_t held) {
   constexpr double most = 0.9;
-  double way = 0.0;
-  for (const double value : x) way = std::max(way, std::abs(value - x[0]));
-  const auto arrived = std::ranges::find_if(x, [&](double value) { return std::abs(value - x[0]) >= most * way; });
+  double path = 0.0;
+  for (const double value : x) path = std::max(path, std::abs(value - x[0]));
+  const auto arrived = std::ranges::find_if(x, [&](double value) { return std::abs(value - x[0]) >= most * path; });
   return static_cast<double>(arrived - x.begin()) - static_cast<double>(held);
 }
 

@@ -4,7 +4,7 @@
 ///   input work = change of stored energy + c int v^2 dt + F0 int |dx|
 ///
 /// It holds for any waveform, with or without sticks. Integrals use Hermite's rule on v and a. If v changes its
-/// sign between two samples, the path includes the way to the turning point and back. Errors: O(dt^2) at turning
+/// sign between two samples, the path includes the part to the turning point and back. Errors: O(dt^2) at turning
 /// points, O(dt^4) elsewhere.
 
 #include <vector>

@@ -51,11 +51,11 @@ class Reader {
   }
 
   [[nodiscard]] double gain_error(Place place) const {
-    const double way =
+    const double share =
         place.size < 2 ? 0.0 : static_cast<double>(place.number) / static_cast<double>(place.size - 1);
     const auto every = static_cast<std::size_t>(sensor_.outlier_every);
     const bool is_outlier = every > 0 && place.number % every == every / 2;
-    return sensor_.gain_error + sensor_.gain_drift * way + (is_outlier ? sensor_.outlier_size : 0.0);
+    return sensor_.gain_error + sensor_.gain_drift * share + (is_outlier ? sensor_.outlier_size : 0.0);
   }
 
   double noise() { return sensor_.noise > 0.0 ? sensor_.noise * draws_.normal(count_++) : 0.0; }

@@ -40,7 +40,7 @@ struct LibraryLaw {
 [[nodiscard]] bool is_of_spring(const departures::Departure& departure);
 
 /// The laws for readings of this kind, sorted by name, without plain friction. Friction that varies at random along
-/// the way and friction that warms are not among them: they have no F0 but that of their history.
+/// the path and friction that warms are not among them: they have no F0 but that of their history.
 [[nodiscard]] std::vector<LibraryLaw> law_library(const ReadingModel& model, const LawIntervalOptions& options);
 
 /// Fits of one law over its severity, negative ones first. A law without steady states has only the fit of severity

@@ -3,7 +3,7 @@
 
 #include "core/random.hpp"
 #include "identify/fit/fit.hpp"
-#include "identify/records/held_way.hpp"
+#include "identify/records/held_path.hpp"
 #include "identify/records/rest_samples.hpp"
 #include "tests/identify/fit/synthetic.hpp"
 

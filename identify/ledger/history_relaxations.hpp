@@ -27,7 +27,7 @@ struct FreeZero {
 [[nodiscard]] std::vector<FreeZero> free_zeros(const std::vector<ForwardTest>& tests, const MotionScale& scale);
 
 /// What a relaxation sets free.
-struct Way {
+struct FreedPart {
   enum class Kind { constant, force, friction_of_history, gain, delay, zero, zero_drift } kind = Kind::constant;
   SampledOscillator::By by = SampledOscillator::By::mass;  ///< of a constant
   const HistoryTerm* term = nullptr;                       ///< of a force
@@ -36,16 +36,17 @@ struct Way {
 };
 
 /// Share of the free friction force of one history in every history, so that F0 stays the mean over all.
-[[nodiscard]] double share_of(const Way& way, std::size_t test, std::size_t tests);
+[[nodiscard]] double share_of(const FreedPart& part, std::size_t test, std::size_t tests);
 
-/// All relaxations that the histories may show, each with its way.
-struct HistoryWays {
+/// All relaxations that the histories may show, each with the part that it sets free.
+struct HistoryRelaxations {
   std::vector<Relaxation> relaxations;
-  std::vector<Way> ways;  ///< of each relaxation
+  std::vector<FreedPart> parts;  ///< of each relaxation
 };
 
 /// Gain and delay of x are free only beside another signal: x alone, with its initial state free, tells neither.
-[[nodiscard]] HistoryWays history_ways(const std::vector<ForwardTest>& tests, const KnownConstants& constants);
+[[nodiscard]] HistoryRelaxations history_relaxations(const std::vector<ForwardTest>& tests,
+                                                     const KnownConstants& constants);
 
 /// Where the model is linearised: the parameters of the fit, the zeros of v and a, and a coefficient for each
 /// relaxation.
@@ -58,7 +59,7 @@ struct Place {
 /// Rows of the readings of one test, with the columns of what is free in their sensor. All are references: they
 /// outlive this.
 struct HistoryReader {
-  const std::vector<Way>& ways;
+  const std::vector<FreedPart>& parts;
   const std::vector<FreeZero>& zeros;
   double length;  ///< of the motion [m]
   const Place& at;

@@ -1,4 +1,4 @@
-#include "identify/records/held_way.hpp"
+#include "identify/records/held_path.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -28,7 +28,7 @@ double distance(const WhiteSignal& signal, std::size_t begin, double level, doub
 
 /// A stretch without the ends at which the mean of a block is away from `level`.
 Stretch trimmed(Stretch stretch, const WhiteSignal& signal, double level, double rounding) {
-  constexpr double off = 1.0;  // two would lose some of the way at the ends
+  constexpr double off = 1.0;  // two would lose some of the path at the ends
   auto [begin, end] = stretch;
   while (end - begin >= block && distance(signal, begin, level, rounding) > off) ++begin;
   while (end - begin >= block && distance(signal, end - block, level, rounding) > off) --end;

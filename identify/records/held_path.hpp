@@ -1,7 +1,7 @@
 #pragma once
-/// The measured way of a mass, without the noise of the sensors while it rests.
+/// The measured path of a mass, without the noise of the sensors while it rests.
 ///
-/// A law that remembers the way takes noise for motion to and fro, which relaxes its states and costs time. A
+/// A law that remembers the path takes noise for motion to and fro, which relaxes its states and costs time. A
 /// stretch of samples at rest has the mean position and no speed. Its ends, where the mass still moves, are left as
 /// they were measured: those at which the mean of eight samples is more than a standard error off. A stretch
 /// whose means of eight samples are not constant within their noise is left, too: the mass creeps there.

@@ -1,4 +1,4 @@
-#include "identify/ledger/history_ways.hpp"
+#include "identify/ledger/history_relaxations.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,21 +9,21 @@ namespace dualdamp::identify {
 
 namespace {
 
-using Kind = Way::Kind;
+using Kind = FreedPart::Kind;
 using By = SampledOscillator::By;
 
-void add(HistoryWays& list, Assumption assumption, std::string test, const Way& way) {
+void add(HistoryRelaxations& list, Assumption assumption, std::string test, const FreedPart& part) {
   Relaxation relaxation{assumption, std::move(test)};
-  if (way.term != nullptr) {
-    relaxation.sign = way.term->sign;
-    relaxation.freed = way.term->freed;
+  if (part.term != nullptr) {
+    relaxation.sign = part.term->sign;
+    relaxation.freed = part.term->freed;
   }
-  if (way.kind == Kind::gain) relaxation.freed = Freed::gain;
+  if (part.kind == Kind::gain) relaxation.freed = Freed::gain;
   list.relaxations.push_back(std::move(relaxation));
-  list.ways.push_back(way);
+  list.parts.push_back(part);
 }
 
-void add_constants(HistoryWays& list, const KnownConstants& constants) {
+void add_constants(HistoryRelaxations& list, const KnownConstants& constants) {
   if (!std::isnan(constants.mass))
     add(list, Assumption::constants, "mass free", {.kind = Kind::constant, .by = By::mass});
   if (!std::isnan(constants.stiffness))
@@ -33,7 +33,7 @@ void add_constants(HistoryWays& list, const KnownConstants& constants) {
     add(list, Assumption::one_mode, "inertia of a further mode", {.kind = Kind::constant, .by = By::mass});
 }
 
-void add_contrasts(HistoryWays& list, std::size_t tests) {
+void add_contrasts(HistoryRelaxations& list, std::size_t tests) {
   constexpr std::size_t most = 8;
   const std::size_t contrasts = tests < 2 ? 0 : tests == 2 ? 1 : std::min(tests, most);
   for (std::size_t t = 0; t < contrasts; ++t)
@@ -41,7 +41,7 @@ void add_contrasts(HistoryWays& list, std::size_t tests) {
         {.kind = Kind::friction_of_history, .history = t});
 }
 
-void add_reading(HistoryWays& list, const std::string& signal, MotionSensor sensor) {
+void add_reading(HistoryRelaxations& list, const std::string& signal, MotionSensor sensor) {
   add(list, Assumption::sensors, "gain of " + signal + " free", {.kind = Kind::gain, .sensor = sensor});
   add(list, Assumption::sensors, "delay of " + signal + " free", {.kind = Kind::delay, .sensor = sensor});
 }
@@ -66,15 +66,15 @@ std::vector<FreeZero> free_zeros(const std::vector<ForwardTest>& tests, const Mo
   return list;
 }
 
-double share_of(const Way& way, std::size_t test, std::size_t tests) {
-  return way.history == test ? 1.0 : -1.0 / (static_cast<double>(tests) - 1.0);
+double share_of(const FreedPart& part, std::size_t test, std::size_t tests) {
+  return part.history == test ? 1.0 : -1.0 / (static_cast<double>(tests) - 1.0);
 }
 
-HistoryWays history_ways(const std::vector<ForwardTest>& tests, const KnownConstants& constants) {
+HistoryRelaxations history_relaxations(const std::vector<ForwardTest>& tests, const KnownConstants& constants) {
   const auto has = [&](std::vector<double> History::* signal) {
     return std::ranges::any_of(tests, [&](const ForwardTest& test) { return !(test.history->*signal).empty(); });
   };
-  HistoryWays list;
+  HistoryRelaxations list;
   add_constants(list, constants);
   for (const HistoryTerm& term : history_terms())
     add(list, term.assumption, std::string(term.test), {.kind = Kind::force, .term = &term});
@@ -93,15 +93,15 @@ Eigen::MatrixXd HistoryReader::operator()(MotionSensor sensor, const std::vector
                                           const Eigen::MatrixXd& slopes) const {
   const auto own = [&](auto act) {
     for (std::size_t j = 0; j < wanted.size(); ++j)
-      if (const Way& way = ways[wanted[j]]; way.sensor == sensor)
-        act(way.kind, at.g[static_cast<Eigen::Index>(wanted[j])], static_cast<Eigen::Index>(j));
+      if (const FreedPart& part = parts[wanted[j]]; part.sensor == sensor)
+        act(part.kind, at.g[static_cast<Eigen::Index>(wanted[j])], static_cast<Eigen::Index>(j));
   };
   SensorErrors errors;
-  own([&](Way::Kind kind, double g, Eigen::Index) {
-    if (kind == Way::Kind::gain) errors.gain += g;
-    if (kind == Way::Kind::delay) errors.delay = g;
-    if (kind == Way::Kind::zero) errors.zero = g * length;
-    if (kind == Way::Kind::zero_drift) errors.drift = g * length;
+  own([&](FreedPart::Kind kind, double g, Eigen::Index) {
+    if (kind == FreedPart::Kind::gain) errors.gain += g;
+    if (kind == FreedPart::Kind::delay) errors.delay = g;
+    if (kind == FreedPart::Kind::zero) errors.zero = g * length;
+    if (kind == FreedPart::Kind::zero_drift) errors.drift = g * length;
   });
   const auto zero = std::ranges::find_if(
       zeros, [&](const FreeZero& other) { return other.history == test && other.sensor == sensor; });
@@ -109,12 +109,12 @@ Eigen::MatrixXd HistoryReader::operator()(MotionSensor sensor, const std::vector
   if (zero != zeros.end()) errors.zero = zero->unit * at.zeros[place];
   Eigen::MatrixXd rows = reading_rows(measured, motion, errors, columns, slopes);
   if (zero != zeros.end()) rows.col(1 + at.p.size() + place).setConstant(zero->unit);
-  own([&](Way::Kind kind, double, Eigen::Index j) {
+  own([&](FreedPart::Kind kind, double, Eigen::Index j) {
     auto to = rows.col(1 + at.p.size() + at.zeros.size() + j);
-    if (kind == Way::Kind::gain) to = motion.late(errors.delay);
-    if (kind == Way::Kind::delay) to = errors.gain * (errors.delay * motion.curvature - motion.slope);
-    if (kind == Way::Kind::zero) to.setConstant(length);
-    if (kind == Way::Kind::zero_drift) to = length * course_of(rows.rows());
+    if (kind == FreedPart::Kind::gain) to = motion.late(errors.delay);
+    if (kind == FreedPart::Kind::delay) to = errors.gain * (errors.delay * motion.curvature - motion.slope);
+    if (kind == FreedPart::Kind::zero) to.setConstant(length);
+    if (kind == FreedPart::Kind::zero_drift) to = length * course_of(rows.rows());
   });
   return rows;
 }
