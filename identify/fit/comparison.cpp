@@ -20,7 +20,7 @@ using core::infinity;
 bool is_as_stated(const std::vector<Fit>& fits, std::size_t s) {
   return std::ranges::any_of(fits, [s](const Fit& fit) {
     return fit.outcome.ok() && !std::isnan(fit.signals[s].chi2_per_freedom) &&
-           scatter_beside_stated(fit.signals[s]) == Scatter::as_stated;
+           scatter_beside_stated(fit.signals[s]) == ScatterBesideStated::as_stated;
   });
 }
 

@@ -116,7 +116,7 @@ void compare_with_stated(double deviation, double freedom, FittedSignal& signal)
   signal.chi2_p_value = stated_noise_p_value(signal.chi2_per_freedom, freedom);
 }
 
-Scatter scatter_beside_stated(const FittedSignal& signal) {
+ScatterBesideStated scatter_beside_stated(const FittedSignal& signal) {
   return scatter_beside_stated(std::sqrt(signal.chi2_per_freedom), signal.chi2_p_value);
 }
 
@@ -128,7 +128,8 @@ std::string stated_noise_warning(const FittedSignal& fitted, const Signal& signa
   return subject + " are " + core::format_number(ratio, 2) + " times the stated noise (they scatter by " +
          with_unit(ratio * fitted.noise) + ", and " + with_unit(fitted.noise) + " is stated; chi-square " +
          core::format_number(fitted.chi2_per_freedom, 2) + " per degree of freedom): the stated noise is too " +
-         (scatter_beside_stated(fitted) == Scatter::less ? "large" : "small, or the law is not that of the rig");
+         (scatter_beside_stated(fitted) == ScatterBesideStated::less ? "large"
+                                                                     : "small, or the law is not that of the rig");
 }
 
 const Signal& signal_of(const Experiments& experiments, const FittedSignal& fitted) {
@@ -232,7 +233,7 @@ std::string open_zero_cause(const Experiments& experiments, const FittedSignal& 
 std::vector<std::string> contradictions_of_stated(const Experiments& experiments, const Fit& fit) {
   std::vector<std::string> texts;
   for (const FittedSignal& fitted : fit.signals)
-    if (scatter_beside_stated(fitted) != Scatter::as_stated)
+    if (scatter_beside_stated(fitted) != ScatterBesideStated::as_stated)
       texts.push_back(
           stated_noise_warning(fitted, signal_of(experiments, fitted), residuals_of(experiments, fitted)));
   return texts;
@@ -267,9 +268,9 @@ void warn_of_residuals(const Experiments& experiments, bool robust, const std::v
     const FittedSignal& fitted = fit.signals[s];
     const Signal& signal = signal_of(experiments, fitted);
     const std::string subject = residuals_of(experiments, fitted);
-    if (scatter_beside_stated(fitted) != Scatter::as_stated)
+    if (scatter_beside_stated(fitted) != ScatterBesideStated::as_stated)
       fit.warnings.push_back(stated_noise_warning(fitted, signal, subject) +
-                             (scatter_beside_stated(fitted) == Scatter::less
+                             (scatter_beside_stated(fitted) == ScatterBesideStated::less
                                   ? "; the intervals use it and are too wide by up to the same factor"
                                   : "; the intervals are widened in proportion to the residuals"));
     const std::optional<RecordParameter> zero = zero_off(experiments, fitted, zero_gains[s], fit);
@@ -277,10 +278,11 @@ void warn_of_residuals(const Experiments& experiments, bool robust, const std::v
     // For readings that are not samples, `stated_noise_warning` has already reported residuals above the stated
     // noise.
     constexpr double far = 3.0;
-    if (is_noise(fitted.p_value) && scatter_beside_stated(fitted) == Scatter::as_stated && signal.is_sampled &&
-        !robust && fitted.noise_units > far && !zero)
+    if (is_noise(fitted.p_value) && scatter_beside_stated(fitted) == ScatterBesideStated::as_stated &&
+        signal.is_sampled && !robust && fitted.noise_units > far && !zero)
       fit.warnings.push_back(foreign_noise_warning(*experiments[fitted.rows.experiment], fitted, fit, subject));
-    if (is_noise(fitted.p_value) || (!signal.is_sampled && scatter_beside_stated(fitted) == Scatter::more))
+    if (is_noise(fitted.p_value) ||
+        (!signal.is_sampled && scatter_beside_stated(fitted) == ScatterBesideStated::more))
       continue;
     std::string text = subject;
     if (fitted.noise_units > 1.0) text += ", " + core::format_number(fitted.noise_units, 3) + " times the noise,";

@@ -48,7 +48,7 @@ namespace dualdamp::identify {
 void compare_with_stated(double deviation, double freedom, FittedSignal& signal);
 
 /// How the residuals scatter beside the stated noise.
-[[nodiscard]] Scatter scatter_beside_stated(const FittedSignal& signal);
+[[nodiscard]] ScatterBesideStated scatter_beside_stated(const FittedSignal& signal);
 
 /// A sentence for each signal whose residuals contradict its stated noise.
 [[nodiscard]] std::vector<std::string> contradictions_of_stated(const Experiments& experiments, const Fit& fit);

@@ -23,32 +23,16 @@ using core::infinity;
 
 class Uncertainty {
  public:
-  Uncertainty(const FitEnd& end, Fit& fit) : end_(end), fit_(fit), size_(end.q.size()) {
-    rows_ = end.unbounded.asDiagonal() * end.jacobian;
-    if (size_ > 0) strongest_ = effects(whole_all()).maxCoeff();
-    for (Eigen::Index i = 0; i < size_; ++i) {
-      const SearchCoordinate& c = end.problem.coordinates()[static_cast<std::size_t>(i)];
-      constexpr double near = 1e-6;
-      const bool low = end.q[i] <= c.low + near * std::max(1.0, std::abs(c.low));
-      const bool high = end.q[i] >= c.high - near * std::max(1.0, std::abs(c.high));
-      fit.parameters[static_cast<std::size_t>(i)].at_bound = low || high;
-      // At the end of a logarithmic range, most parameters have no effect any more: up to the largest value of the
-      // search they change the readings by less than their noise. One with an effect widens the intervals of the
-      // others.
-      const double effect = rows_.col(i).norm();
-      if (!(c.logarithmic && (low || high)) || effect * unit(i) >= 1.0) free_.push_back(i);
-      if (c.logarithmic && effect >= 1.0) warn_of_end(i, low, high);
-    }
-    residuals_ = end.unbounded.cwiseProduct(end.misses);
-    if (end.robust) residuals_ = huber_scores(residuals_);
-    measure_variance();
-    decompose();
-  }
+  Uncertainty(const FitEnd& end, Fit& fit) : end_(end), fit_(fit), size_(end.q.size()) {}
 
   /// Coordinates with a smaller sum of squares, if a profile found any.
   [[nodiscard]] const std::optional<Eigen::VectorXd>& lower() const { return lower_; }
 
   void run() {
+    scale_rows();
+    for (Eigen::Index i = 0; i < size_; ++i) judge_bound(i);
+    measure_variance();
+    decompose();
     slope_ = end_.problem.slope(end_.q);
     fit_.covariance = slope_ * covariance_ * slope_.transpose();
     fit_.slopes = end_.jacobian * inverse_of(slope_);
@@ -67,6 +51,28 @@ class Uncertainty {
   }
 
  private:
+  void scale_rows() {
+    rows_ = end_.unbounded.asDiagonal() * end_.jacobian;
+    residuals_ = end_.unbounded.cwiseProduct(end_.misses);
+    if (end_.robust) residuals_ = huber_scores(residuals_);
+    if (size_ > 0) strongest_ = effects(full_changes()).maxCoeff();
+  }
+
+  /// Whether a parameter is at a bound, and whether it counts among those with an effect.
+  void judge_bound(Eigen::Index i) {
+    const SearchCoordinate& c = end_.problem.coordinates()[static_cast<std::size_t>(i)];
+    constexpr double near = 1e-6;
+    const bool low = end_.q[i] <= c.low + near * std::max(1.0, std::abs(c.low));
+    const bool high = end_.q[i] >= c.high - near * std::max(1.0, std::abs(c.high));
+    fit_.parameters[static_cast<std::size_t>(i)].at_bound = low || high;
+    // At the end of a logarithmic range, most parameters have no effect any more: up to the largest value of the
+    // search they change the readings by less than their noise. One with an effect widens the intervals of the
+    // others.
+    const double effect = rows_.col(i).norm();
+    if (!(c.logarithmic && (low || high)) || effect * judged_change(i) >= 1.0) free_.push_back(i);
+    if (c.logarithmic && effect >= 1.0) warn_of_end(i, low, high);
+  }
+
   /// The search goes no further than a number of decades from the size that the data suggest.
   void warn_of_end(Eigen::Index i, bool low, bool high) {
     const FittedParameter& fitted = fit_.parameters[static_cast<std::size_t>(i)];
@@ -78,7 +84,7 @@ class Uncertainty {
   }
 
   /// A change of 100 % of a parameter, in coordinates.
-  [[nodiscard]] double whole(Eigen::Index i) const {
+  [[nodiscard]] double full_change(Eigen::Index i) const {
     const SearchCoordinate& c = end_.problem.coordinates()[static_cast<std::size_t>(i)];
     return c.logarithmic ? 1.0 : std::max(std::abs(end_.q[i]), small);
   }
@@ -86,9 +92,9 @@ class Uncertainty {
   /// The change of a parameter, in coordinates, in which its part of a direction is judged: 100 %, or more if the
   /// effect of that is small, up to the largest value of the search. Within it a spring that is nearly zero makes
   /// up for all of a mass, which a factor e of it does not show.
-  [[nodiscard]] double unit(Eigen::Index i) const {
+  [[nodiscard]] double judged_change(Eigen::Index i) const {
     const SearchCoordinate& c = end_.problem.coordinates()[static_cast<std::size_t>(i)];
-    if (!c.logarithmic) return whole(i);
+    if (!c.logarithmic) return full_change(i);
     constexpr double least = 0.1;
     const double effect = rows_.col(i).norm();
     const double wanted = effect > 0.0 ? least * strongest_ / effect : 1.0;
@@ -110,9 +116,9 @@ class Uncertainty {
     }
   }
 
-  /// A parameter as a direction in parts of the units.
+  /// A parameter as a direction in parts of the judged changes.
   [[nodiscard]] Eigen::VectorXd scaled_row(Eigen::Index i) const {
-    return slope_.row(i).transpose().cwiseProduct(units());
+    return slope_.row(i).transpose().cwiseProduct(judged_changes());
   }
 
   /// The part of each signal in the variance along a direction.
@@ -145,26 +151,29 @@ class Uncertainty {
     if (free == 0) return;
     Eigen::MatrixXd scaled(rows_.rows(), free);
     for (Eigen::Index j = 0; j < free; ++j)
-      scaled.col(j) = rows_.col(free_[static_cast<std::size_t>(j)]) * unit(free_[static_cast<std::size_t>(j)]);
+      scaled.col(j) =
+          rows_.col(free_[static_cast<std::size_t>(j)]) * judged_change(free_[static_cast<std::size_t>(j)]);
     const SymmetricSpectrum normal = symmetric_spectrum(scaled.transpose() * scaled);
     for (Eigen::Index j = 0; j < free; ++j)
-      if (!(normal.values[j] > singular * normal.values[free - 1])) lost_.push_back(expand(normal.vectors.col(j)));
+      if (!(normal.values[j] > singular * normal.values[free - 1]))
+        lost_.push_back(vector_among_all(normal.vectors.col(j)));
     const Eigen::MatrixXd bread = regular_inverse(normal);
     Eigen::MatrixXd plain = Eigen::MatrixXd::Zero(free, free);
     for (std::size_t s = 0; s < variances_.size(); ++s) {
       const SignalRows& rows = end_.problem.signals()[s];
       const Eigen::MatrixXd part = scaled.middleRows(rows.begin, rows.end - rows.begin);
-      parts_.push_back(lift(bread *
-                            score_covariance(part, residuals_.segment(rows.begin, rows.end - rows.begin),
-                                             variances_[s], end_.problem.signal(rows).is_sampled) *
-                            bread));
+      parts_.push_back(
+          matrix_among_all(bread *
+                           score_covariance(part, residuals_.segment(rows.begin, rows.end - rows.begin),
+                                            variances_[s], end_.problem.signal(rows).is_sampled) *
+                           bread));
       scaled_covariance_ += parts_.back();
       plain += variances_[s] * (part.transpose() * part);
     }
-    const Eigen::VectorXd all = units();
+    const Eigen::VectorXd all = judged_changes();
     covariance_ = all.asDiagonal() * scaled_covariance_ * all.asDiagonal();
-    classical_ =
-        all.asDiagonal() * lift(end_.robust ? bounded_inverse() : bread * plain * bread) * all.asDiagonal();
+    classical_ = all.asDiagonal() * matrix_among_all(end_.robust ? bounded_inverse() : bread * plain * bread) *
+                 all.asDiagonal();
   }
 
   /// The inverse of a normal matrix without its directions that are lost.
@@ -179,29 +188,30 @@ class Uncertainty {
   [[nodiscard]] Eigen::MatrixXd bounded_inverse() const {
     const auto free = static_cast<Eigen::Index>(free_.size());
     Eigen::MatrixXd scaled = end_.weights.asDiagonal() * end_.jacobian(Eigen::all, free_);
-    for (Eigen::Index j = 0; j < free; ++j) scaled.col(j) *= unit(free_[static_cast<std::size_t>(j)]);
+    for (Eigen::Index j = 0; j < free; ++j) scaled.col(j) *= judged_change(free_[static_cast<std::size_t>(j)]);
     return mean_variance() * regular_inverse(symmetric_spectrum(scaled.transpose() * scaled));
   }
 
-  [[nodiscard]] Eigen::VectorXd whole_all() const {
+  [[nodiscard]] Eigen::VectorXd full_changes() const {
     Eigen::VectorXd all(size_);
-    for (Eigen::Index i = 0; i < size_; ++i) all[i] = whole(i);
+    for (Eigen::Index i = 0; i < size_; ++i) all[i] = full_change(i);
     return all;
   }
 
-  [[nodiscard]] Eigen::VectorXd units() const {
+  [[nodiscard]] Eigen::VectorXd judged_changes() const {
     Eigen::VectorXd all(size_);
-    for (Eigen::Index i = 0; i < size_; ++i) all[i] = unit(i);
+    for (Eigen::Index i = 0; i < size_; ++i) all[i] = judged_change(i);
     return all;
   }
 
-  [[nodiscard]] Eigen::VectorXd expand(const Eigen::VectorXd& part) const {
+  /// What belongs to the parameters with an effect, among all; zero elsewhere.
+  [[nodiscard]] Eigen::VectorXd vector_among_all(const Eigen::VectorXd& part) const {
     Eigen::VectorXd all = Eigen::VectorXd::Zero(size_);
     for (Eigen::Index j = 0; j < part.size(); ++j) all[free_[static_cast<std::size_t>(j)]] = part[j];
     return all;
   }
 
-  [[nodiscard]] Eigen::MatrixXd lift(const Eigen::MatrixXd& part) const {
+  [[nodiscard]] Eigen::MatrixXd matrix_among_all(const Eigen::MatrixXd& part) const {
     Eigen::MatrixXd all = Eigen::MatrixXd::Zero(size_, size_);
     for (Eigen::Index a = 0; a < part.rows(); ++a)
       for (Eigen::Index b = 0; b < part.cols(); ++b)
@@ -214,7 +224,7 @@ class Uncertainty {
     constexpr double part = 0.01;
     const auto& above = fit_.parameters[static_cast<std::size_t>(i)].parameter.above;
     return std::ranges::any_of(lost_, [&](const Eigen::VectorXd& direction) {
-      const Eigen::VectorXd effect = effects(units().cwiseProduct(direction));
+      const Eigen::VectorXd effect = effects(judged_changes().cwiseProduct(direction));
       const double least = std::max(rounding * strongest_, part * effect.maxCoeff());
       const auto takes_part = [&](Eigen::Index j) { return std::abs(direction[j]) > part || effect[j] > least; };
       return takes_part(i) || (above && takes_part(static_cast<Eigen::Index>(*above)));
@@ -343,22 +353,22 @@ class Uncertainty {
     for (const FittedParameter& fitted : fit_.parameters) parameters.push_back(fitted.parameter);
     Eigen::VectorXd near_zero = Eigen::VectorXd::Zero(size_);
     for (Eigen::Index i = 0; i < size_; ++i)
-      if (is_near_zero(i)) near_zero[i] = slope_(i, i) * whole(i);
+      if (is_near_zero(i)) near_zero[i] = slope_(i, i) * full_change(i);
     const auto add = [&](const Eigen::VectorXd& direction, double deviation) {
-      const Eigen::VectorXd change = whole_all().cwiseProduct(direction);
+      const Eigen::VectorXd change = full_changes().cwiseProduct(direction);
       fit_.not_identifiable.push_back(trade_off(
           {slope_ * change, direction, effects(change), deviation, rounding * strongest_, near_zero}, parameters));
     };
-    const Eigen::VectorXd ratio = units().cwiseQuotient(whole_all());
+    const Eigen::VectorXd ratio = judged_changes().cwiseQuotient(full_changes());
     for (const Eigen::VectorXd& direction : lost_) add(ratio.cwiseProduct(direction).normalized(), infinity);
     if (free_.empty()) return;
     const SymmetricSpectrum spectrum =
         symmetric_spectrum(ratio.asDiagonal() * scaled_covariance_ * ratio.asDiagonal());
     for (Eigen::Index j = size_ - 1; j >= 0; --j) {
       const Eigen::VectorXd direction = spectrum.vectors.col(j);
-      const Eigen::VectorXd in_units = ratio.cwiseProduct(direction);
+      const Eigen::VectorXd in_judged_changes = ratio.cwiseProduct(direction);
       const double deviation = std::sqrt(std::max(spectrum.values[j], 0.0));
-      if (!needs_noise(in_units) && quantile95(freedom_along(in_units)) * deviation > 1.0)
+      if (!needs_noise(in_judged_changes) && quantile95(freedom_along(in_judged_changes)) * deviation > 1.0)
         add(direction, deviation);
     }
   }
@@ -367,7 +377,7 @@ class Uncertainty {
     fit_.undetermined.resize(size_, static_cast<Eigen::Index>(lost_.size()));
     for (std::size_t j = 0; j < lost_.size(); ++j) {
       const Eigen::VectorXd direction = (lost_[j].array().abs() > rounding).select(lost_[j], 0.0);
-      fit_.undetermined.col(static_cast<Eigen::Index>(j)) = slope_ * units().cwiseProduct(direction);
+      fit_.undetermined.col(static_cast<Eigen::Index>(j)) = slope_ * judged_changes().cwiseProduct(direction);
     }
   }
 
@@ -392,9 +402,9 @@ class Uncertainty {
   Eigen::MatrixXd slope_;               ///< d(values)/d(coordinates)
   Eigen::MatrixXd covariance_;          ///< of coordinates
   Eigen::MatrixXd classical_;           ///< the same for independent residuals
-  Eigen::MatrixXd scaled_covariance_;   ///< in parts of the parameters' units
+  Eigen::MatrixXd scaled_covariance_;   ///< in parts of the judged changes
   std::vector<Eigen::MatrixXd> parts_;  ///< of each signal in `scaled_covariance_`
-  std::vector<Eigen::VectorXd> lost_;   ///< directions that change nothing, in parts of the units
+  std::vector<Eigen::VectorXd> lost_;   ///< directions that change nothing, in the same parts
   double strongest_ = 0.0;              ///< largest effect of a change of 100 %
   std::vector<double> quantiles_;       ///< of each parameter
   std::optional<Eigen::VectorXd> lower_;

@@ -416,8 +416,8 @@ std::variant<JointModel, std::string> amplitude_model(const Record& record, cons
     if (drop_sticking(points, fit.at.friction, said)) continue;
     const double freedom = static_cast<double>(states.amplitudes() - states.smooth_columns());
     if (is_stated(stated)) ratio = fit.scatter;
-    const Scatter scatter = scatter_of(ratio, is_stated(known) ? freedom : 0.0);
-    if (scatter == Scatter::more && is_stated(stated)) {
+    const ScatterBesideStated scatter = scatter_of(ratio, is_stated(known) ? freedom : 0.0);
+    if (scatter == ScatterBesideStated::more && is_stated(stated)) {
       stated = {};
       continue;
     }

@@ -270,8 +270,8 @@ JointModel fitted(const Setting& setting, const Eigen::VectorXd& measured, const
 void compare_with_stated(Setting& setting, const Eigen::VectorXd& measured, const Decay& start, JointModel& model) {
   JointModel rescaled = model;
   const ChannelScale own = scale_channel(rescaled, 0, setting.count);
-  const Scatter scatter = scatter_of(own.deviation, own.freedom);
-  if (scatter == Scatter::more) {
+  const ScatterBesideStated scatter = scatter_of(own.deviation, own.freedom);
+  if (scatter == ScatterBesideStated::more) {
     setting.known = 0.0;
     model = fitted(setting, measured, start, {});
   }

@@ -25,7 +25,16 @@ namespace {
 using By = SampledOscillator::By;
 using Numbers = std::vector<std::size_t>;
 
-/// The histories of one record with their fit, at which the joint model is linearised.
+/// Whether the rows of a channel are made white. Only the joint model needs that.
+enum class Whitening { off, on };
+
+/// The histories of one record with their fit, at which the joint model is linearised. In reading order:
+///  1. `fitted`: the nearest of some fits, to which Gauss-Newton steps (`descend`) lead, as a joint model
+///  (`joint`);
+///  2. `linearised`: the rows of all channels at one place, whitened;
+///  3. `add_test`: of one test, the simulated motion and its derivatives, and the innovations of its rows;
+///  4. `rows_of`, `arranged`: what each sensor reads of that motion, a column for each parameter and relaxation;
+///  5. `through_constant`, `seen_from_afar`, `freed`: what to do if the stated constants miss most of the motion.
 class Histories {
  public:
   Histories(const Record& record, const KnownConstants& constants, double sigma_x, Estimate& exclusions)
@@ -53,12 +62,12 @@ class Histories {
   [[nodiscard]] JointModel fitted(const Numbers& taken) {
     Numbers all(list_.relaxations.size());
     std::iota(all.begin(), all.end(), std::size_t{0});
-    Fitted best{start_, linearised(start_, taken, false)};
+    Fitted best{start_, linearised(start_, taken, Whitening::off)};
     bool of_constants = false;
     for (const std::size_t number : taken) {
       const std::optional<Place> other = is_constant(number) ? freed(number) : std::nullopt;
       of_constants = of_constants || is_constant(number);
-      if (other) best.take_nearer({*other, linearised(*other, taken, false)});
+      if (other) best.take_nearer({*other, linearised(*other, taken, Whitening::off)});
     }
     descend(taken, best);
     if (!taken.empty() && !of_constants) best.take_nearer(through_constant(taken));
@@ -115,7 +124,7 @@ class Histories {
       Place moved;
       for (double share = 1.0; share > 0.05; share *= 0.4) {
         moved = stepped(at, share * step, taken);
-        next = linearised(moved, taken, false);
+        next = linearised(moved, taken, Whitening::off);
         if (next && next->squares < here->squares) break;
         next.reset();
       }
@@ -135,12 +144,12 @@ class Histories {
       Numbers both = taken;
       both.push_back(j);
       Fitted through{*freed(j), {}};
-      through.here = linearised(through.at, both, false);
+      through.here = linearised(through.at, both, Whitening::off);
       descend(both, through);
       Eigen::VectorXd back = Eigen::VectorXd::Zero(count_of_base() + static_cast<Eigen::Index>(both.size()));
       back[back.size() - 1] = -through.at.g[static_cast<Eigen::Index>(j)];
       through.at = stepped(through.at, back, both);
-      through.here = linearised(through.at, taken, false);
+      through.here = linearised(through.at, taken, Whitening::off);
       descend(taken, through);
       return through;
     }
@@ -150,7 +159,8 @@ class Histories {
   [[nodiscard]] JointModel joint(const Place& at, const Numbers& taken, const Numbers& all) {
     JointModel model;
     model.relaxations = list_.relaxations;
-    if (std::optional<Linearised> found = taken.empty() ? seen_from_afar(at, all) : linearised(at, all, true)) {
+    if (std::optional<Linearised> found =
+            taken.empty() ? seen_from_afar(at, all) : linearised(at, all, Whitening::on)) {
       model.deviance =
           found->log_variances + squares_beside(found->residuals, free_columns(found->base, found->relaxed, taken));
       model.residuals = std::move(found->residuals);
@@ -189,14 +199,15 @@ class Histories {
     const FreedFit* near = freed_.much_nearer();
     std::optional<Linearised> nearer;
     for (std::size_t j = 0; near != nullptr && !nearer && j < list_.parts.size(); ++j)
-      if (is_constant(j) && freed_.with(list_.parts[j].by) == near) nearer = linearised(*freed(j), {}, true);
-    if (!nearer) return linearised(at, all, true);
-    std::optional<Linearised> found = linearised(at, all, true, nearer->errors);
+      if (is_constant(j) && freed_.with(list_.parts[j].by) == near)
+        nearer = linearised(*freed(j), {}, Whitening::on);
+    if (!nearer) return linearised(at, all, Whitening::on);
+    std::optional<Linearised> found = linearised(at, all, Whitening::on, nearer->errors);
     for (std::size_t j = 0; found && j < list_.parts.size(); ++j) {
       const std::optional<Place> place = is_constant(j) ? freed(j) : std::nullopt;
       const auto own = static_cast<Eigen::Index>(j);
       const std::optional<Linearised> there =
-          place && place->g[own] != 0.0 ? linearised(*place, {}, true, nearer->errors) : std::nullopt;
+          place && place->g[own] != 0.0 ? linearised(*place, {}, Whitening::on, nearer->errors) : std::nullopt;
       if (!there) continue;
       const Eigen::VectorXd straight = (found->residuals - there->residuals) / place->g[own];
       if (found->shaken.size() > 0)
@@ -242,8 +253,8 @@ class Histories {
     return at;
   }
 
-  /// Rows of every channel. `white`: whitened by `errors`, else by its own residuals, with `shaken`.
-  [[nodiscard]] std::optional<Linearised> linearised(const Place& at, const Numbers& wanted, bool white,
+  /// Rows of every channel. They are whitened by `errors`, else by their own residuals, and then have `shaken`.
+  [[nodiscard]] std::optional<Linearised> linearised(const Place& at, const Numbers& wanted, Whitening whitening,
                                                      const std::vector<Autoregression>& errors = {}) {
     const ForceParameters force = force_at(at);
     if (!(force.m > 0.0) || !(force.k > 0.0)) return std::nullopt;
@@ -251,7 +262,7 @@ class Histories {
     // Innovations are nearly white: the noise levels are estimates.
     Channel v{.most_lags = 4};
     Channel a{.most_lags = 4};
-    const bool shake = white && !shaken_.empty() && !noise_grows(force, record_);
+    const bool shake = whitening == Whitening::on && !shaken_.empty() && !noise_grows(force, record_);
     for (std::size_t t = 0; t < fit_.tests().size(); ++t)
       if (!add_test(t, at, wanted, shake, x, v, a)) return std::nullopt;
     Linearised result;
@@ -261,10 +272,10 @@ class Histories {
     std::vector<Eigen::MatrixXd> parts;
     for (Channel* channel : {&x, &v, &a}) {
       if (channel->rows.rows() == 0) continue;
-      if (!white) channel->most_lags = 0;
+      if (whitening == Whitening::off) channel->most_lags = 0;
       const Autoregression* known = errors.empty() ? nullptr : &errors[parts.size()];
       WhiteRows made = made_white(*channel, base + more, known, channel == &x && sigma_x_ > 0.0);
-      if (channel == &x && white && known == nullptr) scatter_ = made.scatter;
+      if (channel == &x && whitening == Whitening::on && known == nullptr) scatter_ = made.scatter;
       result.log_variances += made.log_variances;
       result.errors.push_back(std::move(made.errors));
       parts.push_back(std::move(made.rows));
@@ -419,8 +430,8 @@ std::variant<JointModel, std::string> history_model(const Record& record, const 
   JointModel model = histories->fitted({});
   const double ratio = histories->scatter();
   const auto freedom = static_cast<double>(sigma_x > 0.0 ? model.residuals.size() : 0);
-  const Scatter scatter = scatter_of(ratio, freedom);
-  if (scatter == Scatter::more) {
+  const ScatterBesideStated scatter = scatter_of(ratio, freedom);
+  if (scatter == ScatterBesideStated::more) {
     histories->forget_stated();
     model = histories->fitted({});
   }

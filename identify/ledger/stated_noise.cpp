@@ -19,16 +19,16 @@ void set_noise(Eigen::Index amplitudes, Eigen::Index phases, Eigen::Index smooth
 
 bool is_stated(const KnownDeviations& known) { return known.sigma_x > 0.0 || known.sigma_Y > 0.0; }
 
-Scatter scatter_of(double ratio, double freedom) {
+ScatterBesideStated scatter_of(double ratio, double freedom) {
   return freedom >= 1.0 ? scatter_beside_stated(ratio, stated_noise_p_value(ratio * ratio, freedom))
-                        : Scatter::as_stated;
+                        : ScatterBesideStated::as_stated;
 }
 
-void note_contradiction(Scatter scatter, double ratio, const std::string& readings, JointModel& model) {
-  if (scatter == Scatter::as_stated) return;
+void note_contradiction(ScatterBesideStated scatter, double ratio, const std::string& readings, JointModel& model) {
+  if (scatter == ScatterBesideStated::as_stated) return;
   const std::string size = "the " + readings + " scatter " + core::format_number(ratio, 2) +
                            " times as much as the stated deviations say: the stated noise is too ";
-  model.warnings.push_back(scatter == Scatter::less
+  model.warnings.push_back(scatter == ScatterBesideStated::less
                                ? size + "large, and the intervals of joint_fit are as wide as it makes them"
                                : size + "small, and joint_fit takes the noise from the readings");
 }

@@ -19,10 +19,10 @@ namespace dualdamp::identify {
 
 /// `scatter_beside_stated` for the deviation of readings over the stated one; as stated without a degree of
 /// freedom.
-[[nodiscard]] Scatter scatter_of(double ratio, double freedom);
+[[nodiscard]] ScatterBesideStated scatter_of(double ratio, double freedom);
 
 /// Notes in the model that its readings (the word for a message) contradict the statement; nothing if they do not.
-void note_contradiction(Scatter scatter, double ratio, const std::string& readings, JointModel& model);
+void note_contradiction(ScatterBesideStated scatter, double ratio, const std::string& readings, JointModel& model);
 
 /// What is known of the noise of steady states: of `amplitudes` rows, and of the rows of `phases` that follow them.
 void set_noise(Eigen::Index amplitudes, Eigen::Index phases, Eigen::Index smooth_columns, JointModel& model);

@@ -163,11 +163,13 @@ double stated_noise_p_value(double ratio, double freedom) {
   return std::min(1.0, 2.0 * std::min(above, 1.0 - above));
 }
 
-Scatter scatter_beside_stated(double ratio, double p_value) {
+ScatterBesideStated scatter_beside_stated(double ratio, double p_value) {
   constexpr double level = 1e-3;
   constexpr double factor = 1.3;
-  if (!(p_value < level)) return Scatter::as_stated;
-  return ratio > factor ? Scatter::more : ratio < 1.0 / factor ? Scatter::less : Scatter::as_stated;
+  if (!(p_value < level)) return ScatterBesideStated::as_stated;
+  return ratio > factor         ? ScatterBesideStated::more
+         : ratio < 1.0 / factor ? ScatterBesideStated::less
+                                : ScatterBesideStated::as_stated;
 }
 
 void warn_of_scatter(double ratio, double freedom, Estimate& estimate) {

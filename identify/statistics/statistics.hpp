@@ -79,10 +79,10 @@ inline constexpr double known_freedom = 1e9;
 [[nodiscard]] double stated_noise_p_value(double ratio, double freedom);
 
 /// How readings scatter beside their stated noise: as stated, or clearly less or more.
-enum class Scatter { less, as_stated, more };
+enum class ScatterBesideStated { less, as_stated, more };
 
 /// `ratio`: of the deviations; `p_value`: that of its square.
-[[nodiscard]] Scatter scatter_beside_stated(double ratio, double p_value);
+[[nodiscard]] ScatterBesideStated scatter_beside_stated(double ratio, double p_value);
 
 /// Warns of readings that scatter clearly more than their stated deviations say. `ratio`: the mean square of the
 /// residuals over the stated variance; `freedom`: degrees of freedom of the residuals.

@@ -83,9 +83,11 @@ TEST_CASE("An independent error widens both sides of an interval by the root of 
 }
 
 TEST_CASE("Readings contradict their stated noise where neither chance nor rounding of the statement explains it") {
-  CHECK(scatter_beside_stated(1.5, stated_noise_p_value(1.5 * 1.5, 200.0)) == Scatter::more);
-  CHECK(scatter_beside_stated(0.6, stated_noise_p_value(0.6 * 0.6, 200.0)) == Scatter::less);
-  CHECK(scatter_beside_stated(1.5, stated_noise_p_value(1.5 * 1.5, 5.0)) == Scatter::as_stated);      // chance
-  CHECK(scatter_beside_stated(1.2, stated_noise_p_value(1.2 * 1.2, 10000.0)) == Scatter::as_stated);  // near enough
-  CHECK(scatter_beside_stated(0.8, stated_noise_p_value(0.8 * 0.8, 10000.0)) == Scatter::as_stated);
+  CHECK(scatter_beside_stated(1.5, stated_noise_p_value(1.5 * 1.5, 200.0)) == ScatterBesideStated::more);
+  CHECK(scatter_beside_stated(0.6, stated_noise_p_value(0.6 * 0.6, 200.0)) == ScatterBesideStated::less);
+  CHECK(scatter_beside_stated(1.5, stated_noise_p_value(1.5 * 1.5, 5.0)) ==
+        ScatterBesideStated::as_stated);  // chance
+  CHECK(scatter_beside_stated(1.2, stated_noise_p_value(1.2 * 1.2, 10000.0)) ==
+        ScatterBesideStated::as_stated);  // near enough
+  CHECK(scatter_beside_stated(0.8, stated_noise_p_value(0.8 * 0.8, 10000.0)) == ScatterBesideStated::as_stated);
 }
