@@ -20,8 +20,8 @@
 #include "scenarios/scenario_format.hpp"
 #include "scenarios/scenario_reading.hpp"
 #include "scenarios/sweep.hpp"
-#include "sim/conformance/loaded_contacts.hpp"
 #include "sim/engine/engine.hpp"
+#include "sim/law_host/loaded_contacts.hpp"
 #include "sim/orbits/steady_state.hpp"
 #include "sim/validate.hpp"
 

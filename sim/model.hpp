@@ -11,7 +11,7 @@
 namespace dualdamp::sim {
 
 /// The state at t = 0. The laws start unloaded, unless their memories are stated: one for each law, as left by a
-/// motion that was in this direction (`conformance/loaded_contacts.hpp`).
+/// motion that was in this direction (`law_host/loaded_contacts.hpp`).
 struct InitialState {
   double position = 0.0;  ///< m
   double velocity = 0.0;  ///< m/s

@@ -2,7 +2,7 @@
 #include <utility>
 
 #include "identify/experiments/experiment.hpp"
-#include "sim/conformance/loaded_contacts.hpp"
+#include "sim/law_host/loaded_contacts.hpp"
 #include "sim/motion/free_decay.hpp"
 
 namespace dualdamp::identify {

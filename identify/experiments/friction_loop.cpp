@@ -11,8 +11,8 @@
 #include "identify/records/rest_samples.hpp"
 #include "identify/records/signals.hpp"
 #include "identify/statistics/noise_level.hpp"
-#include "sim/conformance/law_host.hpp"
-#include "sim/conformance/loaded_contacts.hpp"
+#include "sim/law_host/law_host.hpp"
+#include "sim/law_host/loaded_contacts.hpp"
 #include "sim/work_limit.hpp"
 
 namespace dualdamp::identify {

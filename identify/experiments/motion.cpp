@@ -12,8 +12,8 @@
 #include "identify/statistics/decompositions.hpp"
 #include "identify/statistics/median.hpp"
 #include "identify/statistics/noise_level.hpp"
-#include "sim/conformance/loaded_contacts.hpp"
 #include "sim/engine/engine.hpp"
+#include "sim/law_host/loaded_contacts.hpp"
 
 namespace dualdamp::identify {
 

@@ -7,7 +7,7 @@
 
 #include "friction_models/law_fault.hpp"
 #include "friction_models/registry.hpp"
-#include "sim/conformance/law_host.hpp"
+#include "sim/law_host/law_host.hpp"
 
 namespace dualdamp::identify {
 

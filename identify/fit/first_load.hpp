@@ -3,7 +3,7 @@
 ///
 /// A law that remembers the path of the mass starts unloaded. In a record that was cut out of a running test, or
 /// begins with the release from a pull, its contacts are loaded already. The `travel` of the record
-/// (`sim/conformance/loaded_contacts.hpp`) gives this load. It is sought if the readings show it:
+/// (`sim/law_host/loaded_contacts.hpp`) gives this load. It is sought if the readings show it:
 ///
 ///   1. The fit with unloaded contacts is predicted with travels of either sign, from 1e-4 of the motion to all of
 ///      it. What the other parameters can make up for, to first order, does not count.

@@ -49,7 +49,8 @@ ROOMS = {
         "batch": [".", "engine"],
         "orbits": [".", "engine", "motion", "analytic", "batch"],  # a search tries packs first
         "curves": [".", "engine", "motion", "analytic", "batch", "orbits"],
-        "conformance": [".", "engine", "steppers"],
+        "law_host": [".", "steppers"],
+        "conformance": [".", "steppers", "law_host"],
     },
     "identify": {
         ".": ["methods"],  # the list of methods

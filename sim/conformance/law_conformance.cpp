@@ -9,8 +9,8 @@
 #include "core/random.hpp"
 #include "friction_models/registry.hpp"
 #include "friction_models/state_sizes.hpp"
-#include "sim/conformance/law_host.hpp"
 #include "sim/conformance/parameter_conformance.hpp"
+#include "sim/law_host/law_host.hpp"
 
 namespace dualdamp::sim {
 

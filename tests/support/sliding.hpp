@@ -1,7 +1,7 @@
 #pragma once
 /// A law whose mass moves at constant speed.
 
-#include "sim/conformance/law_host.hpp"
+#include "sim/law_host/law_host.hpp"
 
 namespace dualdamp::test {
 

@@ -9,7 +9,7 @@
 #include "friction_models/laws/dahl.hpp"
 #include "friction_models/laws/iwan.hpp"
 #include "sim/conformance/law_conformance.hpp"
-#include "sim/conformance/law_host.hpp"
+#include "sim/law_host/law_host.hpp"
 #include "tests/support/random.hpp"
 
 using namespace dualdamp;

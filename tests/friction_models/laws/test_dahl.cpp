@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "sim/conformance/law_conformance.hpp"
-#include "sim/conformance/law_host.hpp"
+#include "sim/law_host/law_host.hpp"
 
 using namespace dualdamp;
 using friction::Dahl;

@@ -9,7 +9,7 @@
 
 #include "friction_models/registry.hpp"
 #include "sim/conformance/law_conformance.hpp"
-#include "sim/conformance/law_host.hpp"
+#include "sim/law_host/law_host.hpp"
 
 using namespace dualdamp;
 using friction::DelayedFriction;

@@ -8,7 +8,7 @@
 #include "friction_models/laws/iwan.hpp"
 #include "friction_models/registry.hpp"
 #include "sim/conformance/law_conformance.hpp"
-#include "sim/conformance/law_host.hpp"
+#include "sim/law_host/law_host.hpp"
 #include "tests/support/random.hpp"
 #include "tests/support/sliding.hpp"
 

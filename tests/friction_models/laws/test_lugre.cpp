@@ -8,7 +8,7 @@
 
 #include "friction_models/laws/dahl.hpp"
 #include "sim/conformance/law_conformance.hpp"
-#include "sim/conformance/law_host.hpp"
+#include "sim/law_host/law_host.hpp"
 #include "tests/support/forced_mass.hpp"
 #include "tests/support/sliding.hpp"
 

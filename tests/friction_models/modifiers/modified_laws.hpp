@@ -5,7 +5,7 @@
 
 #include "friction_models/laws/coulomb.hpp"
 #include "friction_models/modifiers/modified.hpp"
-#include "sim/conformance/law_host.hpp"
+#include "sim/law_host/law_host.hpp"
 
 namespace dualdamp::test {
 

@@ -10,7 +10,7 @@
 #include "friction_models/modifiers/modified.hpp"
 #include "friction_models/registry.hpp"
 #include "sim/conformance/law_conformance.hpp"
-#include "sim/conformance/law_host.hpp"
+#include "sim/law_host/law_host.hpp"
 #include "sim/orbits/steady_state.hpp"
 #include "tests/support/standard_system.hpp"
 

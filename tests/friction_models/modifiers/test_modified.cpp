@@ -14,7 +14,7 @@
 #include "friction_models/laws/reset_integrator.hpp"
 #include "friction_models/registry.hpp"
 #include "sim/conformance/law_conformance.hpp"
-#include "sim/conformance/law_host.hpp"
+#include "sim/law_host/law_host.hpp"
 #include "sim/motion/free_decay.hpp"
 #include "sim/motion/simulate.hpp"
 #include "tests/friction_models/modifiers/modified_laws.hpp"

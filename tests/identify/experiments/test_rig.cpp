@@ -10,7 +10,7 @@
 #include "friction_models/laws/dahl.hpp"
 #include "friction_models/registry.hpp"
 #include "identify/fit/fit.hpp"
-#include "sim/conformance/law_host.hpp"
+#include "sim/law_host/law_host.hpp"
 #include "tests/identify/fit/synthetic.hpp"
 
 using namespace dualdamp;

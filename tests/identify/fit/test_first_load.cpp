@@ -4,7 +4,7 @@
 
 #include "friction_models/registry.hpp"
 #include "identify/fit/prediction.hpp"
-#include "sim/conformance/loaded_contacts.hpp"
+#include "sim/law_host/loaded_contacts.hpp"
 #include "sim/motion/simulate.hpp"
 #include "tests/identify/fit/synthetic.hpp"
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "friction_models/registry.hpp"
-#include "sim/conformance/law_host.hpp"
+#include "sim/law_host/law_host.hpp"
 #include "sim/motion/simulate.hpp"
 #include "sim/orbits/steady_state.hpp"
 #include "tests/support/standard_system.hpp"

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "friction_models/registry.hpp"
-#include "sim/conformance/loaded_contacts.hpp"
+#include "sim/law_host/loaded_contacts.hpp"
 #include "sim/motion/simulate.hpp"
 
 using namespace dualdamp;

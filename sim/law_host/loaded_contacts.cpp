@@ -1,4 +1,4 @@
-#include "sim/conformance/loaded_contacts.hpp"
+#include "sim/law_host/loaded_contacts.hpp"
 
 namespace dualdamp::sim {
 

@@ -9,7 +9,7 @@
 ///
 /// Cost: that of the law along this way.
 
-#include "sim/conformance/law_host.hpp"
+#include "sim/law_host/law_host.hpp"
 #include "sim/model.hpp"
 
 namespace dualdamp::sim {

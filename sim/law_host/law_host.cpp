@@ -1,4 +1,4 @@
-#include "sim/conformance/law_host.hpp"
+#include "sim/law_host/law_host.hpp"
 
 #include <algorithm>
 #include <cmath>
