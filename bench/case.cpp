@@ -1,6 +1,5 @@
 #include "bench/case.hpp"
 
-#include <cmath>
 #include <optional>
 
 #include "bench/motions.hpp"

@@ -1,7 +1,6 @@
 #include "bench/mechanism_answer.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "core/diagnostics.hpp"

@@ -1,6 +1,5 @@
 #include "cli/identify_scenario.hpp"
 
-#include <algorithm>
 #include <string>
 #include <tuple>
 

@@ -55,7 +55,7 @@ class Question;
 struct Sampled {
   std::unique_ptr<const Question> question;
   std::function<Answer(const Answer&)> part;  ///< the part of the answer about all points that concerns these
-  std::string words;                          ///< "36 of 3600 points"
+  std::string words;                          ///< "16 of 3600 points"
 };
 
 class Question {

@@ -1,6 +1,6 @@
 #include "bench/crosscheck/random_scenario.hpp"
 
-#include <algorithm>
+#include <cmath>
 
 #include "core/constants.hpp"
 #include "core/numbers.hpp"

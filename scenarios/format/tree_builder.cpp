@@ -79,7 +79,6 @@ class TreeBuilder final : public YAML::EventHandler {
 
   [[nodiscard]] const std::vector<Diagnostic>& problems() const { return problems_; }
   [[nodiscard]] Node take_root() { return std::move(root_); }
-  [[nodiscard]] bool has_root() const { return has_root_; }
 
   void complain(std::size_t offset, std::string message, std::string allowed = {}, std::string found = {}) {
     if (problems_.size() >= max_problems) throw InputError(problems_);

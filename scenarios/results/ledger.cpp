@@ -1,6 +1,6 @@
 #include "scenarios/results/ledger.hpp"
 
-#include <algorithm>
+#include <cmath>
 
 #include "core/numbers.hpp"
 #include "identify/methods.hpp"

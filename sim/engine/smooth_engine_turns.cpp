@@ -1,6 +1,5 @@
 // Steps of the smooth engine that begin or end where the mass turns, and steps that are too many.
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <complex>

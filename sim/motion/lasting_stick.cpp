@@ -1,7 +1,6 @@
 #include "sim/motion/lasting_stick.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 #include <vector>

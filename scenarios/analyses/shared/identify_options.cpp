@@ -1,7 +1,5 @@
 #include "scenarios/analyses/shared/identify_options.hpp"
 
-#include <algorithm>
-
 #include "core/diagnostics.hpp"
 
 namespace dualdamp::scenarios {
