@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
+#include <string>
 #include <vector>
 
 #include "friction_models/laws/contact_compliance.hpp"
@@ -103,8 +104,19 @@ TEST_CASE("A pull at the limit within the rounding of a contact's force begins o
     model.friction = {coulomb(0.5, 0.5), friction::Law(friction::ContactCompliance(0.5, 0.5, 300.0, 0.0))};
     ExactEngine engine(model);
     CAPTURE(i);
-    (void)events_of(engine, 3.0);
+    const auto events = events_of(engine, 3.0);
     CHECK(engine.outcome().ok());
+    // Eleven turns in three seconds, each a reversal or a stop and its release; the contact yields after each.
+    std::string slips;
+    for (std::size_t j = 0; j < events.size(); ++j) {
+      const EventKind kind = events[j].kind;
+      if (kind == EventKind::stop) CHECK((j + 1 < events.size() && events[j + 1].kind == EventKind::release));
+      if (kind == EventKind::reversal || kind == EventKind::release) slips += "slip ";
+      if (kind == EventKind::switching) slips += "yield ";
+    }
+    std::string expected;
+    for (int turn = 0; turn < 11; ++turn) expected += "slip yield ";
+    CHECK(slips == expected);
   }
 }
 
