@@ -19,10 +19,10 @@ std::string plot_result(const std::string& directory, const std::string& file, c
   const Chart chart = main_chart(directory, units);
   const fs::path path(file);
   std::string messages;
-  for (const std::string& told :
+  for (const std::string& warning :
        write_keeping(path.has_parent_path() ? path.parent_path().string() : ".",
                      {{path.filename().string(), [&](std::ostream& out) { write_svg(out, chart); }}}))
-    messages += told + "\n";
+    messages += warning + "\n";
   return messages + "wrote " + file + "\n";
 }
 
@@ -39,7 +39,7 @@ std::string compare_results(const std::vector<std::string>& directories, const s
                             const std::string& units) {
   const std::vector<scenarios::OutputFile> files = comparison(directories, units);
   std::string messages;
-  for (const std::string& told : write_keeping(out, files)) messages += told + "\n";
+  for (const std::string& warning : write_keeping(out, files)) messages += warning + "\n";
   for (const scenarios::OutputFile& file : files)
     messages += "wrote " + (fs::path(out) / file.name).string() + "\n";
   return messages;

@@ -326,8 +326,8 @@ int execute(const ReportCommand& command) {
                                                       (says_more ? " (" + error.message() + ")" : ""));
       }
       Report done;
-      for (const std::string& told : write_keeping(directory, {report_page(directory, command.shown_units)}))
-        done.messages += told + "\n";
+      for (const std::string& warning : write_keeping(directory, {report_page(directory, command.shown_units)}))
+        done.messages += warning + "\n";
       done.messages += "wrote " + (fs::path(directory) / "report.html").string() + "\n";
       if (!command.plot.empty()) done.messages += plot_result(directory, command.plot, command.shown_units);
       return done;

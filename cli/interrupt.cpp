@@ -53,8 +53,8 @@ void watch_for_interrupt() {
 
 /// Once: while the program ends slowly, the watcher's patience may be over, too.
 void say_interrupted() {
-  static std::atomic_flag said = ATOMIC_FLAG_INIT;
-  if (said.test_and_set()) return;
+  static std::atomic_flag is_reported = ATOMIC_FLAG_INIT;
+  if (is_reported.test_and_set()) return;
   static constexpr char message[] = "interrupted\n";
   if (::write(STDERR_FILENO, message, sizeof message - 1) < 0) {
     // There is no way left to report the failure.

@@ -285,9 +285,9 @@ struct Way {
 
 /// Whether explicit steps would be limited by the fast one of two decays: a thousand of them for an implicit one at
 /// a damping ratio of a thousand.
-bool is_heavily_damped(const sim::Oscillator& rig) {
+bool is_heavily_damped(const sim::Oscillator& oscillator) {
   constexpr double heavy = 10.0;
-  return rig.damping > 2.0 * heavy * rig.mass * sim::natural_frequency(rig);
+  return oscillator.damping > 2.0 * heavy * oscillator.mass * sim::natural_frequency(oscillator);
 }
 
 /// Steps of the other kind; for a motion of the exact engine those of both kinds.

@@ -34,12 +34,12 @@ SampledSignal::SampledSignal(std::vector<double> times, std::vector<double> valu
       require(false, which + " is no later than the one before", "times that increase");
     size_ = std::max(size_, std::abs(values_[i]));
   }
-  if (interpolation_ == Interpolation::cubic) lay_spline();
+  if (interpolation_ == Interpolation::cubic) build_spline();
 }
 
 /// Slopes at the nodes, from the tridiagonal equations of a continuous second derivative. At the second node and at
 /// the last but one the third derivative is continuous too (deboor1978, IV).
-void SampledSignal::lay_spline() {
+void SampledSignal::build_spline() {
   const std::size_t last = pieces();
   slopes_.resize(times_.size());
   if (last == 1) {

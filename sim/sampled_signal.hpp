@@ -69,7 +69,7 @@ class SampledSignal {
   [[nodiscard]] std::size_t pieces() const { return times_.size() - 1; }
   [[nodiscard]] double width(std::size_t i) const { return times_[i + 1] - times_[i]; }
   [[nodiscard]] double chord(std::size_t i) const { return (values_[i + 1] - values_[i]) / width(i); }
-  void lay_spline();
+  void build_spline();
 
   std::vector<double> times_;
   std::vector<double> values_;

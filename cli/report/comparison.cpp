@@ -93,7 +93,7 @@ class Comparison {
     }
     find_differences();
     name_results();
-    lay_over();
+    overlay();
   }
 
   [[nodiscard]] const Chart& chart() const { return chart_; }
@@ -243,7 +243,7 @@ class Comparison {
     }
   }
 
-  void lay_over() {
+  void overlay() {
     chart_.x = compared_.front().chart.x;
     chart_.y = compared_.front().chart.y;
     const bool has_one_title =

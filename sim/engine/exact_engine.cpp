@@ -156,9 +156,10 @@ void ExactEngine::begin_motion() {
 }
 
 void ExactEngine::reset_sensitivity() {
-  const Oscillator& rig = model_.oscillator;
-  const double omega = std::sqrt(std::abs(rig.stiffness) / rig.mass);
-  double size = std::max({std::abs(x_), std::abs(v_) / omega, drive_.force_scale() / std::abs(rig.stiffness)});
+  const Oscillator& oscillator = model_.oscillator;
+  const double omega = std::sqrt(std::abs(oscillator.stiffness) / oscillator.mass);
+  double size =
+      std::max({std::abs(x_), std::abs(v_) / omega, drive_.force_scale() / std::abs(oscillator.stiffness)});
   std::vector<double>& units = units_of_perturbations_;
   units.assign(2, 1.0);
   for (std::size_t i = 0; i < memories_.size(); ++i) {
@@ -288,7 +289,7 @@ double ExactEngine::start_acceleration() const {
 /// event follows at once.
 void ExactEngine::track_begin(const friction::Instant& begin, bool at_once) {
   if (!at_once) sensitivity_.leave(start_acceleration(), model_.friction, memories_, begin, direction_);
-  sensitivity_.lay(model_.friction, memories_, begin, direction_, total_->decays);
+  sensitivity_.begin_interval(model_.friction, memories_, begin, direction_, total_->decays);
   if (sensitivity_.has_states()) memories_before_ = memories_;
 }
 
@@ -368,7 +369,7 @@ const Interval* ExactEngine::step(double left, bool to_period_end) {
   const double due = next_schedule();
   const bool by_schedule = due - begin.t < left;
   if (by_schedule) left = std::max(0.0, due - begin.t);
-  lay_interval();
+  build_interval();
   grazings_.clear();
   if (!std::isfinite(force_scale_)) {
     leave_range();

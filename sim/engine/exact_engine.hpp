@@ -85,9 +85,9 @@ class ExactEngine final : public Engine {
   void load_forcing(double extra_constant);
   const LinearMode& pull_on_mode(core::ModeFunction& pull);
   void limit_guard(const core::ModeFunction& pull, double direction, core::ModeFunction& guard) const;
-  void lay_interval();
-  void lay_stick();
-  void lay_slip();
+  void build_interval();
+  void build_stick();
+  void build_slip();
   void add_law_guards();
   core::Guard& new_guard(const Watch& watch);
   [[nodiscard]] core::Germ slip_germ(const core::Guard& guard, double tolerance) const;

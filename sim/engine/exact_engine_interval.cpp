@@ -147,7 +147,7 @@ core::Guard& ExactEngine::new_guard(const Watch& watch) {
   return guards_[guard_count_++];
 }
 
-void ExactEngine::lay_stick() {
+void ExactEngine::build_stick() {
   ModeFunction pull;
   mode_ = &pull_on_mode(pull);
   const core::ExponentialBasis& basis = mode_->basis();
@@ -176,7 +176,7 @@ double ExactEngine::velocity_rounding() const {
   return rounding * force_scale_ / model_.oscillator.mass / mode_->basis().fastest();
 }
 
-void ExactEngine::lay_slip() {
+void ExactEngine::build_slip() {
   const Oscillator& o = model_.oscillator;
   mode_ = &mode_for(o.damping + total_->force.velocity, o.stiffness + total_->force.position);
   load_forcing(0.0);
@@ -224,13 +224,13 @@ void ExactEngine::add_law_guards() {
   }
 }
 
-void ExactEngine::lay_interval() {
+void ExactEngine::build_interval() {
   guard_count_ = 0;
   collect(true);
   if (direction_ == Direction::none) {
-    lay_stick();
+    build_stick();
   } else {
-    lay_slip();
+    build_slip();
   }
   add_law_guards();
 }

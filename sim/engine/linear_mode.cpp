@@ -38,8 +38,8 @@ LinearMode::LinearMode(double mass, double damping, double stiffness, std::span<
                        Layout layout)
     : mass_(mass), damping_(damping), stiffness_(stiffness), layout_(std::move(layout)) {
   for (const double frequency : frequencies) fastest_drive_ = std::max(fastest_drive_, frequency);
-  lay_own_motion();
-  lay_powers();
+  build_own_motion();
+  build_powers();
   for (const double frequency : frequencies) {
     const Complex z(0.0, frequency);
     harmonics_.push_back(drive(z, basis_.add(z), slow_beside_decay));
@@ -49,7 +49,7 @@ LinearMode::LinearMode(double mass, double damping, double stiffness, std::span<
   basis_.finish(expected_reversal(frequencies));
 }
 
-void LinearMode::lay_powers() {
+void LinearMode::build_powers() {
   for (int n = 0; n <= layout_.degree; ++n) {
     const int source = n == 0 ? basis_.add(0.0) : basis_.add(0.0, powers_.back().source);
     if (layout_.is_brief) {
@@ -68,7 +68,7 @@ double LinearMode::expected_reversal(std::span<const double> frequencies) const 
 }
 
 /// Exponents of m z^2 + C z + K. The smaller root of a real pair comes from the product K/m, without cancellation.
-void LinearMode::lay_own_motion() {
+void LinearMode::build_own_motion() {
   const double half = damping_ / (2.0 * mass_);
   const double discriminant = stiffness_ / mass_ - half * half;
   const double beat = std::sqrt(std::abs(discriminant));

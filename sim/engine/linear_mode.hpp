@@ -79,8 +79,8 @@ class LinearMode {
     chain,        ///< two nearly equal exponents: exponential and divided difference
   };
 
-  void lay_own_motion();
-  void lay_powers();
+  void build_own_motion();
+  void build_powers();
   [[nodiscard]] double expected_reversal(std::span<const double> frequencies) const;
   [[nodiscard]] bool close(core::Complex z, core::Complex own, double slow) const;
   [[nodiscard]] Near near_own(core::Complex z, double slow) const;

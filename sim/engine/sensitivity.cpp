@@ -52,8 +52,8 @@ Instant Sensitivity::displaced(const Instant& now, std::size_t column) const {
   return {now.t, now.x + motion_[column].x(), now.v + motion_[column].y(), now.modification};
 }
 
-void Sensitivity::lay(Laws laws, const Memories& memories, const Instant& now, Direction direction,
-                      const std::vector<double>& decays) {
+void Sensitivity::begin_interval(Laws laws, const Memories& memories, const Instant& now, Direction direction,
+                                 const std::vector<double>& decays) {
   begin_ = motion_;
   if (!with_states_) return;
   force_.assign(motion_.size(), Eigen::VectorXd::Zero(at(1 + decays.size())));

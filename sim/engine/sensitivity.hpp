@@ -40,8 +40,8 @@ class Sensitivity {
   void begin(const Memories& memories, bool with_memory, const std::vector<double>& units);
 
   /// Computes the forces that perturbed states exert in the interval that begins now. `decays`: of the transients.
-  void lay(Laws laws, const Memories& memories, const friction::Instant& now, friction::Direction direction,
-           const std::vector<double>& decays);
+  void begin_interval(Laws laws, const Memories& memories, const friction::Instant& now,
+                      friction::Direction direction, const std::vector<double>& decays);
 
   /// Carries the derivative over a slip. `responses`: (x, v) at its end under a unit constant force and under a
   /// unit of each transient, from rest at zero.

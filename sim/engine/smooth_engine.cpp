@@ -125,7 +125,7 @@ void SmoothEngine::set_scales() {
   judge_.set_scales(x_scale_, wn * x_scale_);
 }
 
-void SmoothEngine::lay_interval() {
+void SmoothEngine::build_interval() {
   if (is_laid_) return;
   is_laid_ = true;
   flow_.freeze(memories_, direction_, time() - local_time_);
@@ -134,7 +134,7 @@ void SmoothEngine::lay_interval() {
   end_.resize(X_.size());
   error_.resize(X_.size());
   rates_.resize(X_.size());
-  lay_watches();
+  build_watches();
 }
 
 /// Local errors allowed in each component.
@@ -164,10 +164,10 @@ bool SmoothEngine::is_near_end_of_range() const {
 
 /// A softening spring pushes outward beyond sqrt(-k/k3), and the mass is infinitely far away within a finite time.
 bool SmoothEngine::has_run_away() const {
-  const Oscillator& rig = model_.oscillator;
+  const Oscillator& oscillator = model_.oscillator;
   constexpr double far = 10.0;
-  return rig.cubic_stiffness < 0.0 &&
-         std::abs(Engine::state().x) > far * std::sqrt(-rig.stiffness / rig.cubic_stiffness);
+  return oscillator.cubic_stiffness < 0.0 &&
+         std::abs(Engine::state().x) > far * std::sqrt(-oscillator.stiffness / oscillator.cubic_stiffness);
 }
 
 /// Of the oscillator and its drive [s].
@@ -180,9 +180,9 @@ double SmoothEngine::shortest_period() const {
 /// As far as implicit steps see it: an overdamped oscillator has no period of its own, and they pass over the fast
 /// one of its two decays where nothing is left of it.
 double SmoothEngine::shortest_seen() const {
-  const Oscillator& rig = model_.oscillator;
-  const double own = natural_frequency(rig);
-  const double ratio = rig.damping / (2.0 * rig.mass * own);
+  const Oscillator& oscillator = model_.oscillator;
+  const double own = natural_frequency(oscillator);
+  const double ratio = oscillator.damping / (2.0 * oscillator.mass * own);
   if (!is_implicit_ || !(ratio > 1.0)) return shortest_period();
   double fastest = own / (ratio + std::sqrt(ratio * ratio - 1.0));
   for (const double frequency : drive_.frequencies()) fastest = std::max(fastest, frequency);
@@ -331,7 +331,7 @@ const Interval* SmoothEngine::step(double left, bool to_period_end) {
   if (by_schedule) left = std::max(0.0, due - time());
   grazings_.clear();
   changes_.clear();
-  lay_interval();
+  build_interval();
   Hit hit;
   const bool at_once = find_violated(hit);
   bool found = at_once;

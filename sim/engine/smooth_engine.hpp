@@ -92,7 +92,7 @@ class SmoothEngine final : public Engine {
   void jumped(std::size_t law, const friction::Memory& before, friction::Trigger trigger) override;
 
   // The step.
-  void lay_interval();
+  void build_interval();
   void set_scales();
   void allow();
   [[nodiscard]] bool is_near_end_of_range() const;
@@ -114,7 +114,7 @@ class SmoothEngine final : public Engine {
   void pass_time(bool to_period_end);
 
   // Events.
-  void lay_watches();
+  void build_watches();
   void size_up_guards();
   void evaluate_guards(std::span<const double> X, double t, std::vector<double>& values) const;
   [[nodiscard]] double guard(std::size_t watch, double part) const;

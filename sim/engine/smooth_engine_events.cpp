@@ -31,7 +31,7 @@ constexpr double part_of_rate = 1e-5;
 
 }  // namespace
 
-void SmoothEngine::lay_watches() {
+void SmoothEngine::build_watches() {
   watches_.clear();
   if (direction_ != Direction::none) {
     watches_.push_back({.ending = SlipEnd{}, .scale = flow_.scales()[1]});

@@ -132,8 +132,8 @@ std::optional<Orbit> Approach::look(const ForcingPeriod& period, SteadyState& re
     return orbit;
   }
   if (!has_past_) try_candidate(period.end);
-  if (is_time_to_tell()) {
-    is_told_ = true;
+  if (needs_divergence()) {
+    has_divergence_ = true;
     divergence_ = divergence(period.end);
   }
   return std::nullopt;
@@ -148,9 +148,9 @@ bool Approach::creeps() const {
   return map_.engine().accuracy() > 0.0 && !has_past_ && !candidate_ && creep_.goes_on();
 }
 
-bool Approach::is_time_to_tell() const {
+bool Approach::needs_divergence() const {
   // Motions that cannot part do not run away from each other, whatever rounding makes of them.
-  if (is_told_ || has_past_ || motions_ != Motions::may_part) return false;
+  if (has_divergence_ || has_past_ || motions_ != Motions::may_part) return false;
   return passed_ >= patience_.periods || is_followed_enough();
 }
 

@@ -52,7 +52,7 @@ class Approach {
   [[nodiscard]] double divergence(const State& state);
   [[nodiscard]] bool is_followed_enough() const;
   [[nodiscard]] bool creeps() const;
-  [[nodiscard]] bool is_time_to_tell() const;
+  [[nodiscard]] bool needs_divergence() const;
   [[nodiscard]] core::Outcome failure() const;
 
   const Model& model_;
@@ -79,7 +79,7 @@ class Approach {
   long next_closing_ = 0;     ///< when a motion that came back over several periods is examined again
   long next_rounding_ = 0;    ///< when a motion that nearly came back is compared with rounding again
   double divergence_ = 0.0;
-  bool is_told_ = false;  ///< divergence_ has been computed
+  bool has_divergence_ = false;  ///< divergence_ has been computed
 };
 
 }  // namespace dualdamp::sim

@@ -218,11 +218,11 @@ void OrbitFinder::add_mirror_images(SteadyState& result) {
 /// it, and what errors of steps add up to, is measured by the monodromy matrix.
 void OrbitFinder::warn_of_distance(const ForcingPeriod& period, SteadyState& result) {
   constexpr double usual = 1e-9;
-  constexpr double told = 1e-4;
+  constexpr double least_warned = 1e-4;
   const double rest = 1.0 - period.radius();
   if (options_.tolerance <= usual || !(rest > neutral_margin)) return;
   double distance = std::max(correction_left(period, model_.excitation.frequency), map_.engine().accuracy() / rest);
-  if (!(distance > told)) return;
+  if (!(distance > least_warned)) return;
   constexpr double all = 100.0;
   result.warnings.emplace_back(
       "the steady state may be off by " +

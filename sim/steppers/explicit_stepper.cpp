@@ -46,7 +46,7 @@ class Dop853 final : public Stepper {
     estimate(step, h, allowed, error);
     if (!all_finite(end) || !all_finite(error)) return false;
     stiffness_ = h * fastest_rate(step, allowed);
-    lay_inside(field, step, t, h);
+    compute_dense_output(field, step, t, h);
     last_ = 1 - last_;
     return true;
   }
@@ -163,7 +163,7 @@ class Dop853 final : public Stepper {
   }
 
   /// x(part) = start + part (c0 + (1 - part) (c1 + part (c2 + (1 - part) (c3 + ...)))).
-  void lay_inside(const VectorField& field, Step& step, double t, double h) {
+  void compute_dense_output(const VectorField& field, Step& step, double t, double h) {
     step.end = end_;
     State& state = last_stage_;
     for (std::size_t i = dop853::stages + 1; i < dop853::all_stages; ++i) {

@@ -145,7 +145,7 @@ class RadauStepper final : public Stepper {
     if (n_() <= speed) return false;
     for (std::size_t i = 0; i < radau_stages; ++i) {
       if (!(h * std::abs(speed_defect_[i]) > allowed[speed])) continue;
-      lay_stage(x, i);
+      set_state_at_stage(x, i);
       const double slope = combine(radau_.slopes[i], z_[speed]) / h;
       const double here = state_[speed];
       const double known = std::max(allowed[speed], round_off * (std::abs(x[speed]) + std::abs(here)));
@@ -216,7 +216,7 @@ class RadauStepper final : public Stepper {
   void correct(const VectorField& field, std::span<const double> x, double t, double h) {
     operations_ += real_matrices * static_cast<long>(n_() * n_());
     for (std::size_t i = 0; i < radau_stages; ++i) {
-      lay_stage(x, i);
+      set_state_at_stage(x, i);
       field.evaluate(state_, t + radau_.nodes[i] * h, slope_);
       for (std::size_t k = 0; k < n_(); ++k) defect_[k][i] = slope_[k];
     }
@@ -230,7 +230,7 @@ class RadauStepper final : public Stepper {
   }
 
   /// The state at stage i.
-  void lay_stage(std::span<const double> x, std::size_t i) {
+  void set_state_at_stage(std::span<const double> x, std::size_t i) {
     for (std::size_t k = 0; k < n_(); ++k) state_[k] = x[k] + z_[k][i];
   }
 
