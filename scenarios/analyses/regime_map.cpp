@@ -88,7 +88,7 @@ std::optional<std::size_t> regime_map_length_of(const CheckedFile& file, std::st
 Column regime_column(const sim::Curve& map) {
   Column column{.name = "regime", .kind = CellKind::text};
   for (const sim::Regime regime :
-       {sim::Regime::no_steady_state, sim::Regime::never_moves, sim::Regime::rests, sim::Regime::slides_through})
+       {sim::Regime::no_steady_state, sim::Regime::never_moves, sim::Regime::sticks, sim::Regime::slides_through})
     column.texts.emplace_back(sim::name_of(regime));
   for (const sim::CurvePoint& point : map.points)
     column.choices.push_back(static_cast<std::uint32_t>(point.regime()));

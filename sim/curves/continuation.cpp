@@ -6,7 +6,6 @@
 #include <optional>
 #include <utility>
 
-#include "core/constants.hpp"
 #include "core/numbers.hpp"
 #include "sim/curves/continuation_steps.hpp"
 #include "sim/orbits/orbit_account.hpp"
@@ -37,20 +36,16 @@ double largest_multiplier(const BranchPoint& point) {
   return largest;
 }
 
-/// Whether the mass never moves.
-bool is_held(const SteadyState& state) { return state.peak == state.trough && !state.sticks.empty(); }
+/// Whether friction holds the mass all the time.
+bool is_held(const SteadyState& state) { return state.never_moves() && !state.sticks.empty(); }
 
 }  // namespace
 
 BranchPoint Continuation::describe(const Node& node) {
-  BranchPoint point{node.parameter, {}};
   const Model model = at(node.parameter);
   CountedMap map(model, ratio_, effort_);
-  point.state.period_ratio = ratio_;
-  point.state.period = ratio_ * core::two_pi / model.excitation.frequency;
-  point.state.start = node.period.begin;
+  BranchPoint point{node.parameter, outline_of_orbit(model, map, node.period.begin, ratio_)};
   point.state.multipliers = node.period.multipliers();
-  account_for_orbit(model, map, {.full = false}, point.state);
   // The derivative costs more than the motion, and a motion beside the orbit may cost more than the orbit.
   constexpr long times = 40;
   constexpr long least = 50;

@@ -28,7 +28,7 @@ void CurvePart::take(const SteadyState& state, CurvePoint& point, std::size_t in
     point.x = state.amplitude;
     point.phase = state.phase;
     point.stops = state.stops_per_cycle;
-    point.sticks = state.rests;
+    point.sticks = state.stick_count;
     point.stable = state.stable();
   } else {
     point.reason = number_in(reasons_, state.outcome.reason) + 1;

@@ -76,8 +76,8 @@ SteadyStateOptions brief(SteadyStateOptions options) {
   return options;
 }
 
-SteadyStateOptions judging_rests(SteadyStateOptions options) {
-  options.judge_rests = true;
+SteadyStateOptions sticks_by_speed(SteadyStateOptions options) {
+  options.sticks_by_speed = true;
   return options;
 }
 
@@ -89,7 +89,7 @@ std::string_view name_of(Regime regime) {
       return "no steady state";
     case Regime::never_moves:
       return "never moves";
-    case Regime::rests:
+    case Regime::sticks:
       return "rests";
     case Regime::slides_through:
       return "slides through";
@@ -122,7 +122,7 @@ Curve regime_map(const Model& model, const std::vector<double>& frequencies, con
   points.reserve(frequencies.size() * amplitudes.size());
   for (const double omega : frequencies)
     for (const double Y : amplitudes) points.push_back({.omega = omega, .Y = Y});
-  return computed(model, std::move(points), judging_rests(brief(options)), batch);
+  return computed(model, std::move(points), sticks_by_speed(brief(options)), batch);
 }
 
 }  // namespace dualdamp::sim

@@ -17,12 +17,12 @@
 
 namespace dualdamp::sim {
 
-/// Kinds of steady states by the rests of the mass.
+/// Kinds of steady states by the sticks of the mass.
 enum class Regime {
   no_steady_state,
   never_moves,
-  rests,           ///< once or several times in a period
-  slides_through,  ///< it never rests
+  sticks,          ///< once or several times in a period
+  slides_through,  ///< it never sticks
 };
 
 /// "no steady state", "never moves", "rests", "slides through".
@@ -35,15 +35,17 @@ struct CurvePoint {
   double x = 0.0;      ///< output amplitude (peak - trough)/2 [m]
   double phase = 0.0;  ///< lag of x's fundamental [rad], in [0, 2 pi); of a frequency response only
   int stops = 0;       ///< stops in one period of the motion
-  int sticks = 0;      ///< sticks in a period; in a regime map also rests judged by speed (`SteadyState::rests`)
+  int sticks = 0;      ///< sticks in a period; in a regime map also by speed (`SteadyState::stick_count`)
   bool stable = false;
   std::uint32_t reason = 0;  ///< 0: there is a steady state; else an index into `Curve::reasons`
 
   [[nodiscard]] bool ok() const { return reason == 0; }
+  /// As that of the steady state.
+  [[nodiscard]] bool never_moves() const { return x == 0.0; }
   [[nodiscard]] Regime regime() const {
     if (!ok()) return Regime::no_steady_state;
     if (sticks == 0) return Regime::slides_through;
-    return stops == 0 && sticks == 1 && x == 0.0 ? Regime::never_moves : Regime::rests;
+    return never_moves() ? Regime::never_moves : Regime::sticks;
   }
 };
 

@@ -191,7 +191,7 @@ Scan::Motion Scan::motion_at(double amplitude) {
     return Motion::none;
   }
   if (!sticks(state_)) return Motion::slides;
-  return state_.peak == state_.trough ? Motion::rest : Motion::sticks;
+  return state_.never_moves() ? Motion::rest : Motion::sticks;
 }
 
 /// The amplitude whose force equals the friction, if there are neither harmonics nor an offset. A law without force

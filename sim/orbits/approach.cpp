@@ -248,7 +248,7 @@ void Approach::try_candidate(const State& state) {
   streak_[static_cast<std::size_t>(periods)] = 0;
   std::optional<Orbit> orbit = solver_.near(state, periods);
   if (!orbit) return;
-  if (periods > 1 && is_at_rest(*orbit))
+  if (periods > 1 && never_moves(*orbit))
     orbit = Orbit{solver_.patient_map_over(1).from(orbit->period.begin, Monodromy::with), 1};
   if (candidate_ && solver_.same(candidate_->orbit, *orbit)) return;
   if (candidate_) others_.push_back(std::move(candidate_->orbit));
@@ -259,13 +259,9 @@ void Approach::try_candidate(const State& state) {
 }
 
 /// Whether the mass only makes slips below rounding: these are no subharmonic motion (orbit_account.cpp).
-bool Approach::is_at_rest(const Orbit& orbit) {
-  SteadyState seen{.period = core::two_pi / omega_ * orbit.period_ratio,
-                   .period_ratio = orbit.period_ratio,
-                   .start = orbit.period.begin};
+bool Approach::never_moves(const Orbit& orbit) {
   PeriodMap map(model_, orbit.period_ratio);
-  account_for_orbit(model_, map, {.full = false}, seen);
-  return seen.peak == seen.trough;
+  return outline_of_orbit(model_, map, orbit.period.begin, orbit.period_ratio).never_moves();
 }
 
 /// The orbit of a candidate, moved on so that its period begins as the motion's periods do, at t = 0.

@@ -46,7 +46,7 @@ class Approach {
   [[nodiscard]] int worth_trying();
   [[nodiscard]] bool is_due();
   void try_candidate(const State& state);
-  [[nodiscard]] bool is_at_rest(const Orbit& orbit);
+  [[nodiscard]] bool never_moves(const Orbit& orbit);
   [[nodiscard]] Orbit at_start(const Candidate& candidate);
   [[nodiscard]] std::optional<Orbit> nearly_there(SteadyState& result);
   [[nodiscard]] double divergence(const State& state);

@@ -22,8 +22,8 @@ OrbitAccount::OrbitAccount(const Model& model, AccountParts parts)
       drive_phase_(model.excitation.phase),
       energy_(model.oscillator),
       fundamental_(model.excitation.frequency),
-      judges_speed_(parts.judge_rests && !model.friction.empty() &&
-                    std::ranges::none_of(model.friction, &friction::Law::holds_mass)),
+      sticks_by_speed_(parts.sticks_by_speed && !model.friction.empty() &&
+                       std::ranges::none_of(model.friction, &friction::Law::holds_mass)),
       spacing_(core::two_pi / model.excitation.frequency / samples) {}
 
 void OrbitAccount::begin(const State& start) {
@@ -40,7 +40,7 @@ void OrbitAccount::observe(const Interval& interval, double x) {
     energy_.observe(interval);
     fundamental_.observe(interval);
   }
-  if (judges_speed_) collect_speeds(interval);
+  if (sticks_by_speed_) collect_speeds(interval);
   const bool sticks = interval.direction == Direction::none;
   if (sticks) collect_stick(interval, x);
   sticking_ = sticks;
@@ -56,11 +56,11 @@ void OrbitAccount::collect_speeds(const Interval& interval) {
   }
 }
 
-/// Number of times longer than `shortest_rest` of a forcing period at a speed below `rest_speed` times the largest.
-/// The end of the period is joined to its start.
+/// Number of times longer than `shortest_stick` of a forcing period at a speed below `stick_speed` times the
+/// largest. The end of the period is joined to its start.
 int OrbitAccount::slow_spans(double period) const {
   if (speeds_.empty()) return 0;
-  const double slow = rest_speed * *std::ranges::max_element(speeds_);
+  const double slow = stick_speed * *std::ranges::max_element(speeds_);
   const auto fast = std::ranges::find_if(speeds_, [=](double speed) { return speed > slow; });
   if (fast == speeds_.end()) return 1;
   const auto begin = static_cast<std::size_t>(fast - speeds_.begin());
@@ -68,7 +68,7 @@ int OrbitAccount::slow_spans(double period) const {
   double length = 0.0;
   for (std::size_t i = 0; i <= speeds_.size(); ++i) {
     const bool is_slow = speeds_[(begin + i) % speeds_.size()] <= slow;
-    if (!is_slow && length > shortest_rest * period) ++spans;
+    if (!is_slow && length > shortest_stick * period) ++spans;
     length = is_slow ? length + spacing_ : 0.0;
   }
   return spans;
@@ -104,8 +104,8 @@ bool OrbitAccount::is_at_rest(double period, int forcing_periods) const {
 
 void OrbitAccount::write(SteadyState& result) {
   join_stick_across_boundary();
-  const bool rests = is_at_rest(result.period, result.period_ratio);
-  if (rests) {
+  const bool is_held = is_at_rest(result.period, result.period_ratio);
+  if (is_held) {
     result.period /= result.period_ratio;
     result.period_ratio = 1;
     peak_ = trough_ = sticks_.front().position;
@@ -118,12 +118,12 @@ void OrbitAccount::write(SteadyState& result) {
   result.amplitude = 0.5 * (peak_ - trough_);
   result.stops_per_cycle = stops_;
   result.sticks = std::move(sticks_);
-  result.rests = judges_speed_ ? slow_spans(samples * spacing_) : static_cast<int>(result.sticks.size());
+  result.stick_count = sticks_by_speed_ ? slow_spans(samples * spacing_) : static_cast<int>(result.sticks.size());
   result.sequence = std::move(sequence_);
   if (result.sticks.size() == 1 && stops_ == 0) {
     result.warnings.emplace_back("the mass never moves: any rest position that friction can hold is steady too");
   }
-  if (!full_ || rests) return;
+  if (!full_ || is_held) return;
   result.max_speed = extremes_.max_speed();
   result.energy = energy_.account();
   result.mean_square_speed = energy_.square_speed() / result.period;
@@ -136,6 +136,14 @@ void account_for_orbit(const Model& model, PeriodMap& map, AccountParts parts, S
   OrbitAccount account(model, parts);
   (void)map.from(result.start, Monodromy::without, &account);
   account.write(result);
+}
+
+SteadyState outline_of_orbit(const Model& model, PeriodMap& map, const State& start, int period_ratio) {
+  SteadyState state{.period = core::two_pi / model.excitation.frequency * period_ratio,
+                    .period_ratio = period_ratio,
+                    .start = start};
+  account_for_orbit(model, map, {.full = false}, state);
+  return state;
 }
 
 }  // namespace dualdamp::sim

@@ -9,8 +9,8 @@ namespace dualdamp::sim {
 
 /// What is collected.
 struct AccountParts {
-  bool full = true;          ///< phase, largest speed and energy too
-  bool judge_rests = false;  ///< rests by speed if no law holds the mass
+  bool full = true;              ///< phase, largest speed and energy too
+  bool sticks_by_speed = false;  ///< count sticks by speed if no law holds the mass
 };
 
 /// Observes a period of the motion from its start; the period map calls it for every interval.
@@ -36,7 +36,7 @@ class OrbitAccount final : public PeriodObserver {
   PeakAndTrough extremes_;
   EnergyAudit energy_;
   Fundamental fundamental_;
-  bool judges_speed_ = false;
+  bool sticks_by_speed_ = false;
   double spacing_ = 0.0;  ///< of the sampled speeds [s]
   std::vector<double> speeds_;
   double peak_ = 0.0;
@@ -51,5 +51,10 @@ class OrbitAccount final : public PeriodObserver {
 /// Computes the orbit that starts at `result.start` and fills in the other numbers of `result`. `map`: over
 /// `result.period_ratio` forcing periods.
 void account_for_orbit(const Model& model, PeriodMap& map, AccountParts parts, SteadyState& result);
+
+/// The orbit from `start` as a steady state without the full account and without Floquet multipliers. `map`: over
+/// `period_ratio` forcing periods.
+[[nodiscard]] SteadyState outline_of_orbit(const Model& model, PeriodMap& map, const State& start,
+                                           int period_ratio);
 
 }  // namespace dualdamp::sim

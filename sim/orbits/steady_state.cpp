@@ -71,11 +71,11 @@ class OrbitFinder {
   void describe(SteadyState& result);
 
  private:
-  bool begin_on_sliding_orbit(State& start);
+  [[nodiscard]] std::optional<State> start_of_sliding_orbit();
   [[nodiscard]] std::optional<Orbit> the_only_orbit(SteadyState& result);
   [[nodiscard]] std::optional<Orbit> only_orbit_from(const State& start, SteadyState& result);
   [[nodiscard]] State after_transient(double x, double v, SteadyState& result);
-  [[nodiscard]] SteadyState with_extremes(const Orbit& orbit);
+  [[nodiscard]] SteadyState outlined(const Orbit& orbit);
   [[nodiscard]] std::optional<SteadyState> mirror_image(const SteadyState& of);
   void add_mirror_images(SteadyState& result);
   void warn_of_distance(const ForcingPeriod& period, SteadyState& result);
@@ -90,17 +90,16 @@ class OrbitFinder {
   double rounding_closure_ = 0.0;
 };
 
-/// Starts on the orbit without sticking that attracts every motion, if batches find it: no motion is integrated.
-bool OrbitFinder::begin_on_sliding_orbit(State& begin) {
+/// The start of the orbit without sticking that attracts every motion, if batches find it: no motion is integrated.
+std::optional<State> OrbitFinder::start_of_sliding_orbit() {
   const std::optional<SlidingOrbit> orbit = sliding_orbit(model_);
-  if (!orbit) return false;
-  const std::optional<State> start = start_of(*orbit, model_);
-  if (!start) return false;
-  begin = *start;
+  if (!orbit) return std::nullopt;
+  std::optional<State> start = start_of(*orbit, model_);
+  if (!start) return std::nullopt;
   // Newton's method will accept this start at once, so its pass along the orbit can collect the account too.
   account_.emplace(model_, AccountParts{.full = options_.full_account});
   searched_ += orbit->certificate;
-  return true;
+  return start;
 }
 
 State OrbitFinder::after_transient(double x, double v, SteadyState& result) {
@@ -130,7 +129,9 @@ std::optional<Orbit> OrbitFinder::the_only_orbit(SteadyState& result) {
   const InitialState& initial = model_.initial;
   if (model_.friction.empty() && motions_ == Motions::meet_sliding) {
     start = linear_response(model_);
-  } else if (!begin_on_sliding_orbit(start)) {
+  } else if (std::optional<State> sliding = start_of_sliding_orbit()) {
+    start = *std::move(sliding);
+  } else {
     start = after_transient(initial.position, initial.velocity, result);
   }
   std::optional<Orbit> orbit = only_orbit_from(start, result);
@@ -143,7 +144,7 @@ std::optional<Orbit> OrbitFinder::the_only_orbit(SteadyState& result) {
 void OrbitFinder::describe(SteadyState& result) {
   if (account_) return account_->write(result);
   map_.limit(std::numeric_limits<long>::max());
-  const AccountParts parts{.full = options_.full_account, .judge_rests = options_.judge_rests};
+  const AccountParts parts{.full = options_.full_account, .sticks_by_speed = options_.sticks_by_speed};
   if (result.period_ratio == 1) {
     account_for_orbit(model_, map_, parts, result);
   } else {
@@ -155,20 +156,15 @@ void OrbitFinder::describe(SteadyState& result) {
   }
   add_mirror_images(result);
   // If the mass never moves, other rest positions are not listed.
-  if (result.peak == result.trough)
-    std::erase_if(result.others, [](const OtherState& other) { return other.peak == other.trough; });
+  if (result.never_moves()) std::erase_if(result.others, &OtherState::never_moves);
   if (!result.others.empty())
     result.warnings.emplace_back(
         "not the only steady state: the one that the motion approaches; others attract other motions");
 }
 
-/// An orbit as a steady state of which only the extremes are known.
-SteadyState OrbitFinder::with_extremes(const Orbit& orbit) {
-  SteadyState state{.period = core::two_pi / model_.excitation.frequency * orbit.period_ratio,
-                    .period_ratio = orbit.period_ratio,
-                    .start = orbit.period.begin};
+SteadyState OrbitFinder::outlined(const Orbit& orbit) {
   PeriodMap map(model_, orbit.period_ratio);
-  account_for_orbit(model_, map, {.full = false}, state);
+  SteadyState state = outline_of_orbit(model_, map, orbit.period.begin, orbit.period_ratio);
   searched_ += map.engine().count();
   return state;
 }
@@ -191,7 +187,7 @@ std::optional<SteadyState> OrbitFinder::mirror_image(const SteadyState& of) {
       of.period_ratio == 1 ? solver.near_motion_from(later) : solver.near(later, of.period_ratio);
   searched_ += solver.count();
   if (!found) return std::nullopt;
-  SteadyState image = with_extremes(*found);
+  SteadyState image = outlined(*found);
   if (!is_mirror_image(image, of)) return std::nullopt;
   return image;
 }
@@ -203,7 +199,7 @@ void OrbitFinder::add_mirror_images(SteadyState& result) {
   const std::size_t count = states.size();
   for (std::size_t i = 0; i < count; ++i) {
     const SteadyState of = states[i];
-    if (of.peak == of.trough || is_mirror_image(of, of)) continue;
+    if (of.never_moves() || is_mirror_image(of, of)) continue;
     if (std::ranges::none_of(states, [&](const SteadyState& a) { return is_mirror_image(a, of); })) {
       std::optional<SteadyState> image = mirror_image(of);
       if (!image) continue;
@@ -242,7 +238,7 @@ void OrbitFinder::find(SteadyState& result) {
     orbit = approach.find(result);
     if (orbit && motions_ == Motions::may_part && !has_past) {
       for (const Orbit& other : other_orbits(model_, *orbit, approach.others(), solver))
-        others_.push_back(with_extremes(other));
+        others_.push_back(outlined(other));
     }
     result.newton_steps += solver.newton_steps();
     searched_ += solver.count();
@@ -297,7 +293,7 @@ std::vector<Sample> one_period(const Model& model, const SteadyState& state, int
     final = interval->at(interval->duration);
   }
   sampler.finish(final);
-  if (state.peak == state.trough)  // slips below rounding are no motion
+  if (state.never_moves())  // slips below rounding are no motion
     for (Sample& sample : sampler.samples()) sample.x = state.peak, sample.v = sample.a = 0.0;
   return std::move(sampler.samples());
 }

@@ -28,6 +28,8 @@ struct OtherState {
   double peak = 0.0;     ///< max x [m]
   double trough = 0.0;   ///< min x [m]
   int period_ratio = 1;  ///< forcing periods in its period
+
+  [[nodiscard]] bool never_moves() const { return peak == trough; }
 };
 
 struct SteadyState {
@@ -45,7 +47,7 @@ struct SteadyState {
   double mean_square_speed = 0.0;  ///< m^2/s^2
   int stops_per_cycle = 0;         ///< stops in one period
   std::vector<Stick> sticks;
-  int rests = 0;                    ///< sticks; rests by speed if `judge_rests` is set and no law holds the mass
+  int stick_count = 0;              ///< of `sticks`; by speed if `sticks_by_speed` is set and no law holds the mass
   std::vector<EventKind> sequence;  ///< events of one period in order
   std::vector<std::complex<double>> multipliers;  ///< Floquet multipliers over one period
   Energy energy;                                  ///< J in one period
@@ -59,6 +61,8 @@ struct SteadyState {
   int transient_periods = 0;
   core::SearchCount certificate;  ///< of all searches for events on the way to the orbit and on it
 
+  /// Whether the mass stands still all the time. Slips below rounding are no motion (orbit_account.cpp).
+  [[nodiscard]] bool never_moves() const { return peak == trough; }
   /// Whether no Floquet multiplier is outside the unit circle. One on the circle belongs to a mass that never
   /// moves, or to a continuum of orbits (see `warnings`).
   [[nodiscard]] bool stable() const;
@@ -72,16 +76,16 @@ struct SteadyStateOptions {
   long most_work = std::numeric_limits<long>::max();
   /// Whether to compute phase, fundamental, speeds and energy, which cost more than the orbit; else they stay zero.
   bool full_account = true;
-  /// If no law holds the mass (smooth laws, compliant contacts), the mass never quite sticks. With this a rest is a
-  /// time longer than `shortest_rest` of a forcing period at a speed below `rest_speed` times the largest.
-  bool judge_rests = false;
+  /// If no law holds the mass (smooth laws, compliant contacts), the mass never quite sticks. With this a stick
+  /// is a time longer than `shortest_stick` of a forcing period at a speed below `stick_speed` times the largest.
+  bool sticks_by_speed = false;
   /// The state at t = 0 with the memories of the laws: the `start` of a steady state of a model with the same laws.
   /// Nothing: the model's initial state, with the laws at their start.
   std::optional<State> from = {};
 };
 
-inline constexpr double rest_speed = 1e-3;
-inline constexpr double shortest_rest = 0.02;
+inline constexpr double stick_speed = 1e-3;
+inline constexpr double shortest_stick = 0.02;
 
 /// The steady state of the model. Needs a harmonic excitation.
 [[nodiscard]] SteadyState steady_state(const Model& model, const SteadyStateOptions& options = {});

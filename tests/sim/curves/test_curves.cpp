@@ -256,13 +256,13 @@ TEST_CASE("a map tells what the mass does, by its speed where no law holds it") 
   model.friction.emplace_back(friction::Coulomb(1.0, 1.0));
   const sim::Curve rigid = sim::regime_map(model, {1.5}, {0.9, 1.5, 6.0});
   CHECK(rigid.points[0].regime() == Regime::never_moves);
-  CHECK(rigid.points[1].regime() == Regime::rests);
+  CHECK(rigid.points[1].regime() == Regime::sticks);
   CHECK(rigid.points[1].sticks == 2);
   CHECK(rigid.points[2].regime() == Regime::slides_through);
   // A contact so stiff that the mass nearly sticks where it would under rigid friction.
   model.friction = {friction::Law(friction::ContactCompliance(1.0, 1.0, 1e7, 300.0))};
   const sim::Curve compliant = sim::regime_map(model, {1.5}, amplitudes);
-  CHECK(compliant.points[0].regime() == Regime::rests);
+  CHECK(compliant.points[0].regime() == Regime::sticks);
   CHECK(compliant.points[0].sticks == 2);
   CHECK(compliant.points[1].regime() == Regime::slides_through);
   // Resonance that nothing limits.
