@@ -223,11 +223,12 @@ void check_motion(CheckedFile& file, const Json& analysis) {
     const double most = std::ranges::max(grid_values(range.at("amplitudes")));
     if (most > *limit) continue;
     constexpr int digits = 3;
+    const std::string unit = " " + core::unit_for(file.coordinate(), "m");
     file.complain("analysis.ranges[" + std::to_string(i) + "].amplitudes",
                   "the mass sticks at every level of the range '" + range.at("name").get<std::string>() +
                       "': F0/(kY) is " + core::format_number(*limit / most, digits) + " at the largest Y",
-                  "an amplitude above F0/k = " + core::format_number(1e3 * *limit, digits) + " mm",
-                  core::format_number(1e3 * most, digits) + " mm");
+                  "an amplitude above F0/k = " + core::format_number(*limit, digits) + unit,
+                  core::format_number(most, digits) + unit);
   }
 }
 

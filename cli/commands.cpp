@@ -156,9 +156,8 @@ Report load(const RunCommand& command, const std::string& file, std::optional<Sc
     Scenario loaded = scenarios::load_scenario(file, options);
     show_in(command.shown_units, loaded);
     if ((command.resume || command.overwrite) && campaign_of(loaded) == nullptr)
-      return refused(ExitStatus::usage, file +
-                                            (command.resume ? ": --resume goes on with" : ": --overwrite begins") +
-                                            " a stress test or a sweep, and this is none");
+      return refused(ExitStatus::usage, file + (command.resume ? ": --resume continues" : ": --overwrite repeats") +
+                                            " a stress test or a sweep; this scenario is neither");
     if (command.dry_run) return checked(loaded, output_directory(command, file));
     scenario.emplace(std::move(loaded));
     return {};

@@ -140,11 +140,11 @@ std::string verification_text(const scenarios::Verification& verification) {
   std::string text = "verified by " + verification.engine + ": ";
   if (verification.quantity.empty())
     return text + (verification.agrees ? "nothing to compare" : verification.reason);
-  const auto rows = [](long count) { return std::to_string(count) + (count == 1 ? " row" : " rows"); };
+  const auto rows = [](long count) { return std::to_string(count) + (count == 1 ? " row has " : " rows have "); };
   if (verification.rows_left_out > 0)
-    text += "no number in one of both for " + rows(verification.rows_left_out) + ", ";
+    text += rows(verification.rows_left_out) + "a number in only one of the two computations, ";
   if (verification.rows_without_numbers > 0)
-    text += "a reason and no number in both for " + rows(verification.rows_without_numbers) + ", ";
+    text += rows(verification.rows_without_numbers) + "a reason in place of a number in both, ";
   return text + "largest difference " + core::format_number(verification.largest_difference, 2) + " (" +
          verification.quantity + ", " + core::format_number(verification.tolerance, 2) + " allowed) of " +
          std::to_string(verification.quantities) +

@@ -153,9 +153,9 @@ class PluginLaw final : public LawModel,
   void refuse_nan(const char* function, const Memory& memory, const Instant& now) const {
     const std::array<double, 3> place = {now.t, now.x, now.v};
     if (!all_finite(memory.state) || !all_finite(place)) return;
-    fail(table_,
-         std::string(function) + "() gave a value that is no number, at t = " + core::format_number(now.t, 6) +
-             " s, x = " + core::format_number(now.x, 6) + " m, v = " + core::format_number(now.v, 6) + " m/s");
+    fail(table_, std::string(function) + "() gave a value that is no number, at t = " +
+                     core::format_number(now.t, 6) + ", x = " + core::format_number(now.x, 6) +
+                     " and v = " + core::format_number(now.v, 6) + " in SI units");
   }
   void check_memory(const char* function, const Memory& memory) const {
     if (memory.mode < 0 || memory.mode >= static_cast<int>(table_.modes))

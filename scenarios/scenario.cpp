@@ -128,11 +128,12 @@ void refuse_many_laws(const sim::Model& model, const Document& document, const R
 /// A travel before t = 0 loads nothing but a law that remembers its way.
 void refuse_idle_travel(const sim::Model& model, const Document& document, const Reading& reading) {
   if (model.initial.travel == 0.0 || std::ranges::any_of(model.friction, &friction::Law::remembers_way)) return;
-  throw core::InputError(core::Diagnostic{document.locate(reading.places.at("initial.travel")),
-                                          "'initial.travel' loads no law of this file: none remembers its way",
-                                          "a law that does, such as contact_compliance, dahl or free_play",
-                                          {},
-                                          {}});
+  throw core::InputError(
+      core::Diagnostic{document.locate(reading.places.at("initial.travel")),
+                       "'initial.travel' has no effect: no law of this file depends on earlier motion of the mass",
+                       "a law that does, such as contact_compliance, dahl or free_play",
+                       {},
+                       {}});
 }
 
 /// Warnings about structural damping.

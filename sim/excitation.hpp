@@ -83,6 +83,8 @@ struct Excitation {
            type == ExcitationType::base_noise || type == ExcitationType::base_chirp ||
            type == ExcitationType::base_samples;
   }
+  /// Of the amplitude, for a displacement; `Model::unit` names it for an angle.
+  [[nodiscard]] const char* unit() const { return moves_base() ? "m" : "N"; }
   [[nodiscard]] bool is_ramp() const {
     return type == ExcitationType::base_ramp || type == ExcitationType::force_ramp;
   }

@@ -2,8 +2,11 @@
 /// A model is everything that determines a motion: oscillator, excitation, friction laws in parallel, initial
 /// state.
 
+#include <string>
+#include <string_view>
 #include <vector>
 
+#include "core/coordinate.hpp"
 #include "friction_models/law.hpp"
 #include "sim/excitation.hpp"
 #include "sim/oscillator.hpp"
@@ -40,6 +43,11 @@ struct Model {
   std::vector<friction::Law> friction;  ///< forces add
   InitialState initial;
   Solver solver{};
+
+  /// The unit of a quantity in messages: `unit` is the one for a displacement.
+  [[nodiscard]] std::string unit(std::string_view unit) const {
+    return core::unit_for(oscillator.coordinate, unit);
+  }
 };
 
 }  // namespace dualdamp::sim

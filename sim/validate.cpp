@@ -44,10 +44,13 @@ bool lies_in(const Range& range, double value) { return std::isfinite(value) && 
 /// Collects the problems of one model.
 class Check {
  public:
+  explicit Check(core::Coordinate coordinate) : coordinate_(coordinate) {}
+
+  /// `unit`: for a displacement.
   void in(const Range& range, std::string_view path, double value, std::string_view unit,
           std::string_view why = {}) {
     if (!lies_in(range, value)) [[unlikely]]
-      problems_.push_back(out_of_range(path, why, range, value, unit));
+      problems_.push_back(out_of_range(path, why, range, value, core::unit_for(coordinate_, unit)));
   }
 
   void oscillator(const Oscillator& o) {
@@ -60,7 +63,7 @@ class Check {
   }
 
   void excitation(const Excitation& e) {
-    const std::string_view unit = e.moves_base() ? "m" : "N";
+    const std::string_view unit = e.unit();
     if (e.is_harmonic()) {
       in(friction::not_negative, "excitation.amplitude", e.amplitude, unit);
       in(friction::positive, "excitation.frequency", e.frequency, "rad/s");
@@ -117,6 +120,7 @@ class Check {
     in(phases, "excitation.harmonics.phase", harmonic.phase, "rad");
   }
 
+  core::Coordinate coordinate_;
   std::vector<Diagnostic> problems_;
 };
 
@@ -151,7 +155,7 @@ std::string type_of(const Excitation& e) {
 }  // namespace
 
 std::vector<Diagnostic> validate(const Model& model) {
-  Check check;
+  Check check(model.oscillator.coordinate);
   check.model(model);
   return check.take();
 }

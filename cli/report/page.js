@@ -43,7 +43,7 @@ function verification() {
   if (!v) return [];
   const rows = [["computed again by", v.engine], ["quantities compared", v.quantities], ["largest difference", v.largest_difference],
     ["of", v.quantity ?? "–"], ["allowed", v.tolerance ?? "–"], ["", { text: v.agrees ? "✓ agrees" : "✗ does not agree", class: v.agrees ? "good" : "bad" }]];
-  if (v.rows_left_out) rows.push(["rows without a number in one of both", v.rows_left_out]);
+  if (v.rows_left_out) rows.push(["rows with a number in only one of the two computations", v.rows_left_out]);
   if (v.rows_without_numbers) rows.push(["rows without a number in both", v.rows_without_numbers]);
   if (v.reason) rows.push(["reason", { text: v.reason, class: "long" }]);
   return [heading("Verification"), grid(["", ""], rows)];

@@ -116,7 +116,7 @@ scenarios::RunResult run_limited(const scenarios::Scenario& scenario, const scen
 scenarios::RunResult compute(const scenarios::Scenario& scenario, const Settings& settings, ProgressCall& told) {
   const bool is_campaign = dynamic_cast<const scenarios::Campaign*>(scenario.question.get()) != nullptr;
   if (!is_campaign && settings.found != scenarios::FoundCases::refuse)
-    throw py::type_error("resume and overwrite are for a stress test or a sweep, and this is none");
+    throw py::type_error("resume and overwrite are for a stress test or a sweep; this scenario is neither");
   scenarios::RunOptions options{
       .directory = settings.directory, .threads = threads_for(scenario, settings.threads), .found = settings.found};
   if (told.is_wanted())

@@ -87,7 +87,8 @@ Setup setup_of(const Json& analysis, const Json& system, const Json& excitation,
     return identify::remembers_way(candidate.rig, candidate.parameters);
   };
   if (model.initial.travel != 0.0 && std::ranges::none_of(setup.candidates, is_loaded))
-    faults.push_back({"data", "'initial.travel' loads no law of this fit: none remembers its way"});
+    faults.push_back(
+        {"data", "'initial.travel' has no effect: no law of this fit depends on earlier motion of the mass"});
   return setup;
 }
 

@@ -126,12 +126,13 @@ void check_predict(CheckedFile& file) {
 }
 
 /// "base_harmonic, 0.004 m, 3.7 Hz"
-std::string drive_text(const Json& section, const sim::Excitation& drive) {
+std::string drive_text(const Json& section, const sim::Model& model) {
+  const sim::Excitation& drive = model.excitation;
   if (drive.type == sim::ExcitationType::none) return "none";
   std::string text = section.at("type").get<std::string>();
   if (section.contains("file")) return text + ", file " + section.at("file").get<std::string>();
   if (drive.is_harmonic() || drive.is_chirp())
-    text += ", " + core::format_number(drive.amplitude, 6) + (drive.moves_base() ? " m" : " N");
+    text += ", " + core::format_number(drive.amplitude, 6) + " " + model.unit(drive.unit());
   if (drive.is_harmonic()) text += ", " + core::format_number(drive.frequency / core::two_pi, 6) + " Hz";
   return text;
 }
@@ -150,7 +151,7 @@ std::string assumed_drive(const CheckedValues& values, const std::vector<DataIte
     }
     return false;
   });
-  return is_assumed ? drive_text(values.excitation, drive) : std::string();
+  return is_assumed ? drive_text(values.excitation, values.model) : std::string();
 }
 
 /// rms of the residuals over the rms of the signal for each experiment.

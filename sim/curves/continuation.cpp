@@ -277,9 +277,8 @@ bool Continuation::comes_to_rest(double parameter, const State& start) {
 }
 
 std::string Continuation::with_unit(double parameter, int digits) const {
-  const std::string unit =
-      quantity_ == &Excitation::frequency ? " rad/s" : (model_.excitation.moves_base() ? " m" : " N");
-  return core::format_number(parameter, digits) + unit;
+  const std::string unit = quantity_ == &Excitation::frequency ? "rad/s" : model_.unit(model_.excitation.unit());
+  return core::format_number(parameter, digits) + " " + unit;
 }
 
 Branch Continuation::at_rest(const Node& node, double place) {

@@ -64,7 +64,7 @@ Curve computed(const Model& model, std::vector<CurvePoint> points, const SteadyS
 void check(Model model, std::span<const double> frequencies, std::span<const double> amplitudes,
            std::string_view analysis) {
   require_in(friction::positive, "analysis.frequencies", frequencies, "rad/s");
-  require_in(friction::not_negative, "analysis.amplitudes", amplitudes, model.excitation.moves_base() ? "m" : "N");
+  require_in(friction::not_negative, "analysis.amplitudes", amplitudes, model.unit(model.excitation.unit()));
   if (!frequencies.empty()) model.excitation.frequency = frequencies.front();
   if (!amplitudes.empty()) model.excitation.amplitude = amplitudes.front();
   valid_harmonic(model, analysis);

@@ -43,7 +43,7 @@ std::vector<double> stepped(std::vector<double> levels, Stepping stepping) {
 
 Curve stepped_xy_curve(const Model& model, const std::vector<double>& amplitudes, Stepping stepping,
                        const SteadyStateOptions& options) {
-  require_in(friction::not_negative, "analysis.amplitudes", amplitudes, model.excitation.moves_base() ? "m" : "N");
+  require_in(friction::not_negative, "analysis.amplitudes", amplitudes, model.unit(model.excitation.unit()));
   std::vector<CurvePoint> points;
   for (const double Y : stepped(amplitudes, stepping))
     points.push_back({.omega = model.excitation.frequency, .Y = Y});

@@ -357,9 +357,10 @@ bool ExactEngine::search(double horizon) {
       core::first_crossing(mode_->basis(), {guards_.data(), guard_count_}, horizon, crossing_, grazings_, count_);
   if (end == core::SearchEnd::left_range) leave_range();
   if (end == core::SearchEnd::too_long)
-    outcome_ = {core::OutcomeKind::event_limit,
-                "the motion turns so often between two events, or up to the end of a forcing period, that it is "
-                "followed no longer"};
+    outcome_ = {
+        core::OutcomeKind::event_limit,
+        "the computation was stopped: the motion oscillates too often between two events or before the end of "
+        "a forcing period"};
   return outcome_.ok();
 }
 

@@ -151,7 +151,7 @@ std::string SmoothEngine::infinite_force() {
       if (!std::isfinite(there.v) || std::isfinite(model_.friction[i].force(memories[i], there, direction_)))
         continue;
       return ": the force of " + name_in_list(i) + " is not finite at x = " + core::format_number(there.x, 6) +
-             " m, v = " + core::format_number(there.v, 6) + " m/s";
+             " " + model_.unit("m") + ", v = " + core::format_number(there.v, 6) + " " + model_.unit("m/s");
     }
   }
   return {};

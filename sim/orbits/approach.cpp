@@ -320,16 +320,18 @@ core::Outcome Approach::failure() const {
   if (creeps()) {
     return {
         core::OutcomeKind::no_steady_state,
-        "no steady state found: the motion creeps, or its contacts age: what it misses of coming back falls like "
-        "a power of time only; it misses " +
-            core::format_number(100.0 * recurrence_.closure(1), 2) + " % after " + std::to_string(passed_) +
-            " forcing periods, and the mass stays within " + core::format_number(size_, 3) + " m of zero"};
+        "no steady state found: the motion creeps, or its contacts age, so that it approaches a periodic motion only "
+        "slowly: after " +
+            std::to_string(passed_) + " forcing periods it still differs by " +
+            core::format_number(100.0 * recurrence_.closure(1), 2) +
+            " % from one period to the next, and the mass stays within " + core::format_number(size_, 3) + " " +
+            model_.unit("m") + " of zero"};
   }
   if (is_followed_enough()) {
     const std::string vibration = map_.engine().fast_vibration();
     return {core::OutcomeKind::no_steady_state,
-            "no steady state found: the motion has not become periodic within " + std::to_string(passed_) +
-                " forcing periods, and it has so many events or steps in each that it is followed no longer" +
+            "no steady state found: the computation was stopped: the motion has not become periodic within " +
+                std::to_string(passed_) + " forcing periods, and it has too many events or steps in each" +
                 (vibration.empty() ? "" : ": " + vibration)};
   }
   if (motions_ == Motions::meet_sliding) {

@@ -84,7 +84,7 @@ ForcingPeriod PeriodMap::pass(Monodromy monodromy, PeriodObserver* observer) {
     if (engine_->work() > most_work_) {
       exhausted_ = {
           core::OutcomeKind::event_limit,
-          "no steady state found: a forcing period has so many events or steps that it is followed no longer"};
+          "no steady state found: the computation was stopped: a forcing period has too many events or steps"};
       break;
     }
     const Interval* interval = engine_->next_in_period();

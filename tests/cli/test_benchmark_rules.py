@@ -77,6 +77,7 @@ class Rules(unittest.TestCase):
         for settings in (["--set", "system.friction.kinetic=12 N"], setting(rigs=rest)):
             told = self.call("run", self.scenario, *settings, "--out", self.folder / "rest", status=3).stderr
             self.assertIn("the mass sticks at every level of the range 'paper': F0/(kY) is 1.0", told)
+            self.assertRegex(told, r"an amplitude above F0/k = 0\.00\d+ m[,;:) \n]")
         self.call("run", self.scenario, "--set", "system.friction.kinetic=11.7 N", "--dry-run")  # k times 7.5 mm is 11.76 N
 
     def test_equal_severities_are_refused(self):

@@ -121,6 +121,27 @@ TEST_CASE("Each fault of a model is named as in a scenario file, with what is al
   }
 }
 
+TEST_CASE("Faults of a model whose coordinate is an angle have the units of a rotation") {
+  Model model = sound();
+  model.oscillator.coordinate = core::Coordinate::angle;
+  model.oscillator.mass = -1.0;
+  model.excitation.amplitude = -2.0;
+  const std::vector<core::Diagnostic> problems = sim::validate(model);
+  REQUIRE(problems.size() == 2);
+  CHECK(problems[0].allowed == "> 0 kg.m^2");
+  CHECK(problems[0].found == "-1 kg.m^2");
+  CHECK(problems[1].found == "-2 rad");
+  model.excitation.type = sim::ExcitationType::force_harmonic;
+  CHECK(sim::validate(model)[1].found == "-2 N.m");
+  model.oscillator.mass = 1.0;
+  try {
+    static_cast<void>(sim::xy_curve(model, {-3.0}));
+    FAIL("a negative amplitude was accepted");
+  } catch (const core::InputError& error) {
+    CHECK(error.diagnostics()[0].found == "-3 N.m");
+  }
+}
+
 TEST_CASE("All problems of a model come at once") {
   Model model = sound();
   model.oscillator.mass = -1.0;

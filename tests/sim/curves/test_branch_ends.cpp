@@ -85,6 +85,9 @@ TEST_CASE("a branch that runs down to break-away ends there, and says where the 
   force.excitation.type = sim::ExcitationType::force_harmonic;
   force.friction.emplace_back(friction::Coulomb(2.0, 2.0));
   check_break_away(continue_branch(force, BranchParameter::amplitude, 5.0, 0.5), 2.0, "does not move below 2 N");
+  base.oscillator.coordinate = force.oscillator.coordinate = core::Coordinate::angle;
+  check_break_away(continue_branch(base, BranchParameter::amplitude, 0.05, 0.01), 0.020001, "below 0.020001 rad");
+  check_break_away(continue_branch(force, BranchParameter::amplitude, 5.0, 0.5), 2.0, "does not move below 2 N.m");
   // With the damper to the base it pulls with k Y |1 + i c w/k|.
   sim::Model damped = base_driven(100.0, 4.0, 0.019, 12.0);
   damped.oscillator.damper_to = sim::DamperTo::base;

@@ -33,6 +33,9 @@ TEST_CASE("an infinite force names the plugin's law, its place in the list, x an
   sim::Model model = test::standard_system(friction::Law(std::make_shared<const Blocked>()));
   CHECK_THAT(reason(model),
              Catch::Contains("the force of friction (law 'blocked' of a plugin) is not finite at x = 0.05"));
+  CHECK_THAT(reason(model), Catch::Matches(".* m, v = [^ ]* m/s"));
+  model.oscillator.coordinate = core::Coordinate::angle;
+  CHECK_THAT(reason(model), Catch::Matches(".* rad, v = [^ ]* rad/s"));
   model.friction.insert(model.friction.begin(), friction::Law(friction::Coulomb(0.1, 0.1)));
   CHECK_THAT(reason(model), Catch::Contains("item 2 of system.friction (law 'blocked' of a plugin) is not finite"));
 }
