@@ -26,12 +26,12 @@ std::string plot_result(const std::string& directory, const std::string& file, c
   return messages + "wrote " + file + "\n";
 }
 
-void add_plot(Report& report, const std::string& directory, const std::string& file) {
+void add_plot(CommandOutput& output, const std::string& directory, const std::string& file) {
   try {
-    report.messages += plot_result(directory, file);
+    output.messages += plot_result(directory, file);
   } catch (const core::InputError& error) {
-    for (const core::Diagnostic& problem : error.diagnostics()) report.errors += core::format(problem) + "\n";
-    report.status = std::max(report.status, core::ExitStatus::usage);
+    for (const core::Diagnostic& problem : error.diagnostics()) output.errors += core::format(problem) + "\n";
+    output.status = std::max(output.status, core::ExitStatus::usage);
   }
 }
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "cli/reports.hpp"
+#include "cli/command_output.hpp"
 
 namespace dualdamp::cli {
 
@@ -13,8 +13,8 @@ namespace dualdamp::cli {
 [[nodiscard]] std::string plot_result(const std::string& directory, const std::string& file,
                                       const std::string& units = {});
 
-/// The same after a run. If the result has no chart, a message is added to the report.
-void add_plot(Report& report, const std::string& directory, const std::string& file);
+/// The same after a run. If the result has no chart, a message is added to the output.
+void add_plot(CommandOutput& output, const std::string& directory, const std::string& file);
 
 /// Writes a comparison of several result directories to `out`. Returns a message. Errors: as `comparison`, and
 /// `scenarios::OutputError`.

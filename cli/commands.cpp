@@ -17,6 +17,7 @@
 #include "bench/analyses.hpp"
 #include "bench/processes.hpp"
 #include "cli/charts.hpp"
+#include "cli/command_output.hpp"
 #include "cli/completion.hpp"
 #include "cli/conformance.hpp"
 #include "cli/fit_scenario.hpp"
@@ -30,7 +31,6 @@
 #include "cli/print.hpp"
 #include "cli/report/report.hpp"
 #include "cli/report/result_directory.hpp"
-#include "cli/reports.hpp"
 #include "cli/stress.hpp"
 #include "core/cancellation.hpp"
 #include "core/numbers.hpp"
@@ -74,7 +74,7 @@ std::string warning_line(const std::string& file, std::string_view warning) {
   return place + "warning: " + std::string(warning) + "\n";
 }
 
-Report run_and_write(Scenario loaded, scenarios::RunOptions options, bool quiet) {
+CommandOutput run_and_write(Scenario loaded, scenarios::RunOptions options, bool quiet) {
   refuse_unusable(options.directory);
   options.processes = processes();
   if (!quiet && processes()->rank() == 0 && ::isatty(STDERR_FILENO) != 0) options.progress = show;
@@ -84,25 +84,25 @@ Report run_and_write(Scenario loaded, scenarios::RunOptions options, bool quiet)
   if (is_silent()) return {};
   const std::vector<scenarios::OutputFile> files = scenarios::output_files(scenario, result);
 
-  Report report;
-  report.status = result->status;
-  report.json = files.back().write;
-  report.text = readable(*scenario, *result);
-  if (!result->failure.empty()) report.errors = scenario->file + ": error: " + result->failure + "\n";
+  CommandOutput output;
+  output.status = result->status;
+  output.json = files.back().write;
+  output.text = readable(*scenario, *result);
+  if (!result->failure.empty()) output.errors = scenario->file + ": error: " + result->failure + "\n";
   if (result->verification && !result->verification->agrees)
-    report.errors += scenario->file + ": error: verification: " + result->verification->reason + "\n";
-  for (const std::string& warning : result->warnings) report.messages += warning_line(scenario->file, warning);
+    output.errors += scenario->file + ": error: verification: " + result->verification->reason + "\n";
+  for (const std::string& warning : result->warnings) output.messages += warning_line(scenario->file, warning);
   {
     const std::lock_guard lock(output_mutex());
     core::stop_if_cancelled();
     for (const std::string& message :
          write_results(directory, result->provenance.source, result->provenance.data_sha256, files))
-      report.messages += warning_line(scenario->file, message);
+      output.messages += warning_line(scenario->file, message);
   }
   for (const scenarios::OutputFile& file : files)
-    report.messages += "wrote " + (fs::path(directory) / file.name).string() + "\n";
-  report.messages += "wrote " + (fs::path(directory) / "report.html").string() + "\n";
-  return report;
+    output.messages += "wrote " + (fs::path(directory) / file.name).string() + "\n";
+  output.messages += "wrote " + (fs::path(directory) / "report.html").string() + "\n";
+  return output;
 }
 
 /// The units of `--units`, which were checked when the option was read.
@@ -116,16 +116,16 @@ const scenarios::Campaign* campaign_of(const Scenario& scenario) {
 }
 
 /// `directory`: where the results would be written; empty if nothing would be run.
-Report checked(const Scenario& scenario, const std::string& directory) {
-  Report report;
-  report.text = scenario.file + ": valid: " + scenario.analysis_name;
-  if (!directory.empty()) report.text += ", results would go to " + directory;
-  report.text += "\n";
+CommandOutput checked(const Scenario& scenario, const std::string& directory) {
+  CommandOutput output;
+  output.text = scenario.file + ": valid: " + scenario.analysis_name;
+  if (!directory.empty()) output.text += ", results would go to " + directory;
+  output.text += "\n";
   const scenarios::Campaign* campaign = campaign_of(scenario);
   if (campaign != nullptr && !directory.empty())
-    report.text += "  " + campaign->size(scenarios::context_of(scenario, {})) + "\n";
-  report.json = scenarios::json_checked(scenario);
-  return report;
+    output.text += "  " + campaign->size(scenarios::context_of(scenario, {})) + "\n";
+  output.json = scenarios::json_checked(scenario);
+  return output;
 }
 
 /// The name of the results: the file name without extension. Not for `..yaml` and `...yaml`, whose names would be
@@ -147,9 +147,9 @@ scenarios::FoundCases found_cases(const RunCommand& command) {
   return command.overwrite ? scenarios::FoundCases::overwrite : scenarios::FoundCases::refuse;
 }
 
-/// The scenario; or a report in place of a run: a refusal, or the text of a dry run.
-Report load(const RunCommand& command, const std::string& file, std::optional<Scenario>& scenario) {
-  return guarded([&]() -> Report {
+/// The scenario; or the output in place of a run: a refusal, or the text of a dry run.
+CommandOutput load(const RunCommand& command, const std::string& file, std::optional<Scenario>& scenario) {
+  return guarded([&]() -> CommandOutput {
     LoadOptions options{.words = key_or_option_of_setting, .analyses = bench::analyses()};
     for (const std::string& assignment : command.set) options.set.push_back({assignment, "--set"});
     if (command.verify) options.set.push_back({"numerics.verify=true", "--verify"});
@@ -165,22 +165,22 @@ Report load(const RunCommand& command, const std::string& file, std::optional<Sc
 }
 
 /// If any of several processes refuses a file, all do. The first process with a reason reports it.
-Report agreed(Report report) {
-  if (!bench::Processes::several()) return report;
-  const auto failure = processes()->first_failure(static_cast<int>(report.status));
-  if (failure ? failure->rank == processes()->rank() : !is_silent()) return report;
-  Report silent;
+CommandOutput agreed(CommandOutput output) {
+  if (!bench::Processes::several()) return output;
+  const auto failure = processes()->first_failure(static_cast<int>(output.status));
+  if (failure ? failure->rank == processes()->rank() : !is_silent()) return output;
+  CommandOutput silent;
   if (failure) silent.status = static_cast<ExitStatus>(failure->status);
   return silent;
 }
 
-Report run_file(const RunCommand& command, const std::string& file) {
+CommandOutput run_file(const RunCommand& command, const std::string& file) {
   std::optional<Scenario> scenario;
-  Report report = agreed(load(command, file, scenario));
-  if (!scenario || report.status != ExitStatus::done) return report;
+  CommandOutput output = agreed(load(command, file, scenario));
+  if (!scenario || output.status != ExitStatus::done) return output;
   bool is_done = false;
-  report = guarded([&] {
-    Report result = run_and_write(
+  output = guarded([&] {
+    CommandOutput result = run_and_write(
         std::move(*scenario),
         {.directory = output_directory(command, file), .threads = command.jobs, .found = found_cases(command)},
         command.quiet);
@@ -188,12 +188,12 @@ Report run_file(const RunCommand& command, const std::string& file) {
     if (!command.plot.empty() && !is_silent()) add_plot(result, output_directory(command, file), command.plot);
     return result;
   });
-  if (is_done || !bench::Processes::several()) return report;
+  if (is_done || !bench::Processes::several()) return output;
   // All processes must stop, since the others would wait for this one.
-  if (command.json) report.json(std::cout);
-  print(report, {command.json, command.quiet});
+  if (command.json) output.json(std::cout);
+  print(output, {command.json, command.quiet});
   std::cout.flush();
-  processes()->abort(static_cast<int>(report.status));
+  processes()->abort(static_cast<int>(output.status));
 }
 
 /// Fails if stdout is full or closed, since the result did not arrive.
@@ -204,10 +204,10 @@ int finish(ExitStatus status) {
   return static_cast<int>(ExitStatus::usage);
 }
 
-int say(const Report& report, const Style& style) {
-  if (style.json) report.json(std::cout);
-  print(report, style);
-  return finish(report.status);
+int say(const CommandOutput& output, const Style& style) {
+  if (style.json) output.json(std::cout);
+  print(output, style);
+  return finish(output.status);
 }
 
 /// Refuses two files with the same result directory: they would overwrite each other.
@@ -229,17 +229,17 @@ int execute(const RunCommand& command) {
     return say(refused(ExitStatus::usage, "--plot takes the chart of one scenario, not of several"), style);
   if (const std::string problem = clash(command); !problem.empty())
     return say(refused(ExitStatus::usage, problem), style);
-  const Report joined = guarded([] {
+  const CommandOutput joined = guarded([] {
     (void)is_silent();  // joins the other processes of mpirun
-    return Report{};
+    return CommandOutput{};
   });
   if (joined.status != ExitStatus::done) return say(joined, style);
 
-  InOrder reports(command.files.size(), style, is_silent());
+  InOrder outputs(command.files.size(), style, is_silent());
   std::atomic<std::size_t> next{0};
   const auto work = [&] {
     for (std::size_t i = next++; i < command.files.size(); i = next++)
-      reports.put(i, run_file(command, command.files[i]));
+      outputs.put(i, run_file(command, command.files[i]));
   };
   {
     // Processes that share stress tests must take the files in the same order.
@@ -251,19 +251,19 @@ int execute(const RunCommand& command) {
     for (std::size_t i = 1; i < workers; ++i) threads.emplace_back(work);
     work();
   }
-  if (command.json && !is_silent()) reports.write_json(std::cout);
-  return finish(reports.worst());
+  if (command.json && !is_silent()) outputs.write_json(std::cout);
+  return finish(outputs.worst());
 }
 
 int execute(const CheckCommand& command) {
-  InOrder reports(command.files.size(), {});
+  InOrder outputs(command.files.size(), {});
   for (std::size_t i = 0; i < command.files.size(); ++i)
-    reports.put(i, guarded([&] {
+    outputs.put(i, guarded([&] {
                   return checked(scenarios::load_scenario(command.files[i], {.words = key_or_option_of_setting,
                                                                              .analyses = bench::analyses()}),
                                  {});
                 }));
-  return finish(reports.worst());
+  return finish(outputs.worst());
 }
 
 /// Runs a scenario about data files. The results are named after the first data file.
@@ -291,9 +291,9 @@ int execute(const PredictCommand& command) { return execute_on_records(command, 
 
 int execute(const ExportCommand& command) {
   return say(guarded([&] {
-               Report report;
-               report.messages = export_stress_test(command);
-               return report;
+               CommandOutput output;
+               output.messages = export_stress_test(command);
+               return output;
              }),
              {});
 }
@@ -317,22 +317,22 @@ int execute(const ReportCommand& command) {
     return say(refused(ExitStatus::usage, "--plot takes the chart of one directory, not of several"), {});
   ExitStatus worst = ExitStatus::done;
   for (const std::string& directory : command.directories) {
-    const Report report = guarded([&] {
+    const CommandOutput output = guarded([&] {
       // A missing directory has no result; it is not created.
       if (std::error_code error; !fs::is_directory(directory, error)) {
         const bool says_more = error && error != std::errc::no_such_file_or_directory;
         return refused(ExitStatus::invalid_input, directory + ": there is no such directory" +
                                                       (says_more ? " (" + error.message() + ")" : ""));
       }
-      Report done;
+      CommandOutput done;
       for (const std::string& warning : write_keeping(directory, {report_page(directory, command.shown_units)}))
         done.messages += warning + "\n";
       done.messages += "wrote " + (fs::path(directory) / "report.html").string() + "\n";
       if (!command.plot.empty()) done.messages += plot_result(directory, command.plot, command.shown_units);
       return done;
     });
-    print(report, {});
-    worst = std::max(worst, report.status);
+    print(output, {});
+    worst = std::max(worst, output.status);
   }
   return finish(worst);
 }
@@ -340,21 +340,21 @@ int execute(const ReportCommand& command) {
 int execute(const CompareCommand& command) {
   return say(guarded([&] {
                refuse_unusable(command.out);
-               Report report;
-               report.messages = compare_results(command.directories, command.out, command.shown_units);
-               return report;
+               CommandOutput output;
+               output.messages = compare_results(command.directories, command.out, command.shown_units);
+               return output;
              }),
              {});
 }
 
-Report text_report(std::string text) {
-  Report report;
-  report.text = std::move(text);
-  return report;
+CommandOutput text_output(std::string text) {
+  CommandOutput output;
+  output.text = std::move(text);
+  return output;
 }
 
-Report of_list(const Listing& listing) {
-  return listing.found ? text_report(listing.text) : refused(ExitStatus::usage, listing.text);
+CommandOutput of_list(const Listing& listing) {
+  return listing.found ? text_output(listing.text) : refused(ExitStatus::usage, listing.text);
 }
 
 int execute(const LawsCommand& command) {
@@ -362,10 +362,10 @@ int execute(const LawsCommand& command) {
   if (!command.check || !listing.found) return say(of_list(listing), {});
   return say(guarded([&] {
                const Conformance conformance = check_law(command);
-               Report report;
-               report.status = conformance.holds ? ExitStatus::done : ExitStatus::check_failed;
-               report.text = conformance.text;
-               return report;
+               CommandOutput output;
+               output.status = conformance.holds ? ExitStatus::done : ExitStatus::check_failed;
+               output.text = conformance.text;
+               return output;
              }),
              {});
 }
@@ -377,25 +377,25 @@ int execute(const AnalysesCommand& command) { return say(of_list(list_analyses(c
 int execute(const NewCommand& command) { return say(of_list(new_scenario(command.analysis)), {}); }
 
 int execute(const SchemaCommand& command) {
-  return say(text_report(command.markdown ? scenarios::reference_page(bench::analyses())
+  return say(text_output(command.markdown ? scenarios::reference_page(bench::analyses())
                                           : scenarios::json_schema(bench::analyses())),
              {});
 }
 
 int execute(const CompletionCommand& command) {
-  return say(text_report(completion_script(command.shell, command_table())), {});
+  return say(text_output(completion_script(command.shell, command_table())), {});
 }
 
-int execute(const ManualCommand& /*command*/) { return say(text_report(manual_page(command_table())), {}); }
+int execute(const ManualCommand& /*command*/) { return say(text_output(manual_page(command_table())), {}); }
 
 int execute(const Leave& leave) {
   if (leave.status == 0) {
     std::cout << leave.message << (leave.message.ends_with('\n') ? "" : "\n");
     return finish(ExitStatus::done);
   }
-  Report report = refused(ExitStatus::usage, leave.message);
-  report.errors += "see: dualdamp --help\n";
-  return say(report, {leave.json, false});
+  CommandOutput output = refused(ExitStatus::usage, leave.message);
+  output.errors += "see: dualdamp --help\n";
+  return say(output, {leave.json, false});
 }
 
 /// Loads the plugins. If one is refused, prints the reason and returns the exit status.

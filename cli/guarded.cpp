@@ -12,26 +12,26 @@ namespace dualdamp::cli {
 
 using core::ExitStatus;
 
-Report refused(ExitStatus status, const std::vector<core::Diagnostic>& problems) {
-  Report report;
-  report.status = status;
-  report.json = scenarios::json_refusal(status, problems);
-  for (const core::Diagnostic& problem : problems) report.errors += core::format(problem) + "\n";
-  return report;
+CommandOutput refused(ExitStatus status, const std::vector<core::Diagnostic>& problems) {
+  CommandOutput output;
+  output.status = status;
+  output.json = scenarios::json_refusal(status, problems);
+  for (const core::Diagnostic& problem : problems) output.errors += core::format(problem) + "\n";
+  return output;
 }
 
-Report refused(ExitStatus status, const std::string& message) {
+CommandOutput refused(ExitStatus status, const std::string& message) {
   return refused(status, {core::Diagnostic{{}, message, {}, {}, {}}});
 }
 
-Report bug(const std::string& what) {
+CommandOutput bug(const std::string& what) {
   return refused(ExitStatus::internal_bug, "this is a bug of dualdamp " + std::string(core::build_info().version) +
                                                ": " + what +
                                                "; please report it with the scenario and the commit " +
                                                std::string(core::build_info().commit));
 }
 
-Report guarded(const std::function<Report()>& work) {
+CommandOutput guarded(const std::function<CommandOutput()>& work) {
   try {
     return work();
   } catch (const core::InputError& error) {

@@ -5,18 +5,18 @@
 #include <string>
 #include <vector>
 
-#include "cli/reports.hpp"
+#include "cli/command_output.hpp"
 #include "core/diagnostics.hpp"
 
 namespace dualdamp::cli {
 
-[[nodiscard]] Report refused(core::ExitStatus status, const std::vector<core::Diagnostic>& problems);
-[[nodiscard]] Report refused(core::ExitStatus status, const std::string& message);
+[[nodiscard]] CommandOutput refused(core::ExitStatus status, const std::vector<core::Diagnostic>& problems);
+[[nodiscard]] CommandOutput refused(core::ExitStatus status, const std::string& message);
 
-/// The report of a bug of the program, with the commit of the program.
-[[nodiscard]] Report bug(const std::string& what);
+/// The output about a bug of the program, with the commit of the program.
+[[nodiscard]] CommandOutput bug(const std::string& what);
 
-/// Calls `work` and returns its report, or the report of the exception that it throws.
-[[nodiscard]] Report guarded(const std::function<Report()>& work);
+/// Calls `work` and returns its output, or that about the exception that it throws.
+[[nodiscard]] CommandOutput guarded(const std::function<CommandOutput()>& work);
 
 }  // namespace dualdamp::cli

@@ -29,11 +29,11 @@ using core::ExitStatus;
 using Clock = std::chrono::steady_clock;
 
 int say(ExitStatus status, const std::string& message, const Call& call) {
-  const Report report = refused(status, message);
-  if (call.json) report.json(std::cout);
-  print(report, {.json = call.json});
+  const CommandOutput output = refused(status, message);
+  if (call.json) output.json(std::cout);
+  print(output, {.json = call.json});
   std::cout.flush();
-  return static_cast<int>(report.status);
+  return static_cast<int>(output.status);
 }
 
 std::string names(const std::vector<std::string>& plugins) {

@@ -1,4 +1,4 @@
-#include "cli/reports.hpp"
+#include "cli/command_output.hpp"
 
 #include <algorithm>
 #include <iostream>
@@ -31,35 +31,37 @@ std::string for_terminal(const std::string& text) {
 
 }  // namespace
 
-void print(const Report& report, const Style& style) {
-  if (!style.json && !report.text.empty()) std::cout << for_terminal(report.text) << std::flush;
-  std::cerr << for_terminal(report.errors);
-  if (!style.quiet) std::cerr << for_terminal(report.messages);
+void print(const CommandOutput& output, const Style& style) {
+  if (!style.json && !output.text.empty()) std::cout << for_terminal(output.text) << std::flush;
+  std::cerr << for_terminal(output.errors);
+  if (!style.quiet) std::cerr << for_terminal(output.messages);
 }
 
 InOrder::InOrder(std::size_t count, Style style, bool silent)
-    : reports_(count), ready_(count, false), style_(style), silent_(silent) {}
+    : outputs_(count), ready_(count, false), style_(style), silent_(silent) {}
 
-void InOrder::put(std::size_t index, Report report) {
+void InOrder::put(std::size_t index, CommandOutput output) {
   const std::lock_guard lock(mutex_);
-  reports_[index] = std::move(report);
+  outputs_[index] = std::move(output);
   ready_[index] = true;
-  for (; next_ < reports_.size() && ready_[next_]; ++next_) {
+  for (; next_ < outputs_.size() && ready_[next_]; ++next_) {
     if (next_ > 0 && !style_.json && !silent_) std::cout << "\n";
-    print(reports_[next_], style_);
+    print(outputs_[next_], style_);
   }
 }
 
 void InOrder::write_json(std::ostream& out) const {
-  if (reports_.size() == 1) return reports_.front().json(out);
+  if (outputs_.size() == 1) return outputs_.front().json(out);
   out << "[\n";
-  for (std::size_t i = 0; i < reports_.size(); ++i) {
+  for (std::size_t i = 0; i < outputs_.size(); ++i) {
     out << (i == 0 ? "" : ",\n");
-    reports_[i].json(out);
+    outputs_[i].json(out);
   }
   out << "]\n";
 }
 
-core::ExitStatus InOrder::worst() const { return std::ranges::max_element(reports_, {}, &Report::status)->status; }
+core::ExitStatus InOrder::worst() const {
+  return std::ranges::max_element(outputs_, {}, &CommandOutput::status)->status;
+}
 
 }  // namespace dualdamp::cli

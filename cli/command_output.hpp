@@ -13,7 +13,7 @@
 namespace dualdamp::cli {
 
 /// The output about one scenario, kept until those of earlier files are printed.
-struct Report {
+struct CommandOutput {
   core::ExitStatus status = core::ExitStatus::done;
   std::string text;        ///< for stdout
   scenarios::Writer json;  ///< for stdout in place of `text`, if JSON is asked for
@@ -26,22 +26,22 @@ struct Style {
   bool quiet = false;
 };
 
-void print(const Report& report, const Style& style);
+void print(const CommandOutput& output, const Style& style);
 
-/// Prints reports in the order of the files, each one as soon as those before it are printed.
+/// Prints outputs in the order of the files, each one as soon as those before it are printed.
 class InOrder {
  public:
   /// `silent`: prints nothing. Of several processes that share the work, only the first one prints.
   InOrder(std::size_t count, Style style, bool silent = false);
 
-  void put(std::size_t index, Report report);
+  void put(std::size_t index, CommandOutput output);
   /// Writes one JSON document, or a list of documents for several files.
   void write_json(std::ostream& out) const;
   [[nodiscard]] core::ExitStatus worst() const;
 
  private:
   std::mutex mutex_;
-  std::vector<Report> reports_;
+  std::vector<CommandOutput> outputs_;
   std::vector<bool> ready_;
   std::size_t next_ = 0;
   Style style_;
