@@ -126,7 +126,7 @@ class Parser {
     run_command_->add_flag("--verify", run_.verify,
                            "Compute each result again in another way and compare; the same as numerics.verify");
     add_plot(*run_command_, run_.plot);
-    add_units(*run_command_, run_);
+    add_shown_units(*run_command_, run_);
     add_plugins(*run_command_);
   }
 
@@ -206,7 +206,7 @@ class Parser {
     add_gains(command, identify_.gain_uncertainties);
     command.add_flag("--robust", identify_.robust, "Bounds the influence of outliers (Huber), and replaces spikes");
     add_file_options(command, identify_);
-    add_units(command, identify_);
+    add_shown_units(command, identify_);
     add_output_options(command, identify_);
   }
 
@@ -227,7 +227,7 @@ class Parser {
     add("--sigma-Y", next_.sigma_Y, "Known standard deviation of a measured input amplitude");
     add_gains(command, next_.gain_uncertainties);
     add_file_options(command, next_);
-    add_units(command, next_);
+    add_shown_units(command, next_);
     add_output_options(command, next_);
   }
 
@@ -248,7 +248,7 @@ class Parser {
         ->allow_extra_args(false)
         ->type_name("PATH=VALUE");
     add_file_options(command, options);
-    add_units(command, options);
+    add_shown_units(command, options);
     add_output_options(command, options);
     add_plugins(command);
   }
@@ -300,7 +300,7 @@ class Parser {
         ->required()
         ->type_name("");
     add_plot(*report_command_, report_.plot);
-    add_units(*report_command_, report_);
+    add_shown_units(*report_command_, report_);
     new_command_ = app_.add_subcommand("new", "Print a commented scenario as a first file");
     new_command_->add_option("ANALYSIS", new_.analysis, "Its analysis, such as xy_curve; see dualdamp analyses")
         ->required()
@@ -310,7 +310,7 @@ class Parser {
         ->required()
         ->expected(2, most_compared)
         ->type_name("");
-    add_units(*compare_command_, compare_);
+    add_shown_units(*compare_command_, compare_);
     compare_command_->add_option("--out", compare_.out, "Directory for compare.html, compare.csv and compare.svg")
         ->type_name("DIR")
         ->capture_default_str()

@@ -17,11 +17,11 @@ struct OutputOptions {
   bool quiet = false;
 };
 
-struct UnitOptions {
+struct ShownUnitOptions {
   std::string shown_units;  ///< of charts, pages and printed tables, separated by commas
 };
 
-struct RunCommand : OutputOptions, UnitOptions {
+struct RunCommand : OutputOptions, ShownUnitOptions {
   std::vector<std::string> files;
   std::vector<std::string> set;
   int jobs = 0;  ///< number of threads; with several files, how many run at the same time; 0: one file, all cores
@@ -84,15 +84,15 @@ struct ManualCommand {};
 
 /// Statements about a data file that the file does not make itself.
 struct FileOptions {
-  std::vector<std::string> units;    ///< x=mm
-  std::vector<std::string> columns;  ///< x=LVDT 2
-  std::vector<std::string> scales;   ///< x=2.5 mm/V
+  std::vector<std::string> column_units;  ///< x=mm
+  std::vector<std::string> columns;       ///< x=LVDT 2
+  std::vector<std::string> scales;        ///< x=2.5 mm/V
   std::string decimal;
   bool no_header = false;
 };
 
 /// What `identify` and `next` take of a data file and its rig.
-struct MeasuredOptions : FileOptions, OutputOptions, UnitOptions {
+struct MeasuredOptions : FileOptions, OutputOptions, ShownUnitOptions {
   std::string data;
   std::string mass, stiffness, frequency;
   std::vector<std::string> gain_uncertainties;  ///< x=1 %
@@ -109,7 +109,7 @@ struct IdentifyCommand : MeasuredOptions {
 struct NextCommand : MeasuredOptions {};
 
 /// What `fit` and `predict` take of their records.
-struct RecordOptions : FileOptions, OutputOptions, UnitOptions {
+struct RecordOptions : FileOptions, OutputOptions, ShownUnitOptions {
   std::vector<std::string> data;
   std::string frequency, amplitude;
   std::vector<std::string> sigmas;  ///< x=0.02 mm
@@ -132,7 +132,7 @@ struct PredictCommand : RecordOptions {
   std::string result;  ///< of a fit: result.json, or its directory
 };
 
-struct ReportCommand : UnitOptions {
+struct ReportCommand : ShownUnitOptions {
   std::vector<std::string> directories;
   std::string plot;  ///< SVG file for the main chart; empty: none
 };
@@ -141,7 +141,7 @@ struct NewCommand {
   std::string analysis;
 };
 
-struct CompareCommand : UnitOptions {
+struct CompareCommand : ShownUnitOptions {
   std::vector<std::string> directories;  ///< two or more
   std::string out = "compare";
 };

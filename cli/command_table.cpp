@@ -30,7 +30,10 @@ void add(CommandTable& table, const CLI::App& app, const std::string& name) {
   CommandEntry entry{.name = name, .text = app.get_description()};
   // A command without its own footer inherits that of the program.
   if (table.empty() || app.get_footer() != table.front().footer) entry.footer = app.get_footer();
-  for (const CLI::Option* option : app.get_options()) entry.options.push_back(entry_of(*option));
+  const auto is_shown = [](const CLI::Option* option) {
+    return option->get_positional() || !option->get_group().empty();
+  };
+  for (const CLI::Option* option : app.get_options(is_shown)) entry.options.push_back(entry_of(*option));
   const std::vector<const CLI::App*> commands = app.get_subcommands([](const CLI::App*) { return true; });
   for (const CLI::App* command : commands) entry.commands.push_back(command->get_name());
   table.push_back(std::move(entry));

@@ -105,7 +105,7 @@ CommandOutput run_and_write(Scenario loaded, scenarios::RunOptions options, bool
   return output;
 }
 
-/// The units of `--units`, which were checked when the option was read.
+/// The units of `--show-in`, which were checked when the option was read.
 void show_in(const std::string& units, Scenario& scenario) {
   if (!units.empty()) static_cast<void>(scenarios::ask_for_units(units, scenario.written_units));
 }

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
-#include <tuple>
 #include <utility>
 
 #include "cli/option_text.hpp"
@@ -35,9 +34,8 @@ std::string data_of(const std::vector<std::string>& files, const RecordOptions& 
   std::string list;
   for (const std::string& file : files) {
     std::string item = "file: " + in_quotes(file);
-    for (const auto& [key, values] :
-         {std::pair{"units", &command.units}, {"columns", &command.columns}, {"scale", &command.scales}})
-      if (!values->empty()) item += std::string(", ") + key + ": " + map_of(*values);
+    for (const MapOption& map : map_options(command))
+      if (!map.entries.empty()) item += std::string(", ") + map.key + ": " + map_of(map.entries);
     if (!command.decimal.empty()) item += ", decimal: " + in_quotes(command.decimal);
     if (command.no_header) item += ", no_header: true";
     if (command.loop) item += ", loop: true";
@@ -115,10 +113,10 @@ scenarios::Scenario scenario_of(const FitCommand& command) {
     options.set.push_back({"system.friction.law=" + command.law, "LAW"});
   else
     options.set.push_back({"analysis.laws=[" + command.law + "]", "LAW"});
-  for (const auto& [path, value, option] : {std::tuple{"system.mass", &command.mass, "--mass"},
-                                            {"system.stiffness", &command.stiffness, "--stiffness"},
-                                            {"system.damping", &command.damping, "--damping"}})
-    if (!value->empty()) options.set.push_back({std::string(path) + "=" + *value, option});
+  set_keys({{"system.mass", command.mass, "--mass"},
+            {"system.stiffness", command.stiffness, "--stiffness"},
+            {"system.damping", command.damping, "--damping"}},
+           options);
   if (!command.free.empty()) options.set.push_back({"analysis.free=" + in_quotes(command.free), "--free"});
   if (!command.validate.empty())
     options.set.push_back({"analysis.validate=" + data_of(command.validate, command), "--validate"});

@@ -61,4 +61,15 @@ std::pair<std::string, std::string> split_at_equals(const std::string& text) {
   return {text.substr(0, sign), sign < text.size() ? text.substr(sign + 1) : std::string()};
 }
 
+void set_keys(std::initializer_list<KeyOption> options, scenarios::LoadOptions& load) {
+  for (const KeyOption& one : options)
+    if (!one.text.empty()) load.set.push_back({std::string(one.key) + "=" + one.text, one.option});
+}
+
+std::array<MapOption, 3> map_options(const FileOptions& file) {
+  return {{{"units", file.column_units, "--unit"},
+           {"columns", file.columns, "--column"},
+           {"scale", file.scales, "--scale"}}};
+}
+
 }  // namespace dualdamp::cli

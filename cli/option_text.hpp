@@ -1,11 +1,16 @@
 #pragma once
-/// Texts of options: NAME=VALUE, and texts that become values of a scenario.
+/// Texts of options: NAME=VALUE, and texts that become keys and values of a scenario.
 
+#include <array>
+#include <initializer_list>
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
+#include "cli/arguments.hpp"
 #include "core/setting.hpp"
+#include "scenarios/scenario.hpp"
 
 namespace dualdamp::cli {
 
@@ -24,5 +29,25 @@ namespace dualdamp::cli {
 
 /// Name and value of NAME=VALUE; the value is empty where there is no sign.
 [[nodiscard]] std::pair<std::string, std::string> split_at_equals(const std::string& text);
+
+/// An option that states one key. An empty text: the option is not given.
+struct KeyOption {
+  const char* key;
+  const std::string& text;
+  const char* option;
+};
+
+/// Sets the keys of those options that are given.
+void set_keys(std::initializer_list<KeyOption> options, scenarios::LoadOptions& load);
+
+/// An option such as `--unit x=mm`, which states one entry of a map each time that it is given.
+struct MapOption {
+  const char* key;
+  const std::vector<std::string>& entries;
+  const char* option;
+};
+
+/// Those of a data file.
+[[nodiscard]] std::array<MapOption, 3> map_options(const FileOptions& file);
 
 }  // namespace dualdamp::cli

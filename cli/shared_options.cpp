@@ -16,15 +16,20 @@ void add_output_options(CLI::App& command, OutputOptions& options) {
   command.add_flag("--quiet", options.quiet, "Print only errors on stderr");
 }
 
-void add_units(CLI::App& command, UnitOptions& options) {
-  command
-      .add_option("--units", options.shown_units,
-                  "Units of charts, pages and printed tables, separated by commas: --units mm,Hz; files stay in SI")
-      ->type_name("UNITS")
-      ->check([](const std::string& text) {
-        std::map<std::string, std::string> written;
-        return scenarios::ask_for_units(text, written);
-      });
+void add_shown_units(CLI::App& command, ShownUnitOptions& options) {
+  const auto add = [&](const char* name, const char* text) {
+    return command.add_option(name, options.shown_units, text)
+        ->type_name("UNITS")
+        ->check([](const std::string& list) {
+          std::map<std::string, std::string> written;
+          return scenarios::ask_for_units(list, written);
+        });
+  };
+  CLI::Option* const show_in =
+      add("--show-in",
+          "Units of charts, pages and printed tables, separated by commas: --show-in mm,Hz; files stay in SI");
+  // The name up to 0.1, one letter from --unit, the unit of a column: still read, but named nowhere.
+  add("--units", "The same as --show-in")->group("")->excludes(show_in);
 }
 
 void add_gains(CLI::App& command, std::vector<std::string>& gains) {
@@ -48,7 +53,8 @@ void add_file_options(CLI::App& command, FileOptions& options) {
                               const char* type) {
     command.add_option(name, list, text)->allow_extra_args(false)->type_name(type);
   };
-  add("--unit", options.units, "Unit of a column, if the file does not state it: --unit x=mm", "COLUMN=UNIT");
+  add("--unit", options.column_units, "Unit of a column, if the file does not state it: --unit x=mm",
+      "COLUMN=UNIT");
   add("--column", options.columns,
       "Name or number of a column in the file: --column x='LVDT 2'; in a .mat file also a field (run.x) or a part "
       "of a matrix ('data(:,2)')",

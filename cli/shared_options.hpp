@@ -14,8 +14,8 @@ namespace dualdamp::cli {
 
 /// Adds `--out`, `--json` and `--quiet`.
 void add_output_options(CLI::App& command, OutputOptions& options);
-/// Adds `--units`: units of charts, pages and printed tables.
-void add_units(CLI::App& command, UnitOptions& options);
+/// Adds `--show-in`: units of charts, pages and printed tables. `--unit` is that of a column of a data file.
+void add_shown_units(CLI::App& command, ShownUnitOptions& options);
 void add_plot(CLI::App& command, std::string& plot);
 /// Adds `--gain-uncertainty`.
 void add_gains(CLI::App& command, std::vector<std::string>& gains);

@@ -15,7 +15,7 @@ struct ChartAxis {
   bool is_whole = false;  ///< integers
   /// SI unit, and the factor from SI to `unit`, if `unit` is one that the user wrote.
   std::optional<std::pair<std::string, double>> written_for = {};
-  bool is_asked = false;  ///< the unit is used for numbers of any size (`--units`)
+  bool is_asked = false;  ///< the unit is used for numbers of any size (`--show-in`)
 };
 
 enum class SeriesKind {

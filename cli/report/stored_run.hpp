@@ -39,7 +39,7 @@ class StoredRun {
   using Json = nlohmann::ordered_json;
 
   /// Lists of the document are cut after 5000 items; the tables have all rows. `units`: units of the numbers that
-  /// are shown (`--units`); they precede those that the user wrote. Errors: `core::InputError` if there is no
+  /// are shown (`--show-in`); they precede those that the user wrote. Errors: `core::InputError` if there is no
   /// result.json of this program.
   explicit StoredRun(const std::string& directory, const std::string& units = {});
 

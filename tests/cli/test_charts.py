@@ -105,7 +105,7 @@ class Charts(Case):
 
     def test_units_that_are_asked_for(self):
         # Before those of the file, in the terminal, the chart, the page, and of a stored result.
-        result = self.run_program("run", "curve.yaml", "--out", "out", "--plot", "curve.svg", "--units", "um, Hz")
+        result = self.run_program("run", "curve.yaml", "--out", "out", "--plot", "curve.svg", "--show-in", "um, Hz")
         self.assertIn("Y [um]", result.stdout)
         self.assertIn("no quantity of the result is in a unit that was asked for: Hz", result.stderr)
         texts, _ = self.drawing("curve.svg")
@@ -113,16 +113,16 @@ class Charts(Case):
         self.assertIn('"asked":true', (self.folder / "out/report.html").read_text().replace(" ", ""))
         with open(self.folder / "out/curve.csv") as lines:
             self.assertIn("Y [m]", next(line for line in lines if not line.startswith("#")))
-        self.run_program("report", "out", "--plot", "again.svg", "--units", "mm")
+        self.run_program("report", "out", "--plot", "again.svg", "--show-in", "mm")
         self.assertIn("input amplitude Y [mm]", self.drawing("again.svg")[0])
         self.run_program("run", "curve.yaml", "--out", "other", "--set", "system.friction.kinetic=1 N")
-        self.run_program("compare", "out", "other", "--out", "both", "--units", "km")
+        self.run_program("compare", "out", "other", "--out", "both", "--show-in", "km")
         self.assertIn("input amplitude Y [km]", self.drawing("both/compare.svg")[0])
         for wrong in ("foo", "mm,,Hz", "%"):
-            self.assertIn("is no unit of a result", self.run_program("run", "curve.yaml", "--units", wrong, status=2).stderr)
+            self.assertIn("is no unit of a result", self.run_program("run", "curve.yaml", "--show-in", wrong, status=2).stderr)
 
         for two in ("mm,um", "Hz,rad/s", "deg, N, mrad"):
-            self.assertIn("are two units of one quantity", self.run_program("run", "curve.yaml", "--units", two, status=2).stderr)
+            self.assertIn("are two units of one quantity", self.run_program("run", "curve.yaml", "--show-in", two, status=2).stderr)
 
     def test_compare_names_units_of_bare_numbers(self):
         self.compare("system.friction.kinetic=1", "system.friction.kinetic=3")

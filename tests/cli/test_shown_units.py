@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Numbers whose unit stands beside them, in a cell or a text and not over a column, are shown in the units that the data
-state or `--units` chooses: in the terminal and on the page. Files stay in SI.
+state or `--show-in` chooses: in the terminal and on the page. Files stay in SI.
 
 The first argument is the program, the second the root of the sources."""
 
@@ -19,14 +19,28 @@ FIT = ("fit", "coulomb", EXAMPLES / "free_run.csv", "--mass", "1 kg", "--stiffne
 
 class Terminal(Case):
     def test_numbers_of_a_fit(self):
-        said = self.run_program(*FIT, "--units", "mm,kN")
+        said = self.run_program(*FIT, "--show-in", "mm,kN")
         self.assertRegex(said.stdout, r"residual\.rms +0\.0099\d+ +mm\n")
         self.assertRegex(said.stdout, r"position +mm +29\.99\d+ +0\.0017\d+ +29\.99\d+ +30\.00\d+")
         self.assertRegex(said.stdout, r"kinetic +kN +0\.000999\d+ ")
         self.assertIn("rms [mm]", said.stdout)
         self.assertNotRegex(said.stdout, r"residual\.unit| N | m ")
         self.assertNotIn("asked for", said.stderr)
-        self.assertIn("asked for: GW", self.run_program(*FIT, "--units", "GW").stderr)
+        self.assertIn("asked for: GW", self.run_program(*FIT, "--show-in", "GW").stderr)
+
+    def test_the_earlier_name_of_the_option_is_read_and_named_nowhere(self):
+        """One letter from --unit, which states the unit of a column."""
+        self.assertEqual(self.run_program(*FIT, "--units", "mm,kN").stdout, self.run_program(*FIT, "--show-in", "mm,kN").stdout)
+        self.assertIn("--show-in", self.run_program(*FIT, "--units", "mm", "--show-in", "um", status=2).stderr)
+        self.assertIn("is no unit of a result", self.run_program(*FIT, "--units", "mmm", status=2).stderr)
+        for command in ("run", "identify", "next", "fit", "predict", "report", "compare"):
+            text = self.run_program(command, "--help").stdout
+            self.assertIn("--show-in UNITS", text)
+            self.assertNotIn("--units", text)
+        for pages in (("completion", "bash"), ("completion", "zsh"), ("completion", "fish"), ("manual",)):
+            text = self.run_program(*pages).stdout.replace("\\", "")
+            self.assertIn("show-in", text)
+            self.assertNotRegex(text, "--units|-l units")
 
     def test_numbers_of_a_fit_are_in_the_units_of_the_data(self):
         self.assertRegex(self.run_program(*FIT).stdout, r"position +mm +29\.99")
@@ -40,11 +54,11 @@ analysis: {type: design, data: pairs.csv, without: [bouc_wen, contact_compliance
 """)
         asked = "no quantity of the result is in a unit that was asked for: "
         repeats = "; what the data or the scenario states in such units is not repeated in the result"
-        self.assertIn(f"{asked}mm, rpm{repeats}; its quantities are in N\n", self.run_program("run", "next.yaml", "--out", "next", "--units", "mm,rpm").stderr)
-        self.assertIn(f"{asked}kg/s; its quantities are in N\n", self.run_program("run", "next.yaml", "--out", "again", "--units", "kg/s").stderr)
+        self.assertIn(f"{asked}mm, rpm{repeats}; its quantities are in N\n", self.run_program("run", "next.yaml", "--out", "next", "--show-in", "mm,rpm").stderr)
+        self.assertIn(f"{asked}kg/s; its quantities are in N\n", self.run_program("run", "next.yaml", "--out", "again", "--show-in", "kg/s").stderr)
 
     def test_files_of_a_fit_stay_in_si(self):
-        self.run_program(*FIT, "--units", "mm,kN")
+        self.run_program(*FIT, "--show-in", "mm,kN")
         self.assertEqual(json.loads((self.folder / "fit/result.json").read_text())["result"]["residual"]["unit"], "m")
         self.assertIn("position,m,0.0299", (self.folder / "fit/parameters.csv").read_text())
         self.assertIn("law,parameters,AICc,weight,rms,noise_units", (self.folder / "fit/laws.csv").read_text())
@@ -57,17 +71,17 @@ excitation: {type: none}
 analysis: {type: fit, data: [{file: free_run.csv}]}
 sweep: {system.mass: [1 kg, 1.01 kg]}
 """)
-        said = self.run_program("run", "fit.yaml", "--out", "sweep", "--units", "um,kN")
+        said = self.run_program("run", "fit.yaml", "--out", "sweep", "--show-in", "um,kN")
         self.assertRegex(said.stdout, r"residual\.rms \[um\][^\n]*\n +1 +0 +9\.99")
         self.assertNotIn("asked for", said.stderr)
 
     def test_estimates_with_their_intervals(self):
-        said = self.run_program("run", EXAMPLES / "identify_free_decay.yaml", "--out", "decay", "--units", "kN,N.s/mm")
+        said = self.run_program("run", EXAMPLES / "identify_free_decay.yaml", "--out", "decay", "--show-in", "kN,N.s/mm")
         self.assertIn("c (95 %) [N.s/mm]", said.stdout)
         self.assertIn("0.011047 (0.011047 to 0.011047)  0.00352 (0.00352 to 0.00352)", said.stdout)
 
     def test_parameters_of_mechanisms_within_a_text(self):
-        said = self.run_program("run", EXAMPLES / "mechanisms.yaml", "--out", "study", "--units", "mm/s")
+        said = self.run_program("run", EXAMPLES / "mechanisms.yaml", "--out", "study", "--show-in", "mm/s")
         self.assertRegex(said.stdout, r"saturation_velocity 80\d(\.\d)? mm/s")
         self.assertNotIn("asked for", said.stderr)
         self.assertRegex((self.folder / "study/mechanisms.csv").read_text(), r"saturation_velocity 0\.80\d+ m/s")
@@ -85,7 +99,7 @@ class Page(Case):
         return values
 
     def test_numbers_of_a_fit(self):
-        self.run_program(*FIT, "--units", "mm,kN")
+        self.run_program(*FIT, "--show-in", "mm,kN")
         rows, notes, files, exact = self.values(
             "fit", "[...document.querySelectorAll('[aria-label=\"Fitted numbers\"] tbody tr')].map((row) => [...row.children].map((cell) => cell.textContent))",
             "[...document.querySelectorAll('p.soft, p.note')].map((p) => p.textContent)",
@@ -102,13 +116,13 @@ class Page(Case):
         self.assertRegex(files[1], r"rms \[mm\].*0\.009998")
 
     def test_estimates(self):
-        self.run_program("run", EXAMPLES / "identify_free_decay.yaml", "--units", "kN", "--out", "decay")
+        self.run_program("run", EXAMPLES / "identify_free_decay.yaml", "--show-in", "kN", "--out", "decay")
         page, = self.values("decay", "document.body.textContent")
         self.assertIn("F0 [kN] (95 %)", page)
         self.assertIn("0.00352 kN", page)
 
     def test_parameters_of_mechanisms(self):
-        self.run_program("run", EXAMPLES / "mechanisms.yaml", "--units", "kN,mm/s", "--out", "study")
+        self.run_program("run", EXAMPLES / "mechanisms.yaml", "--show-in", "kN,mm/s", "--out", "study")
         table, = self.values("study", "fitTable(run.result)[2].textContent")
         self.assertRegex(table, r"F0 \[kN\].*saturation_velocity 80\d mm/s.*0\.006")
 
