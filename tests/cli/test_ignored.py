@@ -82,11 +82,20 @@ class Ignored(case.Case):
 
     def test_numbers_that_a_fit_would_ignore(self):
         fit = ["fit", "coulomb", ROOT / "scenarios/examples/steady_states.csv", "--mass", "1.042 kg", "--stiffness", "1568 N/m"]
-        for arguments, message in ((["--sigma", "v=1 m/s"], "the noise of v is stated, and the file has no v"),
+        for arguments, message in ((["--sigma", "v=1 m/s"], "steady_states.csv: 'sigma_v' states the noise of v, and the file has no v"),
                                    (["--frequency", "6.17 Hz"], "every reading has its own"),
                                    (["--frequency", "6.17 Hz", "--amplitude", "5 mm"], "'excitation.amplitude' is the drive of histories")):
             with self.subTest(arguments):
-                self.assertIn(message, self.run_program(*fit, *arguments, status=3).stderr)
+                told = self.run_program(*fit, *arguments, status=3).stderr
+                self.assertIn(message, told)
+                self.assertEqual(told.count("error:"), len(arguments) // 2, told)  # one for each option
+
+    def test_the_noise_of_a_column_that_the_fit_does_not_compare(self):
+        rows = "".join(f"{i / 200},{math.sin(0.1 * i)},{20 * math.cos(0.1 * i)},{math.copysign(2, math.cos(0.1 * i))}\n" for i in range(300))
+        loop = self.write("loop.csv", "t [s],x [mm],v [mm/s],force [N]\n" + rows)
+        told = self.run_program("fit", "coulomb", loop, "--loop", "--no-profile", "--sigma", "a=1 m/s^2", "--sigma", "phase=1 deg", status=3).stderr
+        self.assertEqual(told.count("and the file has no"), 2, told)
+        self.assertEqual(told.count("error:"), 2, told)
 
     def test_a_drive_and_a_first_state_that_a_loop_ignores(self):
         """Another record of the fit may need them."""

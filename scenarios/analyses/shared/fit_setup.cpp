@@ -164,39 +164,6 @@ std::string laws_text(const identify::Rig& rig) {
   return text.empty() ? "no friction" : text;
 }
 
-namespace {
-
-/// Whether some item holds the signal whose noise is stated.
-bool holds(const std::vector<DataItem>& items, std::string_view signal) {
-  return std::ranges::any_of(items, [signal](const DataItem& item) {
-    const identify::Record& record = item.data.record;
-    const auto in_histories = [&](auto values) {
-      return std::ranges::any_of(record.histories,
-                                 [&](const identify::History& h) { return !(h.*values).empty(); });
-    };
-    if (signal == "v") return in_histories(&identify::History::v);
-    if (signal == "a") return in_histories(&identify::History::a);
-    if (signal == "force") return in_histories(&identify::History::force);
-    if (signal != "phase") return record.pairs || record.decay || in_histories(&identify::History::x);
-    return record.pairs && std::ranges::any_of(record.pairs->pairs,
-                                               [](const identify::Pair& pair) { return !std::isnan(pair.phase); });
-  });
-}
-
-/// A noise of a signal that no file holds would be ignored. One option states the noise for all files.
-void refuse_idle_noise(const std::vector<DataItem>& items, const std::string& key,
-                       std::vector<SetupFault>& faults) {
-  for (const std::string signal : {"x", "v", "a", "force", "phase"}) {
-    const auto stated =
-        std::ranges::find_if(items, [&](const DataItem& item) { return item.keys.contains("sigma_" + signal); });
-    if (stated == items.end() || holds(items, signal)) continue;
-    faults.push_back(
-        {key, stated->file + ": the noise of " + signal + " is stated, and the file has no " + signal});
-  }
-}
-
-}  // namespace
-
 void refuse_idle_initial(const std::vector<DataItem>& items, std::vector<SetupFault>& faults) {
   if (std::ranges::none_of(items, &DataItem::is_motion))
     faults.push_back({"data", "'initial' is the state at the first sample of a history: the data hold none"});
@@ -257,18 +224,40 @@ std::vector<std::string> drive_warnings(const sim::Model& model) {
 
 namespace {
 
+/// Whether some item holds the signal whose noise is stated.
+bool holds(const std::vector<DataItem>& items, std::string_view signal) {
+  return std::ranges::any_of(items, [signal](const DataItem& item) {
+    const identify::Record& record = item.data.record;
+    const auto in_histories = [&](auto values) {
+      return std::ranges::any_of(record.histories,
+                                 [&](const identify::History& h) { return !(h.*values).empty(); });
+    };
+    if (signal == "v") return in_histories(&identify::History::v);
+    if (signal == "a") return in_histories(&identify::History::a);
+    if (signal == "force") return in_histories(&identify::History::force);
+    if (signal != "phase") return record.pairs || record.decay || in_histories(&identify::History::x);
+    return record.pairs && std::ranges::any_of(record.pairs->pairs,
+                                               [](const identify::Pair& pair) { return !std::isnan(pair.phase); });
+  });
+}
+
 constexpr std::array<std::string_view, 5> signals_with_noise = {"x", "v", "a", "force", "phase"};
 
-/// A stated noise of a signal that no record holds would be ignored.
+/// A stated noise of a signal that no record compares would be ignored. One option states the noise for all files.
 void refuse_idle_noise(const std::vector<DataItem>& items, const std::string& key,
                        const identify::Experiments& experiments, std::vector<SetupFault>& faults) {
   for (const std::string_view name : signals_with_noise) {
-    const auto holds = [name](const auto& experiment) {
+    const std::string sigma = "sigma_" + std::string(name);
+    const auto compares = [name](const auto& experiment) {
       return std::ranges::find(experiment->signals, name, &identify::Signal::name) != experiment->signals.end();
     };
-    const std::string sigma = "sigma_" + std::string(name);
     const auto states = [&](const DataItem& item) { return item.keys.is_object() && item.keys.contains(sigma); };
-    if (std::ranges::any_of(items, states) && std::ranges::none_of(experiments, holds))
+    const auto stated = std::ranges::find_if(items, states);
+    if (stated == items.end() || std::ranges::any_of(experiments, compares)) continue;
+    if (!holds(items, name))
+      faults.push_back({key, stated->file + ": '" + sigma + "' states the noise of " + std::string(name) +
+                                 ", and the file has no " + std::string(name)});
+    else if (!experiments.empty())  // else the records have faults of their own
       faults.push_back({key, "'" + sigma + "' states the noise of " + std::string(name) +
                                  ", which no record of the fit compares"});
   }
@@ -301,7 +290,6 @@ identify::Experiments experiments_from(const std::vector<DataItem>& items, const
                                        std::vector<SetupFault>& faults) {
   identify::Experiments all;
   const sim::Excitation& drive = model.excitation;
-  if (key == "data") refuse_idle_noise(items, key, faults);
   for (std::size_t i = 0; i < items.size(); ++i) {
     const Json& keys = items[i].keys;
     identify::ExperimentOptions options{
@@ -342,7 +330,7 @@ identify::Experiments experiments_from(const std::vector<DataItem>& items, const
       all.push_back(std::move(experiment));
     }
   }
-  if (!all.empty()) refuse_idle_noise(items, key, all, faults);
+  refuse_idle_noise(items, key, all, faults);
   return all;
 }
 
