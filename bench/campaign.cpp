@@ -45,7 +45,7 @@ CampaignSize size_of(const StressTest& question, const RunContext& context) {
   StressTest sample = question;
   const Grid whole(question);
   CampaignSize size{whole.motions(), whole.cases(), whole.cases() * sample.methods.size(), 0.0, 0.0};
-  // One motion of each law, read once, stands for all of that law.
+  // One motion of each departure, read once, stands for all of that departure.
   const std::size_t severities = sample.severities.size();
   sample.severities = {sample.severities[severities / 2]};
   sample.ranges.resize(1);

@@ -19,7 +19,7 @@ struct CampaignSize {
   std::size_t motions = 0;
   std::size_t cases = 0;
   std::size_t estimates = 0;
-  double seconds = 0.0;    ///< on all cores, from one motion of each law
+  double seconds = 0.0;    ///< on all cores, from one motion of each departure
   double megabytes = 0.0;  ///< of memory
 };
 

@@ -11,8 +11,8 @@ namespace {
 /// Weights of cases, cells and departures.
 struct Weights {
   std::vector<double> cases;
-  std::vector<double> cells;  ///< sums of the weights of their cases
-  std::vector<double> laws;   ///< of the departures, then of the truth
+  std::vector<double> cells;       ///< sums of the weights of their cases
+  std::vector<double> departures;  ///< and then of the truth
   /// Of the cells in the area of risk of their family: equal for departures, and for the cells of each; 0 for cells
   /// without a loss.
   std::vector<double> of_risk;
@@ -27,14 +27,14 @@ bool has_loss(const Plan& plan, std::size_t cell) {
 /// `Weights::of_risk` from the others.
 std::vector<double> weights_of_risk(const Plan& plan, const Weights& weights) {
   std::vector<double> shares(weights.cells.size(), 0.0);
-  std::vector<double> members(weights.laws.size(), 0.0);
+  std::vector<double> members(weights.departures.size(), 0.0);
   const auto counts = [&](std::size_t cell) { return weights.cells[cell] > 0.0 && has_loss(plan, cell); };
   for (std::size_t cell = 0; cell < shares.size(); ++cell)
-    if (counts(cell)) members[plan.law_of(cell)] += 1.0;
+    if (counts(cell)) members[plan.departure_of(cell)] += 1.0;
   std::map<Family, double> sums;
   for (std::size_t cell = 0; cell < shares.size(); ++cell) {
     if (!counts(cell)) continue;
-    shares[cell] = weights.laws[plan.law_of(cell)] / members[plan.law_of(cell)];
+    shares[cell] = weights.departures[plan.departure_of(cell)] / members[plan.departure_of(cell)];
     sums[plan.families()[cell]] += shares[cell];
   }
   for (std::size_t cell = 0; cell < shares.size(); ++cell)
@@ -45,9 +45,9 @@ std::vector<double> weights_of_risk(const Plan& plan, const Weights& weights) {
 Weights weights_of(const Plan& plan, const Resample& resample) {
   Weights weights;
   weights.cases = resample.case_weights(plan.grid());
-  for (std::size_t law = 0; law < plan.grid().question().departures.size(); ++law)
-    weights.laws.push_back(resample.law_weight(law));
-  weights.laws.push_back(1.0);
+  for (std::size_t i = 0; i < plan.grid().question().departures.size(); ++i)
+    weights.departures.push_back(resample.departure_weight(i));
+  weights.departures.push_back(1.0);
   weights.cells.assign(plan.grid().cells(), 0.0);
   for (std::size_t number = 0; number < weights.cases.size(); ++number)
     weights.cells[plan.groups()[plan.group_of(number)].cell] += weights.cases[number];
@@ -59,7 +59,7 @@ std::vector<MetricMeans> group_means(const Plan& plan, const Weights& weights, s
   std::vector<MetricMeans> means(plan.groups().size());
   const std::size_t truth = plan.grid().question().departures.size();
   for (std::size_t group = 0; group < means.size(); ++group) {
-    const bool is_truth = plan.groups()[group].law == truth;
+    const bool is_truth = plan.groups()[group].departure == truth;
     const double attainable = plan.consequence(group).attainable_power;
     for (std::size_t number = group * plan.seeds(); number < (group + 1) * plan.seeds(); ++number)
       if (weights.cases[number] > 0.0)
@@ -68,13 +68,14 @@ std::vector<MetricMeans> group_means(const Plan& plan, const Weights& weights, s
   return means;
 }
 
-/// The means over the departures of each family. `laws`: of the departures, then perhaps of the truth.
-std::map<Family, Metrics> over_laws(const Plan& plan, const Weights& weights, const std::vector<Metrics>& laws) {
+/// The means over the departures of each family. `metrics`: of the departures, then perhaps of the truth.
+std::map<Family, Metrics> over_departures(const Plan& plan, const Weights& weights,
+                                          const std::vector<Metrics>& metrics) {
   const std::vector<CaseDeparture>& departures = plan.grid().question().departures;
   std::map<Family, MetricMeans> means;
-  for (std::size_t law = 0; law < laws.size(); ++law)
-    if (weights.laws[law] > 0.0)
-      means[law < departures.size() ? departures[law].family() : Family::none].add(weights.laws[law], laws[law]);
+  for (std::size_t i = 0; i < metrics.size(); ++i)
+    if (weights.departures[i] > 0.0)
+      means[i < departures.size() ? departures[i].family() : Family::none].add(weights.departures[i], metrics[i]);
   std::map<Family, Metrics> families;
   for (const auto& [family, mean] : means) families[family] = mean.value();
   return families;
@@ -93,11 +94,12 @@ Metrics interval_metrics(const Plan& plan, const Weights& weights, const std::ve
   std::vector<MetricMeans> sums(plan.grid().question().departures.size());
   for (std::size_t group = 0; group < groups.size(); ++group) {
     const Plan::Group& place = plan.groups()[group];
-    if (place.law < sums.size() && place.intervals[axis] == interval) sums[place.law].add(groups[group]);
+    if (place.departure < sums.size() && place.intervals[axis] == interval)
+      sums[place.departure].add(groups[group]);
   }
-  std::vector<Metrics> laws;
-  for (const MetricMeans& sum : sums) laws.push_back(sum.value());
-  return over_families(over_laws(plan, weights, laws));
+  std::vector<Metrics> departures;
+  for (const MetricMeans& sum : sums) departures.push_back(sum.value());
+  return over_families(over_departures(plan, weights, departures));
 }
 
 /// An area of risk under construction, and the confidence of its last case.
@@ -146,14 +148,14 @@ Aggregate aggregate_of(const Plan& plan, const Weights& weights, std::size_t ent
   std::vector<MetricMeans> cells(plan.grid().cells());
   for (std::size_t group = 0; group < groups.size(); ++group) cells[plan.groups()[group].cell].add(groups[group]);
   Aggregate result;
-  std::vector<MetricMeans> means(weights.laws.size());
+  std::vector<MetricMeans> means(weights.departures.size());
   for (std::size_t cell = 0; cell < cells.size(); ++cell) {
     result.cells.push_back(cells[cell].value());
-    means[plan.law_of(cell)].add(1.0, result.cells.back());
+    means[plan.departure_of(cell)].add(1.0, result.cells.back());
   }
-  std::vector<Metrics> laws;
-  for (const MetricMeans& mean : means) laws.push_back(mean.value());
-  result.families = over_laws(plan, weights, laws);
+  std::vector<Metrics> departures;
+  for (const MetricMeans& mean : means) departures.push_back(mean.value());
+  result.families = over_departures(plan, weights, departures);
   result.all = over_families(result.families);
   add_areas(plan, weights, entrant, result);
   for (std::size_t axis = 0; axis < consequence_axes().size(); ++axis) {
@@ -187,14 +189,14 @@ Plan::Plan(const MarkedCases& cases, const Grid& grid)
   const StressTest& question = grid.question();
   for (std::size_t cell = 0; cell < grid.cells(); ++cell) {
     const Grid::Motion motion = grid.motion(grid.first_of_cell(cell).motion);
-    law_of_.push_back(static_cast<std::size_t>(std::ranges::find(question.departures, motion.departure) -
-                                               question.departures.begin()));
+    departure_of_.push_back(static_cast<std::size_t>(std::ranges::find(question.departures, motion.departure) -
+                                                     question.departures.begin()));
     family_of_.push_back(motion.departure.family());
   }
   for (std::size_t group = 0; group < groups_.size(); ++group) {
     const Grid::Case place = grid.at(group * seeds_);
     groups_[group].cell = grid.cell_of(grid.motion(place.motion), place.sensors);
-    groups_[group].law = law_of_[groups_[group].cell];
+    groups_[group].departure = departure_of_[groups_[group].cell];
     for (const ConsequenceAxis& axis : consequence_axes())
       groups_[group].intervals.push_back(axis.interval_of(cases.consequences[group].*axis.value));
   }

@@ -39,7 +39,7 @@ class Plan {
 
   struct Group {
     std::size_t cell = 0;
-    std::size_t law = 0;                 ///< among the departures of the question; the truth comes after the last
+    std::size_t departure = 0;           ///< among those of the question; the truth comes after the last
     std::vector<std::size_t> intervals;  ///< on each axis
   };
 
@@ -47,7 +47,7 @@ class Plan {
   [[nodiscard]] std::size_t group_of(std::size_t number) const { return number / seeds_; }
   [[nodiscard]] std::size_t seeds() const { return seeds_; }
   [[nodiscard]] const std::vector<Family>& families() const { return family_of_; }  ///< of the cells
-  [[nodiscard]] std::size_t law_of(std::size_t cell) const { return law_of_[cell]; }
+  [[nodiscard]] std::size_t departure_of(std::size_t cell) const { return departure_of_[cell]; }
   [[nodiscard]] const Mark& mark(std::size_t entrant, std::size_t number) const {
     return cases_.marks[entrant][number];
   }
@@ -62,7 +62,7 @@ class Plan {
   std::size_t seeds_;
   std::vector<Group> groups_;
   std::vector<std::vector<std::uint32_t>> order_;
-  std::vector<std::size_t> law_of_;
+  std::vector<std::size_t> departure_of_;
   std::vector<Family> family_of_;
 };
 

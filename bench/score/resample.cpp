@@ -31,7 +31,7 @@ Resample::Resample(const Grid& grid, std::size_t number)
     : number_(number),
       seed_(mixed(number * 0x9E3779B97F4A7C15U)),
       rigs_(grid.question().rigs.size(), 1.0),
-      laws_(grid.question().departures.size(), 1.0) {
+      departures_(grid.question().departures.size(), 1.0) {
   if (number == 0) return;
   const core::RandomStream draws{.seed = number, .stream = stream};
   std::uint64_t next = 0;
@@ -40,8 +40,9 @@ Resample::Resample(const Grid& grid, std::size_t number)
   for (std::size_t i = 0; i < rigs_.size(); ++i) all.push_back(i);
   draw_with_replacement(all, rigs_, draw);
   std::map<Family, std::vector<std::size_t>> families;
-  for (std::size_t i = 0; i < laws_.size(); ++i) families[grid.question().departures[i].family()].push_back(i);
-  for (const auto& [family, members] : families) draw_with_replacement(members, laws_, draw);
+  for (std::size_t i = 0; i < departures_.size(); ++i)
+    families[grid.question().departures[i].family()].push_back(i);
+  for (const auto& [family, members] : families) draw_with_replacement(members, departures_, draw);
 }
 
 std::vector<double> Resample::case_weights(const Grid& grid) const {

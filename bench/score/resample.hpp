@@ -23,7 +23,7 @@ class Resample {
   /// Weights of all cases, by number, without the weights of their departures.
   [[nodiscard]] std::vector<double> case_weights(const Grid& grid) const;
   /// Weight of a departure, in the order of the question; the truth counts once.
-  [[nodiscard]] double law_weight(std::size_t law) const { return laws_[law]; }
+  [[nodiscard]] double departure_weight(std::size_t departure) const { return departures_[departure]; }
 
  private:
   [[nodiscard]] double times(std::size_t number) const;
@@ -31,7 +31,7 @@ class Resample {
   std::size_t number_;
   std::uint64_t seed_;
   std::vector<double> rigs_;
-  std::vector<double> laws_;
+  std::vector<double> departures_;
 };
 
 }  // namespace dualdamp::bench

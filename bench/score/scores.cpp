@@ -145,13 +145,13 @@ std::vector<Rank> ranking_of(const Aggregates& aggregates, const std::vector<Dif
 
 /// Departures and cases of an interval.
 void count_cases(const Plan& plan, std::size_t axis, std::size_t interval, ConsequenceScore& score) {
-  std::set<std::size_t> laws;
+  std::set<std::size_t> departures;
   for (const Plan::Group& group : plan.groups()) {
-    if (group.intervals[axis] != interval || group.law == plan.grid().question().departures.size()) continue;
-    laws.insert(group.law);
+    if (group.intervals[axis] != interval || group.departure == plan.grid().question().departures.size()) continue;
+    departures.insert(group.departure);
     score.cases += static_cast<int>(plan.seeds());
   }
-  score.departures = static_cast<int>(laws.size());
+  score.departures = static_cast<int>(departures.size());
 }
 
 std::vector<ConsequenceScore> scores_by_consequence(const Plan& plan, const Aggregates& aggregates) {

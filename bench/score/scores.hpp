@@ -1,11 +1,11 @@
 #pragma once
 /// Scores of a stress test: metrics of each method in each cell, in each family of departures, and over all.
 ///
-/// A cell is a law at one severity, a range and a set of sensors; its cases differ by rig and noise. A family's
-/// metric is the mean over its departures of the means over their cells; the metric over all is the mean over
-/// families. So a family counts once, however many departures it has. The area of selective risk is that of all
-/// cases together, with the same weights. Standard errors: `resample.hpp`. A method ranks before another only where
-/// the difference of their interval scores exceeds twice its standard error.
+/// A cell is a departure at one severity, a range and a set of sensors; its cases differ by rig and noise. A
+/// family's metric is the mean over its departures of the means over their cells; the metric over all is the mean
+/// over families. So a family counts once, however many departures it has. The area of selective risk is that of
+/// all cases together, with the same weights. Standard errors: `resample.hpp`. A method ranks before another only
+/// where the difference of their interval scores exceeds twice its standard error.
 
 #include <cstddef>
 #include <string>
