@@ -13,7 +13,17 @@ namespace dualdamp::bench {
 
 namespace {
 
-using namespace scenarios;
+using scenarios::Analysis;
+using scenarios::Answer;
+using scenarios::CheckedFile;
+using scenarios::CheckedValues;
+using scenarios::Choice;
+using scenarios::Field;
+using scenarios::Json;
+using scenarios::Question;
+using scenarios::ResultFields;
+using scenarios::RunContext;
+using scenarios::Section;
 
 class MechanismsQuestion final : public Question {
  public:
@@ -35,6 +45,7 @@ std::vector<std::string> mechanism_names() {
 
 /// Values of each mechanism's own parameters.
 Field plausible_values() {
+  using namespace scenarios;
   Choice rigs{"mechanism", {}};
   for (const Departure& mechanism : mechanisms()) {
     std::vector<Field> fields = {text("case", "name of these values in the results").with_fallback(""),
@@ -55,7 +66,8 @@ Field plausible_values() {
   return std::move(field).items(1, max_sets);
 }
 
-Section keys() {
+Section mechanisms_keys() {
+  using namespace scenarios;
   const auto error = [](const char* name, const char* unit, const char* what) {
     return quantity(name, {unit}, std::string("standard error of this ") + what + ", rounding included")
         .required()
@@ -89,7 +101,7 @@ Section keys() {
 }
 
 /// Estimates, levels and decay under `prefix`.
-ResultFields reading(const std::string& prefix, const std::string& of) {
+ResultFields reading_fields(const std::string& prefix, const std::string& of) {
   return {{prefix + "bend", "1", "zeta of the smallest part over that of the largest, less 1" + of},
           {prefix + "estimates[].share", "1", "part of the data"},
           {prefix + "estimates[].zeta", "1", "damping ratio by the line through this part" + of},
@@ -106,10 +118,10 @@ ResultFields levels_and_decay(const std::string& prefix) {
           {prefix + "decay.bend", "1", "decay.high.zeta over decay.low.zeta, less 1"}};
 }
 
-ResultFields fields() {
+ResultFields mechanisms_fields() {
   const std::string fit = "mechanisms[].";
-  ResultFields fields =
-      joined({{"verdict", "", "conclusions of the study and their limits"}}, reading("explained.", " (measured)"));
+  ResultFields fields = joined({{"verdict", "", "conclusions of the study and their limits"}},
+                               reading_fields("explained.", " (measured)"));
   fields =
       joined(joined(fields, levels_and_decay("explained.")),
              {{fit + "mechanism", "", "name, closest first"},
@@ -126,7 +138,7 @@ ResultFields fields() {
               {fit + "parameters[].value", "", "its value"},
               {fit + "parameters[].at_bound", "", "the search ended at a bound"},
               {fit + "aliases[]", "", "mechanisms that differ from this one by less than the standard errors"}});
-  fields = joined(joined(fields, reading(fit, " (of the fit)")), levels_and_decay(fit));
+  fields = joined(joined(fields, reading_fields(fit, " (of the fit)")), levels_and_decay(fit));
   const std::string effect = "effects[].";
   return joined(joined(fields, {{effect + "mechanism", "", "a mechanism at plausible values"},
                                 {effect + "case", "", "name of the values, if there are several"},
@@ -136,7 +148,7 @@ ResultFields fields() {
                                 {effect + "parameters[].value", "", "its value"},
                                 {effect + "sticks", "", "the mass sticks at one of the levels"},
                                 {effect + "reason", "", "without estimates: the reason"}}),
-                reading(effect, ""));
+                reading_fields(effect, ""));
 }
 
 /// Checks that the parts differ and have at least two levels each.
@@ -145,7 +157,7 @@ void check_shares(CheckedFile& file, std::size_t levels) {
   const Json& estimates = file.values().at("analysis").at("estimates");
   for (std::size_t i = 0; i < estimates.size(); ++i) {
     if (!estimates.at(i).contains("share")) continue;
-    const std::size_t part = part_of(levels, number(estimates.at(i).at("share")));
+    const std::size_t part = part_of(levels, scenarios::number(estimates.at(i).at("share")));
     const std::string path = "analysis.estimates[" + std::to_string(i) + "].share";
     if (part < 2) {
       const double least = 2.0 / static_cast<double>(levels);
@@ -162,7 +174,7 @@ void check_parts(CheckedFile& file) {
   const bool known = analysis.contains("amplitudes");
   if (!known && !analysis.contains("levels")) return;
   const std::size_t levels =
-      known ? grid_size(analysis.at("amplitudes")) : analysis.at("levels").get<std::size_t>();
+      known ? scenarios::grid_size(analysis.at("amplitudes")) : analysis.at("levels").get<std::size_t>();
   check_shares(file, levels);
   const std::size_t sought = levels + (known ? 0 : 2);
   const std::size_t count = analysis.at("estimates").size();
@@ -191,7 +203,7 @@ void complete_plausible(CheckedFile& file) {
   file.fill_in("plausible", std::move(list));
 }
 
-void check(CheckedFile& file) {
+void check_mechanisms(CheckedFile& file) {
   check_truth(file);
   const Json& analysis = file.values().at("analysis");
   if (analysis.contains("estimates")) check_parts(file);
@@ -206,12 +218,14 @@ void check(CheckedFile& file) {
 /// The friction of the system, one Coulomb law (check_truth), is that which the rig is believed to have.
 MechanismStudy study_of(const Json& section, const Json& system) {
   MechanismStudy result;
-  result.friction = {number(system.at("friction").at("kinetic")), number(system.at("damping"))};
+  result.friction = {scenarios::number(system.at("friction").at("kinetic")),
+                     scenarios::number(system.at("damping"))};
   for (const Json& item : section.at("estimates"))
-    result.estimates.push_back({number(item.at("share")), number(item.at("zeta")), number(item.at("F0")),
-                                number(item.at("zeta_std")), number(item.at("F0_std"))});
+    result.estimates.push_back({scenarios::number(item.at("share")), scenarios::number(item.at("zeta")),
+                                scenarios::number(item.at("F0")), scenarios::number(item.at("zeta_std")),
+                                scenarios::number(item.at("F0_std"))});
   std::ranges::sort(result.estimates, std::ranges::greater{}, &PartEstimate::share);
-  if (section.contains("amplitudes")) result.amplitudes = grid_values(section.at("amplitudes"));
+  if (section.contains("amplitudes")) result.amplitudes = scenarios::grid_values(section.at("amplitudes"));
   std::ranges::sort(result.amplitudes);
   result.levels = section.contains("levels") ? section.at("levels").get<std::size_t>() : result.amplitudes.size();
   for (const Json& name : section.at("mechanisms"))
@@ -220,19 +234,21 @@ MechanismStudy study_of(const Json& section, const Json& system) {
     const Departure* mechanism = find_mechanism(item.at("mechanism").get<std::string>());
     PlausibleRig rig{mechanism, item.at("case").get<std::string>(), {}, item.at("because").get<std::string>()};
     for (const DepartureParameter& parameter : mechanism->parameters)
-      rig.values.push_back(number(item.at(std::string(parameter.name))));
+      rig.values.push_back(scenarios::number(item.at(std::string(parameter.name))));
     result.plausible.push_back(std::move(rig));
   }
   if (!section.contains("decay")) return result;
   const Json& decay = section.at("decay");
   const auto segment = [&](const char* name) {
-    return MeasuredDecay::Segment{number(decay.at(name).at("zeta")), number(decay.at(name).at("x_f"))};
+    return MeasuredDecay::Segment{scenarios::number(decay.at(name).at("zeta")),
+                                  scenarios::number(decay.at(name).at("x_f"))};
   };
-  result.decay = {number(decay.at("stiffness")), number(decay.at("displacement")), segment("high"), segment("low")};
+  result.decay = {scenarios::number(decay.at("stiffness")), scenarios::number(decay.at("displacement")),
+                  segment("high"), segment("low")};
   return result;
 }
 
-std::unique_ptr<const Question> ask(CheckedValues&& values) {
+std::unique_ptr<const Question> ask_mechanisms(CheckedValues&& values) {
   return std::make_unique<MechanismsQuestion>(study_of(values.analysis, values.system));
 }
 
@@ -242,11 +258,11 @@ const Analysis& mechanisms_analysis() {
   static const Analysis analysis = {
       .name = "mechanisms",
       .summary = "which mechanism explains that estimates change as the upper x-Y data are left out",
-      .keys = keys(),
+      .keys = mechanisms_keys(),
       .needs = {{"", {"base_harmonic"}, {"frequency"}, true, "the lines are of the amplitude of the base"}},
-      .results = fields(),
-      .check = check,
-      .ask = ask};
+      .results = mechanisms_fields(),
+      .check = check_mechanisms,
+      .ask = ask_mechanisms};
   return analysis;
 }
 

@@ -14,12 +14,16 @@ namespace dualdamp::bench {
 
 namespace {
 
-using namespace scenarios;
+using scenarios::CheckedFile;
+using scenarios::Field;
+using scenarios::Json;
+using scenarios::Variant;
 
 constexpr const char* place = "analysis.random_response";
 
 /// The keys of an excitation without its seed, which each motion has of its own, and the keys of the recording.
 Variant recorded(const std::string& type) {
+  using namespace scenarios;
   Variant variant = *excitations().find(type);
   std::erase_if(variant.section.fields, [](const Field& field) { return field.name == "seed"; });
   for (Field& field :
@@ -42,8 +46,9 @@ identify::Sensor delayed(identify::Sensor sensor, double frequency) {
 }  // namespace
 
 Field random_response_key() {
-  return choice("random_response", {"type", {recorded("force_noise"), recorded("base_noise")}},
-                "the response to a random drive in addition to each curve, for the methods that need one");
+  return scenarios::choice(
+      "random_response", {"type", {recorded("force_noise"), recorded("base_noise")}},
+      "the response to a random drive in addition to each curve, for the methods that need one");
 }
 
 void check_random_response(CheckedFile& file) {
@@ -51,13 +56,16 @@ void check_random_response(CheckedFile& file) {
   if (!analysis.contains("random_response")) return;
   const Json& section = analysis.at("random_response");
   if (section.contains("sample_rate"))
-    check_work(file, section, place, {place + std::string(".sample_rate"), number(section.at("sample_rate")), 1.0});
+    check_work(file, section, place,
+               {place + std::string(".sample_rate"), scenarios::number(section.at("sample_rate")), 1.0});
   if (section.contains("duration") && section.contains("bandwidth")) {
-    const double values = (number(section.at("duration")) + number_or(section, "settle", 0.0)) *
-                          number(section.at("bandwidth")) / std::numbers::pi;
-    if (values > max_nodes)
+    const double values =
+        (scenarios::number(section.at("duration")) + scenarios::number_or(section, "settle", 0.0)) *
+        scenarios::number(section.at("bandwidth")) / std::numbers::pi;
+    if (values > scenarios::max_nodes)
       file.complain(place + std::string(".bandwidth"), "the drive has too many pieces",
-                    "at most " + core::format_number(max_nodes, 8) + " pieces", core::format_number(values, 6));
+                    "at most " + core::format_number(scenarios::max_nodes, 8) + " pieces",
+                    core::format_number(values, 6));
   }
   const Json sets = analysis.value("sensors", Json::array());
   for (std::size_t i = 0; i < sets.size(); ++i)
@@ -69,33 +77,34 @@ void check_random_response(CheckedFile& file) {
 
 identify::History random_outline(const Json& section) {
   identify::History history{.sample_rate = 1.0, .x = {0.0}, .v = {0.0}, .a = {0.0}};
-  (moves_base(section.value("type", "")) ? history.y : history.force) = {0.0};
+  (scenarios::moves_base(section.value("type", "")) ? history.y : history.force) = {0.0};
   return history;
 }
 
 RandomTest random_test_of(const Json& section) {
-  RandomTest test{.duration = number(section.at("duration")),
-                  .settle = number(section.at("settle")),
-                  .sample_rate = number(section.at("sample_rate"))};
-  test.drive.type = moves_base(section.at("type").get<std::string>()) ? sim::ExcitationType::base_noise
-                                                                      : sim::ExcitationType::force_noise;
-  test.drive.noise = {.intensity = number(section.at("intensity")), .bandwidth = number(section.at("bandwidth"))};
+  RandomTest test{.duration = scenarios::number(section.at("duration")),
+                  .settle = scenarios::number(section.at("settle")),
+                  .sample_rate = scenarios::number(section.at("sample_rate"))};
+  test.drive.type = scenarios::moves_base(section.at("type").get<std::string>()) ? sim::ExcitationType::base_noise
+                                                                                 : sim::ExcitationType::force_noise;
+  test.drive.noise = {.intensity = scenarios::number(section.at("intensity")),
+                      .bandwidth = scenarios::number(section.at("bandwidth"))};
   return test;
 }
 
-MotionRecord random_motion(const RandomTest& test, sim::Model model, std::uint64_t seed,
-                           const identify::Sensors& sensors, double frequency) {
+scenarios::MotionRecord random_motion(const RandomTest& test, sim::Model model, std::uint64_t seed,
+                                      const identify::Sensors& sensors, double frequency) {
   model.initial = {};
   model.excitation = test.drive;
   model.excitation.noise.seed = seed;
-  Measurement measurement{.kind = MeasurementKind::histories};
+  scenarios::Measurement measurement{.kind = scenarios::MeasurementKind::histories};
   measurement.duration = test.duration;
   measurement.settle = test.settle;
   identify::Sensors sampling{.sample_rate = test.sample_rate};
   for (const auto sensor : {&identify::Sensors::y, &identify::Sensors::x, &identify::Sensors::v,
                             &identify::Sensors::a, &identify::Sensors::force})
     sampling.*sensor = delayed(sensors.*sensor, frequency);
-  MotionRecord motion = motion_of(model, measurement, sampling);
+  scenarios::MotionRecord motion = motion_of(model, measurement, sampling);
   for (std::string& warning : motion.warnings) warning = "response to a random drive: " + warning;
   return motion;
 }

@@ -23,7 +23,16 @@ namespace dualdamp::bench {
 
 namespace {
 
-using namespace scenarios;
+using scenarios::Analysis;
+using scenarios::Answer;
+using scenarios::Campaign;
+using scenarios::CheckedFile;
+using scenarios::CheckedValues;
+using scenarios::Field;
+using scenarios::Json;
+using scenarios::Question;
+using scenarios::RunContext;
+using scenarios::Section;
 
 class StressTestQuestion final : public Question, public Campaign {
  public:
@@ -55,6 +64,7 @@ std::vector<std::string> companion_names() {
 
 /// {from, to}: range of the rigs, on a logarithmic scale.
 Field between(const std::string& name, const std::string& meaning) {
+  using namespace scenarios;
   return section(name,
                  {{quantity("from", {"1"}, "smallest").required().above(0),
                    quantity("to", {"1"}, "largest").required().above(0)}},
@@ -62,6 +72,7 @@ Field between(const std::string& name, const std::string& meaning) {
 }
 
 Section rig_keys() {
+  using namespace scenarios;
   constexpr int max_rigs = 10'000;
   return {
       {integer("count", "how many").required().at_least(1).at_most(max_rigs),
@@ -74,6 +85,7 @@ Section rig_keys() {
 }
 
 Section stress_test_keys() {
+  using namespace scenarios;
   constexpr int max_seeds = 1'000'000;
   std::vector<Field> set = {text("name", "name in the results").required()};
   for (Field& field : sensor_fields())
@@ -135,7 +147,7 @@ std::vector<CaseDeparture> departures_of(const Json& analysis) {
 
 /// Beyond its largest severity a departure has no meaning, and equal severities would be one cell twice.
 void check_severities(CheckedFile& file, const Json& analysis) {
-  std::vector<double> severities = grid_values(analysis.at("severities"));
+  std::vector<double> severities = scenarios::grid_values(analysis.at("severities"));
   std::ranges::sort(severities);
   if (const auto twice = std::ranges::adjacent_find(severities); twice != severities.end())
     file.complain("analysis.severities", "'analysis.severities' has a value twice", "each once",
@@ -205,12 +217,12 @@ std::optional<double> least_moving_amplitude(const CheckedFile& file, const Json
   if (analysis.contains("rigs") && analysis.at("rigs").contains("friction_ratio")) {
     const Json& ratio = analysis.at("rigs").at("friction_ratio");
     if (!levels.contains("amplitudes") || !ratio.contains("from") || !ratio.contains("to")) return std::nullopt;
-    return identify::upper_median(grid_values(levels.at("amplitudes"))) *
-           std::min(number(ratio.at("from")), number(ratio.at("to")));
+    return identify::upper_median(scenarios::grid_values(levels.at("amplitudes"))) *
+           std::min(scenarios::number(ratio.at("from")), scenarios::number(ratio.at("to")));
   }
   const Json& friction = system.at("friction");
   if (!friction.is_object() || !friction.contains("kinetic")) return std::nullopt;
-  return number(friction.at("kinetic")) / *k;
+  return scenarios::number(friction.at("kinetic")) / *k;
 }
 
 /// Refuses a range in which every rig sticks at every level: it has no motion that severities could refer to.
@@ -220,7 +232,7 @@ void check_motion(CheckedFile& file, const Json& analysis) {
   for (std::size_t i = 0; i < analysis.at("ranges").size(); ++i) {
     const Json& range = analysis.at("ranges").at(i);
     if (!range.contains("amplitudes") || !range.contains("name")) continue;
-    const double most = std::ranges::max(grid_values(range.at("amplitudes")));
+    const double most = std::ranges::max(scenarios::grid_values(range.at("amplitudes")));
     if (most > *limit) continue;
     constexpr int digits = 3;
     const std::string unit = " " + core::unit_for(file.coordinate(), "m");
@@ -234,8 +246,8 @@ void check_motion(CheckedFile& file, const Json& analysis) {
 
 /// Number of steady states of a range.
 std::size_t states_of(const Json& range) {
-  return grid_size(range.at("amplitudes")) *
-         (range.contains("frequencies") ? grid_size(range.at("frequencies")) : 1) *
+  return scenarios::grid_size(range.at("amplitudes")) *
+         (range.contains("frequencies") ? scenarios::grid_size(range.at("frequencies")) : 1) *
          static_cast<std::size_t>(range.value("sweeps", 1));
 }
 
@@ -249,7 +261,7 @@ std::vector<identify::Record> outlines(const CheckedFile& file) {
     for (const Json& sensors : sets) {
       identify::Record& record = records.emplace_back();
       std::vector<identify::Pair>& pairs = record.pairs.emplace().pairs;
-      const std::size_t amplitudes = grid_size(range.at("amplitudes"));
+      const std::size_t amplitudes = scenarios::grid_size(range.at("amplitudes"));
       const int sweeps = range.value("sweeps", 1);
       const std::size_t in_sweep = states_of(range) / static_cast<std::size_t>(sweeps);
       for (std::size_t i = 0; i < states_of(range); ++i) {
@@ -283,7 +295,7 @@ void check_samples(CheckedFile& file, const Json& analysis) {
   for (const Json& set : analysis.at("sensors"))
     if (set.contains("sample_rate"))
       check_rows(file, "analysis.sample_rate",
-                 most * number(set.at("sample_rate")) * period * set.value("average_cycles", 1));
+                 most * scenarios::number(set.at("sample_rate")) * period * set.value("average_cycles", 1));
 }
 
 void check_stress_test(CheckedFile& file) {
@@ -310,7 +322,7 @@ void check_stress_test(CheckedFile& file) {
   check_sweeps(file, analysis);
   const std::size_t departures = departures_of(analysis).size();
   const std::size_t motions =
-      (1 + departures * grid_size(analysis.at("severities"))) * analysis.at("ranges").size();
+      (1 + departures * scenarios::grid_size(analysis.at("severities"))) * analysis.at("ranges").size();
   const std::size_t sets = analysis.contains("sensors") ? analysis.at("sensors").size() : 1;
   constexpr double most_cases = 1e7;
   const int rigs = analysis.contains("rigs") ? analysis.at("rigs").value("count", 1) : 1;
@@ -332,7 +344,7 @@ double mirrored(int n, int base) {
 
 /// The truth of the scenario, or rigs at the points of Halton's sequence.
 std::vector<TrueRig> rigs_of(const CheckedValues& values, double middle) {
-  Truth truth{.model = values.model, .F0 = number(values.system.at("friction").at("kinetic"))};
+  Truth truth{.model = values.model, .F0 = scenarios::number(values.system.at("friction").at("kinetic"))};
   truth.model.friction.clear();
   if (!values.analysis.contains("rigs")) return {{truth, values.model.excitation.frequency}};
   const Json& keys = values.analysis.at("rigs");
@@ -341,8 +353,8 @@ std::vector<TrueRig> rigs_of(const CheckedValues& values, double middle) {
   for (int i = 1; i <= keys.at("count").get<int>(); ++i) {
     const auto drawn = [&](const char* key, int base, double fallback) {
       if (!keys.contains(key)) return fallback;
-      const double from = number(keys.at(key).at("from"));
-      return from * std::pow(number(keys.at(key).at("to")) / from, mirrored(i, base));
+      const double from = scenarios::number(keys.at(key).at("from"));
+      return from * std::pow(scenarios::number(keys.at(key).at("to")) / from, mirrored(i, base));
     };
     TrueRig rig{truth};
     rig.truth.model.oscillator.damping =
@@ -362,25 +374,26 @@ StressTest stress_test_of(const CheckedValues& values) {
   const Json& section = values.analysis;
   StressTest result;
   result.departures = departures_of(section);
-  result.severities = grid_values(section.at("severities"));
+  result.severities = scenarios::grid_values(section.at("severities"));
   std::ranges::sort(result.severities);
   for (const Json& range : section.at("ranges"))
     result.ranges.push_back(
-        {range.at("name").get<std::string>(), grid_values(range.at("amplitudes")),
-         range.contains("frequencies") ? grid_values(range.at("frequencies")) : std::vector<double>{},
+        {range.at("name").get<std::string>(), scenarios::grid_values(range.at("amplitudes")),
+         range.contains("frequencies") ? scenarios::grid_values(range.at("frequencies")) : std::vector<double>{},
          range.at("sweeps").get<int>()});
   result.rigs = rigs_of(values, identify::upper_median(result.ranges.front().amplitudes));
   if (section.contains("sensors"))
     for (const Json& set : section.at("sensors"))
-      result.sensors.push_back({set.at("name").get<std::string>(), sensors_of(set)});
+      result.sensors.push_back({set.at("name").get<std::string>(), scenarios::sensors_of(set)});
   else
     result.sensors.push_back({"perfect", {}});
   result.seeds = section.at("seeds").get<int>();
   result.seed = section.at("seed").get<std::int64_t>();
   if (section.contains("decay"))
-    result.decay = {number(section.at("decay").at("displacement")), section.at("decay").at("peaks").get<int>()};
+    result.decay = {scenarios::number(section.at("decay").at("displacement")),
+                    section.at("decay").at("peaks").get<int>()};
   if (section.contains("random_response")) result.random = random_test_of(section.at("random_response"));
-  result.methods = methods_of(section.at("methods"));
+  result.methods = scenarios::methods_of(section.at("methods"));
   if (section.at("answer").get<bool>()) result.methods.push_back(&program_answer);
   return result;
 }
@@ -414,7 +427,7 @@ const Analysis& stress_test_analysis() {
                 .x_label = "distance in units of noise",
                 .y_label = "harm",
                 .by = "law",
-                .kind = MainChart::Kind::points},
+                .kind = scenarios::MainChart::Kind::points},
       .check = check_stress_test,
       .ask = ask_stress_test};
   return analysis;
