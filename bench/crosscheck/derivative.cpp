@@ -42,6 +42,14 @@ Eigen::VectorXd sizes(const sim::Model& model, const State& state, double length
   return Eigen::Map<const Eigen::VectorXd>(list.data(), static_cast<Eigen::Index>(list.size()));
 }
 
+/// Where the mass creeps less far than steps resolve at this drive, a difference quotient is one of their errors.
+bool is_below_steps(const sim::Model& model, double length, double accuracy) {
+  constexpr double small_motion = 1e-3;  // the size that the engine takes for that of a motion that has none yet
+  const double amplitude = model.excitation.amplitude;
+  const double drive = model.excitation.moves_base() ? amplitude : amplitude / model.oscillator.stiffness;
+  return length < small_motion * accuracy * drive;
+}
+
 struct Quotient {
   Eigen::VectorXd column;
   Eigen::VectorXd bend;  ///< difference of the one-sided quotients
@@ -58,6 +66,7 @@ class Quotients {
   void allow_more_work() { map_.limit(map_.engine().work() + most_work_of_quotients); }
   [[nodiscard]] bool ok() const { return map_.outcome().ok(); }
   [[nodiscard]] const std::string& reason() const { return map_.outcome().reason; }
+  [[nodiscard]] double accuracy() { return map_.engine().accuracy(); }
   [[nodiscard]] const ForcingPeriod& period() const { return period_; }
 
   Quotient central(Eigen::Index coordinate, double step) {
@@ -177,6 +186,8 @@ Finding compare_derivative(const std::string& name, const sim::Model& model, con
   const double length = quotients.period().size;
   if (monodromy.rows() != monodromy.cols() || length == 0.0) return {name, Verdict::not_compared, 0.0, "no motion"};
   if (!monodromy.allFinite()) return {name, Verdict::disagree, 0.0, "the monodromy matrix is not finite"};
+  if (is_below_steps(model, length, quotients.accuracy()))
+    return {name, Verdict::not_compared, 0.0, "the motion is smaller than steps resolve"};
   const Eigen::VectorXd size = sizes(model, state, length, omega);
   const bool moves = state.direction != friction::Direction::none;
   const double error_of_all = clear_error_of_all(quotients, moves, size);

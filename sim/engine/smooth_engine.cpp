@@ -355,6 +355,7 @@ const Interval* SmoothEngine::step(double left, bool to_period_end) {
     }
   }
   follows_event_ = found || (is_over && by_schedule);
+  if (follows_event_) course_.length = 0.0;
   const Ending ending = found ? watches_[hit.watch].ending : Ending{};
   take_over(found && is<SlipEnd>(ending));
   pass_time(to_period_end && is_over && !by_schedule);

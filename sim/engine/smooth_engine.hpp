@@ -84,6 +84,11 @@ class SmoothEngine final : public Engine {
     Eigen::RowVectorXd time;  ///< of each column [s]; empty: there is none
     Eigen::VectorXd rates_before;
   };
+  /// How the motion goes on behind an implicit step, while the derivative is tracked.
+  struct Course {
+    std::vector<double> rates;  ///< by the step's polynomial
+    double length = 0.0;        ///< of the step [s]; 0: nothing is known
+  };
 
   [[nodiscard]] const Interval* step(double left, bool to_period_end) override;
   void settle() override;
@@ -145,6 +150,9 @@ class SmoothEngine final : public Engine {
   [[nodiscard]] bool move(double left, Hit& hit, bool& found);
 
   // Derivatives.
+  void note_course();
+  [[nodiscard]] static std::vector<double> own_paces(const Flow& flow, std::span<const double> X, double t);
+  void rates_of_motion(const Flow& flow, std::span<const double> X, double t, std::vector<double>& rates) const;
   [[nodiscard]] Eigen::VectorXd rates_now() const;
   void track_step();
   void lead_near_stop();
@@ -188,6 +196,7 @@ class SmoothEngine final : public Engine {
   std::vector<Change> changes_;
   Eigen::RowVectorXd lead_;  ///< of each column: the time by which its motion is ahead, beside columns_ [s]
   ModeLead mode_lead_;
+  Course course_;
   bool follows_event_ = false;
   std::unique_ptr<Variation> variation_;
   std::size_t variation_size_ = 0;

@@ -52,12 +52,41 @@ void SmoothEngine::reset_sensitivity() {
   if (direction_ == friction::Direction::none) columns_.row(1).setZero();
   lead_ = Eigen::RowVectorXd::Zero(n);
   mode_lead_ = {};
+  course_.length = 0.0;
   changes_.clear();
 }
 
 Eigen::MatrixXd SmoothEngine::sensitivity() const {
   if (lead_.isZero(0.0)) return columns_;
   return columns_ + rates_now() * lead_;
+}
+
+/// Of the step taken last.
+void SmoothEngine::note_course() {
+  course_.rates.resize(end_.size());
+  course_.length = stepper_->end_rates(course_.rates) ? taken_ : 0.0;
+}
+
+/// |df_k/dX_k| of each component at X [1/s].
+std::vector<double> SmoothEngine::own_paces(const Flow& flow, std::span<const double> X, double t) {
+  std::vector<double> jacobian(X.size() * X.size());
+  flow.jacobian(X, t, jacobian);
+  std::vector<double> paces(X.size());
+  for (std::size_t k = 0; k < X.size(); ++k) paces[k] = std::abs(jacobian[k * X.size() + k]);
+  return paces;
+}
+
+/// Of the motion at X. A mass that creeps under a steep dashpot has a speed that is known to the tolerance of its
+/// steps, and the dashpot makes of its error an acceleration that decays at once: it is none of the motion, and a
+/// lead of seconds would make a change of speed of it. A component that decays within the last step has its rate by
+/// the polynomial of that step, where no event has intervened.
+void SmoothEngine::rates_of_motion(const Flow& flow, std::span<const double> X, double t,
+                                   std::vector<double>& rates) const {
+  flow.evaluate(X, t, rates);
+  if (course_.length == 0.0 || course_.rates.size() != X.size()) return;
+  const std::vector<double> pace = own_paces(flow, X, t);
+  for (std::size_t k = 0; k < X.size(); ++k)
+    if (pace[k] * course_.length > 1.0) rates[k] = course_.rates[k];
 }
 
 /// Of the motion that begins now.
@@ -67,7 +96,7 @@ Eigen::VectorXd SmoothEngine::rates_now() const {
   std::vector<double> X;
   flow.gather(x_, v_, memories_, X);
   std::vector<double> rates(X.size());
-  flow.evaluate(X, local_time_, rates);
+  rates_of_motion(flow, X, local_time_, rates);
   return as_vector(rates);
 }
 
@@ -91,13 +120,23 @@ void SmoothEngine::track_step() {
     columns_.setConstant(std::numeric_limits<double>::quiet_NaN());
   variation_work_ += work() - before;
   columns_ -= late * lead_;
+  note_course();
 }
 
-/// Near a stop, at the begin of a step: the perturbed motion is where the velocity is the same.
+/// Near a stop, at the begin of a step: the perturbed motion is where the velocity is the same. A change of a speed
+/// that dies out within the step is left as it is where the motion's own acceleration is not known: the lead would
+/// be a large number, and the small change a difference of two.
 void SmoothEngine::lead_near_stop() {
   if (direction_ == friction::Direction::none) return;
+  const auto is_near = [&] { return std::abs(X_[1]) < near_stop * shortest_period() * std::abs(rates_[1]); };
   flow_.evaluate(X_, local_time_, rates_);
-  if (!(std::abs(X_[1]) < near_stop * shortest_period() * std::abs(rates_[1]))) return;
+  if (!is_near()) return;
+  if (course_.length == 0.0) {
+    if (own_paces(flow_, X_, local_time_)[1] * taken_ > 1.0) return;
+  } else {
+    rates_of_motion(flow_, X_, local_time_, rates_);
+    if (!is_near()) return;
+  }
   const Eigen::RowVectorXd ahead = columns_.row(1) / rates_[1];
   columns_ -= as_vector(rates_) * ahead;
   columns_.row(1).setZero();
@@ -106,7 +145,7 @@ void SmoothEngine::lead_near_stop() {
 
 /// At a time that does not depend on the motion every perturbation is a change of the state.
 void SmoothEngine::drop_lead() {
-  flow_.evaluate(end_, local_time_ + taken_, rates_);
+  rates_of_motion(flow_, end_, local_time_ + taken_, rates_);
   columns_ += as_vector(rates_) * lead_;
   lead_.setZero();
 }

@@ -84,6 +84,11 @@ class RadauStepper final : public Stepper {
     for (std::size_t k = 0; k < n_(); ++k) x[k] = start_[k] + combine(basis, polynomial_[k]);
   }
 
+  [[nodiscard]] bool end_rates(std::span<double> rates) const override {
+    for (std::size_t k = 0; k < n_(); ++k) rates[k] = combine(radau_.slopes.back(), polynomial_[k]) / h_;
+    return true;
+  }
+
   [[nodiscard]] int order() const override { return estimate_order; }
   [[nodiscard]] double stiffness() const override { return 0.0; }
   [[nodiscard]] long operations() const override { return operations_; }

@@ -22,6 +22,9 @@ class SizedStepper final : public Stepper {
   }
 
   void at(double part, std::span<double> x) const override { method_->at(part, x); }
+  [[nodiscard]] bool end_rates(std::span<double> rates) const override {
+    return method_ != nullptr && method_->end_rates(rates);
+  }
   [[nodiscard]] int order() const override { return Method<any_size>::estimate_order; }
   [[nodiscard]] double stiffness() const override { return method_ == nullptr ? 0.0 : method_->stiffness(); }
   [[nodiscard]] long operations() const override {

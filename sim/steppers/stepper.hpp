@@ -43,6 +43,11 @@ class Stepper {
   /// bit for bit.
   virtual void at(double part, std::span<double> x) const = 0;
 
+  /// The rates at the end of the last step that returned true, as its polynomial has them. False: the method keeps
+  /// none. Where the field is steep, the field of a state that is known to `allowed` alone says nothing of the
+  /// motion's rates; the polynomial does.
+  [[nodiscard]] virtual bool end_rates(std::span<double> /*rates*/) const { return false; }
+
   /// The error estimate falls as h^(order() + 1).
   [[nodiscard]] virtual int order() const = 0;
 

@@ -69,6 +69,61 @@ TEST_CASE("smooth engine: a perturbation passes a reversal at which the force tu
   }
 }
 
+TEST_CASE("smooth engine: the error of a creeping speed makes no acceleration of a perturbation",
+          "[sim][smooth][derivative]") {
+  // A dashpot that forgets a speed within 1e-9 s holds the mass at the begin and the end of the period. In between
+  // it reverses twice. The expected values are those of the variational equations by another integrator (SciPy's
+  // Radau at 1e-10); entries below 1e-8 are at most 1e-9 there.
+  sim::Model model;
+  model.oscillator = {
+      .mass = 0.5810581426852638, .stiffness = 0.04863080134767088, .damping = 0.013114710200268493};
+  model.excitation = {.type = sim::ExcitationType::base_harmonic,
+                      .amplitude = 0.0060938901480726325,
+                      .frequency = 0.10135740907389945};
+  add_law(model, "rate_state",
+          {{"normal_force", 4.7308639377526694e-05},
+           {"mu0", 0.5803561889078969},
+           {"a", 0.01897566260537042},
+           {"b", 0.03488888491757878},
+           {"slip_distance", 0.00440063882460621},
+           {"reference_velocity", 5.142651890709898e-06}});
+  sim::PeriodMap map(model);
+  const Eigen::MatrixXd monodromy = third_period(map, 0.0, 0.0).monodromy;
+  CAPTURE(monodromy);
+  CHECK(monodromy(0, 0) == Approx(0.283986298).epsilon(1e-6));
+  CHECK(monodromy(2, 0) == Approx(-6.12012).epsilon(1e-5));
+  CHECK(monodromy(0, 2) == Approx(-5.73689e-6).epsilon(1e-5));
+  CHECK(monodromy(2, 2) == Approx(0.003578686).epsilon(1e-5));
+  CHECK(std::abs(monodromy(1, 0)) < 1e-8);
+  CHECK(std::abs(monodromy(0, 1)) < 1e-8);
+  CHECK(std::abs(monodromy(1, 1)) < 1e-12);
+}
+
+TEST_CASE("smooth engine: a creep far below the tolerance of steps forgets its speed at once",
+          "[sim][smooth][derivative]") {
+  // The dashpot forgets a speed within 4e-22 s; nothing reverses. SciPy's Radau: 3.746e-22, -3.810e-20 and -1e-38.
+  sim::Model model;
+  model.oscillator = {.mass = 3.5182079681767204, .stiffness = 357.8256391009208, .damping = 34.15940244411971};
+  model.excitation = {.type = sim::ExcitationType::base_harmonic,
+                      .amplitude = 0.0007991416659904486,
+                      .frequency = 1645.6725734051806,
+                      .phase = 5.2203636202187};
+  ParameterValues values = {{"normal_force", 206.7474860631241},
+                            {"mu0", 0.4667786677209173},
+                            {"a", 0.013299328887202687},
+                            {"b", 0.02113135118474439},
+                            {"slip_distance", 2.2786787260925265e-05},
+                            {"reference_velocity", 2.5574202219514857e-07}};
+  values.set("evolution", "slip");
+  add_law(model, "rate_state", std::move(values));
+  sim::PeriodMap map(model);
+  const Eigen::MatrixXd monodromy = third_period(map, 0.0, 0.0).monodromy;
+  CAPTURE(monodromy);
+  CHECK(monodromy(0, 1) == Approx(3.746e-22).epsilon(1e-2));
+  CHECK(monodromy(1, 0) == Approx(-3.81e-20).epsilon(1e-2));
+  CHECK(std::abs(monodromy(1, 1)) < 1e-15);
+}
+
 TEST_CASE("smooth engine: perturbations of turning points among stiff contacts are not lost in rounding",
           "[sim][smooth][derivative]") {
   // The contacts slip after 3e-10 m, 3e-7 of the motion: the size of the states that remember turning points.
