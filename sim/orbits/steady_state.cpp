@@ -36,6 +36,9 @@ constexpr double on_circle = 1e-7;
 /// Largest relative error of the only orbit with which it is accepted.
 constexpr double known = 1e-6;
 
+/// Two orbits whose peak and trough agree this well, relative to the amplitude, are mirror images.
+constexpr double image = 1e-6;
+
 /// The state at t = 0 of the steady state of an oscillator without friction.
 State linear_response(const Model& model) {
   const Oscillator& o = model.oscillator;
@@ -76,7 +79,7 @@ class OrbitFinder {
   [[nodiscard]] std::optional<Orbit> only_orbit_from(const State& start, SteadyState& result);
   [[nodiscard]] State after_transient(double x, double v, SteadyState& result);
   [[nodiscard]] SteadyState outlined(const Orbit& orbit);
-  [[nodiscard]] std::optional<SteadyState> mirror_image(const SteadyState& of);
+  [[nodiscard]] std::optional<SteadyState> mirror_image(const SteadyState& of, OrbitSolver& solver);
   void add_mirror_images(SteadyState& result);
   void warn_of_distance(const ForcingPeriod& period, SteadyState& result);
 
@@ -173,27 +176,39 @@ OtherState other_state(const SteadyState& state) { return {state.peak, state.tro
 
 /// Whether b is the mirror image of a in x = 0.
 bool is_mirror_image(const SteadyState& a, const SteadyState& b) {
-  constexpr double rounding = 1e-6;
-  return std::abs(a.peak + b.trough) + std::abs(a.trough + b.peak) <= rounding * 0.5 * (a.peak - a.trough);
+  return std::abs(a.peak + b.trough) + std::abs(a.trough + b.peak) <= image * 0.5 * (a.peak - a.trough);
+}
+
+/// Whether the drive half a forcing period later is its own mirror image, up to a constant force, which friction
+/// may balance. No law makes up for harmonics of even order.
+bool may_have_mirror_images(const Excitation& drive) {
+  double odd = std::abs(drive.amplitude);
+  double even = 0.0;
+  for (const Harmonic& harmonic : drive.harmonics) {
+    double& sum = harmonic.order % 2 == 0 ? even : odd;
+    sum += std::abs(harmonic.amplitude);
+  }
+  return even <= image * odd;
 }
 
 /// The mirror image, half a forcing period later. Every symmetric model has it; whether this one does, the motion
 /// that begins there tells.
-std::optional<SteadyState> OrbitFinder::mirror_image(const SteadyState& of) {
+std::optional<SteadyState> OrbitFinder::mirror_image(const SteadyState& of, OrbitSolver& solver) {
   const Sample half = one_period(model_, of, 2 * of.period_ratio)[1];
-  OrbitSolver solver(model_, options_.tolerance, rounding_closure_);
   const State later = solver.map_over(1).from_start(-half.x, -half.v, Monodromy::without).end;
   const std::optional<Orbit> found =
       of.period_ratio == 1 ? solver.near_motion_from(later) : solver.near(later, of.period_ratio);
-  searched_ += solver.count();
   if (!found) return std::nullopt;
-  SteadyState image = outlined(*found);
-  if (!is_mirror_image(image, of)) return std::nullopt;
-  return image;
+  SteadyState other = outlined(*found);
+  if (!is_mirror_image(other, of)) return std::nullopt;
+  return other;
 }
 
 void OrbitFinder::add_mirror_images(SteadyState& result) {
-  if (motions_ != Motions::may_part || map_.engine().has_past()) return;
+  if (motions_ != Motions::may_part || map_.engine().has_past() || !may_have_mirror_images(model_.excitation))
+    return;
+  OrbitSolver solver(model_, options_.tolerance, rounding_closure_);
+  solver.limit(patience_with(map_.engine().accuracy(), options_.most_work).work);
   std::vector<SteadyState> states = others_;
   states.insert(states.begin(), result);
   const std::size_t count = states.size();
@@ -201,13 +216,14 @@ void OrbitFinder::add_mirror_images(SteadyState& result) {
     const SteadyState of = states[i];
     if (of.never_moves() || is_mirror_image(of, of)) continue;
     if (std::ranges::none_of(states, [&](const SteadyState& a) { return is_mirror_image(a, of); })) {
-      std::optional<SteadyState> image = mirror_image(of);
-      if (!image) continue;
-      result.others.push_back(other_state(*image));
-      states.push_back(std::move(*image));
+      std::optional<SteadyState> other = mirror_image(of, solver);
+      if (!other) continue;
+      result.others.push_back(other_state(*other));
+      states.push_back(std::move(*other));
     }
     if (i == 0) result.warnings.emplace_back("asymmetric: the mirror image of this steady state is another one");
   }
+  searched_ += solver.count();
 }
 
 /// Under weak damping a motion closes within the tolerance long before it has reached its orbit. What is left to
