@@ -111,12 +111,12 @@ Branch Continuation::run() {
   effort_.count += start.certificate;
   if (!start.outcome.ok()) return std::move(branch_);
   ratio_ = start.period_ratio;
-  std::optional<ForcingPeriod> begin = period(from_, start.start);
+  std::optional<Node> begin = node_at(from_, start.start);
   if (!begin) {
     branch_.outcome = {core::OutcomeKind::event_limit, "the period of the first orbit could not be followed"};
     return std::move(branch_);
   }
-  Node node{from_, std::move(*begin), {}, {}};
+  Node node = std::move(*begin);
   branch_.points.push_back(describe(node));
   if (is_held(start)) return ended(BranchEnd::rest, where_held(from_, to_));
   const Index n = node.period.monodromy.cols();
@@ -179,7 +179,7 @@ bool Continuation::ends_ahead(const Node& node) const {
   if (branch_.points.size() < 2) return false;
   const BranchPoint& before = branch_.points[branch_.points.size() - 2];
   const double last = largest_multiplier(before);
-  Node previous{before.parameter, {}, {}, {}};
+  Node previous{before.parameter, {}, {}, {}, {}};
   previous.period.begin = before.state.start;
   const double growth = node.period.radius() - last;
   return growth > 0.0 && way(node, previous).norm() * last < steps * options_.smallest_step * growth;

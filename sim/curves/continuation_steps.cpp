@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "friction_models/state_sizes.hpp"
+#include "sim/curves/state_reach.hpp"
 #include "sim/engine/drive.hpp"
 
 namespace dualdamp::sim {
@@ -114,12 +115,14 @@ Model Continuation::at(double parameter) const {
 
 double Continuation::omega(double parameter) const { return at(parameter).excitation.frequency; }
 
-/// None if the motion was not followed over the whole period.
-std::optional<ForcingPeriod> Continuation::period(double parameter, const State& start) {
+/// The period from `start`; none if the motion was not followed over the whole of it.
+std::optional<Node> Continuation::node_at(double parameter, const State& start) {
   CountedMap map(at(parameter), ratio_, effort_);
-  ForcingPeriod result = map.from(start, Monodromy::with);
+  StateReach reach(model_, map.engine());
+  Node node{parameter, map.from(start, Monodromy::with, &reach), {}, {}, {}};
   if (!map.outcome().ok()) return std::nullopt;
-  return result;
+  node.reach = reach.values();
+  return node;
 }
 
 /// Scale of the parameter. The range may span decades, so at its lower end the scale is the parameter itself.
@@ -140,7 +143,11 @@ VectorXd Continuation::scale(const Node& node) const {
     const friction::Memory& memory = node.period.begin.memories[i];
     std::vector<double> sizes(memory.state.size());
     model_.friction[i].scales(memory, sizes);
-    for (const double own : sizes) result[next++] = own == friction::size_of_velocity ? speed : size;
+    for (const double own : sizes) {
+      const double least_size = own == friction::size_of_velocity ? speed : own > 0.0 ? own : size;
+      const auto state = static_cast<std::size_t>(next - 2);
+      result[next++] = std::max(least_size, state < node.reach.size() ? node.reach[state] : 0.0);
+    }
   }
   result[z.size()] = parameter_scale(node.parameter);
   return result;
@@ -207,13 +214,16 @@ Solution Continuation::along_branch(const Node& node, const VectorXd& slope, con
 /// The orbit at a fixed parameter nearest to `guess`.
 std::optional<Node> Continuation::orbit(double parameter, const State& guess) {
   CountedMap map(at(parameter), ratio_, effort_);
-  Node node{parameter, map.from(guess, Monodromy::with), {}, {}};
+  StateReach reach(model_, map.engine());
+  Node node{parameter, map.from(guess, Monodromy::with, &reach), {}, {}, {}};
   double before = std::numeric_limits<double>::infinity();
   for (int i = 0; i < max_corrections && map.outcome().ok(); ++i) {
+    node.reach = reach.values();
     if (closes(node, before)) return node;
     before = node.period.closure(omega(parameter));
     const VectorXd step = newton_step(node.period, omega(parameter));
-    node.period = map.from(step.size() > 0 ? displaced(node.period.begin, step) : node.period.end, Monodromy::with);
+    node.period =
+        map.from(step.size() > 0 ? displaced(node.period.begin, step) : node.period.end, Monodromy::with, &reach);
   }
   return std::nullopt;
 }
@@ -232,18 +242,18 @@ std::optional<Node> Continuation::correct(const Node& from, double step) {
   const VectorXd size = scale(from);
   const Index n = size.size() - 1;
   const VectorXd change_there = predicted(from, step);
-  Node node{from.parameter + change_there[n], {}, {}, {}};
+  double parameter = from.parameter + change_there[n];
   State start = displaced(from.period.begin, change_there.head(n));
   double before = std::numeric_limits<double>::infinity();
   for (int i = 0; i < max_corrections; ++i) {
-    if (!(node.parameter > 0.0)) return std::nullopt;
-    std::optional<ForcingPeriod> trial = period(node.parameter, start);
-    if (!trial || !trial->ends_in_its_mode()) return std::nullopt;
-    node.period = std::move(*trial);
+    if (!(parameter > 0.0)) return std::nullopt;
+    std::optional<Node> trial = node_at(parameter, start);
+    if (!trial || !trial->period.ends_in_its_mode()) return std::nullopt;
+    Node& node = *trial;
     const VectorXd gap = coordinates(node.period.end) - coordinates(node.period.begin);
     const bool is_near = way(from, node).norm() <= farthest(step) * step;
     if (closes(node, before)) {
-      if (is_near) return node;
+      if (is_near) return trial;
       nearest_ = std::numeric_limits<double>::infinity();  // an orbit, but not the one that continues the branch
       return std::nullopt;
     }
@@ -259,7 +269,7 @@ std::optional<Node> Continuation::correct(const Node& from, double step) {
     const VectorXd change = along_branch(node, *slope, from.tangent.cwiseQuotient(size), right).value;
     if (!change.allFinite()) return std::nullopt;
     start = displaced(start, change.head(n));
-    node.parameter += change[n];
+    parameter += change[n];
   }
   return std::nullopt;
 }
@@ -336,6 +346,12 @@ bool Continuation::turns_too_far(const Node& from, const Node& node, const Vecto
   return tangent.dot(from.tangent) < least || tangent.dot(way) < least || from.tangent.dot(way) < least;
 }
 
+/// Derivative of the tangent from the last node to this one, in the sizes of this one.
+VectorXd Continuation::bend_at(const Node& node, const Node& from) const {
+  const VectorXd before = from.tangent.cwiseProduct(scale(from)).cwiseQuotient(scale(node)).normalized();
+  return (node.tangent - before) / arc(from, node).norm();
+}
+
 /// The next point with its tangent; halves `step` as often as needed. None: the branch ends, or no step converged
 /// although `nearest_` is small.
 std::optional<Node> Continuation::advance(const Node& from, double& step) {
@@ -362,7 +378,7 @@ std::optional<Node> Continuation::advance(const Node& from, double& step) {
     if (turns && !may_fold_between(from.period, node->period)) next = -*next;
     if (alike && step > 16.0 * options_.smallest_step && turns_too_far(from, *node, *next)) continue;
     node->tangent = *next;
-    if (alike) node->bend = (*next - from.tangent) / arc(from, *node).norm();
+    if (alike) node->bend = bend_at(*node, from);
     return node;
   }
   return std::nullopt;

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "sim/curves/continuation.hpp"
 #include "sim/orbits/newton.hpp"
@@ -18,8 +19,9 @@ namespace dualdamp::sim {
 struct Node {
   double parameter = 0.0;
   ForcingPeriod period;
-  Eigen::VectorXd tangent;  ///< scaled: coordinates, then the parameter; empty before the first step
-  Eigen::VectorXd bend;     ///< derivative of the tangent along the branch; empty if it is not known
+  Eigen::VectorXd tangent;    ///< scaled: coordinates, then the parameter; empty before the first step
+  Eigen::VectorXd bend;       ///< derivative of the tangent along the branch; empty if it is not known
+  std::vector<double> reach;  ///< of the laws' states within the period (`state_reach.hpp`)
 };
 
 /// What a branch has cost so far, including failed attempts, and what one period of an attempt may cost.
@@ -40,9 +42,9 @@ class CountedMap : public PeriodMap {
   CountedMap(const CountedMap&) = delete;
   CountedMap& operator=(const CountedMap&) = delete;
 
-  [[nodiscard]] ForcingPeriod from(const State& state, Monodromy monodromy) {
+  [[nodiscard]] ForcingPeriod from(const State& state, Monodromy monodromy, PeriodObserver* observer = nullptr) {
     renew_limit();
-    return PeriodMap::from(state, monodromy);
+    return PeriodMap::from(state, monodromy, observer);
   }
   [[nodiscard]] ForcingPeriod next(Monodromy monodromy) {
     renew_limit();
@@ -80,7 +82,7 @@ class Continuation {
   void limit_by_accuracy(double accuracy);
   [[nodiscard]] bool closes(const Node& node, double before);
   [[nodiscard]] Model at(double parameter) const;
-  [[nodiscard]] std::optional<ForcingPeriod> period(double parameter, const State& start);
+  [[nodiscard]] std::optional<Node> node_at(double parameter, const State& start);
   [[nodiscard]] double omega(double parameter) const;
   [[nodiscard]] double parameter_scale(double parameter) const;
   [[nodiscard]] Eigen::VectorXd scale(const Node& node) const;
@@ -95,6 +97,7 @@ class Continuation {
   [[nodiscard]] std::optional<Node> correct(const Node& from, double step);
   [[nodiscard]] std::optional<Node> cross_modes(const Node& from, double step);
   [[nodiscard]] Eigen::VectorXd predicted(const Node& from, double step) const;
+  [[nodiscard]] Eigen::VectorXd bend_at(const Node& node, const Node& from) const;
   [[nodiscard]] Eigen::VectorXd arc(const Node& from, const Node& node) const;
   [[nodiscard]] bool turns_too_far(const Node& from, const Node& node, const Eigen::VectorXd& tangent) const;
   [[nodiscard]] Eigen::Vector3d way(const Node& from, const Node& node) const;

@@ -4,12 +4,14 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "friction_models/laws/attached_mass.hpp"
 #include "friction_models/laws/bouc_wen.hpp"
 #include "friction_models/laws/coulomb.hpp"
 #include "friction_models/laws/dahl.hpp"
 #include "friction_models/laws/lugre.hpp"
 #include "friction_models/laws/stribeck.hpp"
 #include "sim/curves/continuation.hpp"
+#include "tests/support/make_law.hpp"
 
 using namespace dualdamp;
 using sim::BranchParameter;
@@ -134,4 +136,31 @@ TEST_CASE("a steep branch under a falling friction law keeps its tangent") {
   CHECK(branch.changes[0].kind == sim::ChangeKind::flip);
   CHECK(branch.changes[4].kind == sim::ChangeKind::fold);
   CHECK(branch.changes[4].parameter == Approx(0.25560071).epsilon(1e-6));
+}
+
+TEST_CASE("steps along a branch are measured by how far each state reaches in its own unit", "[sim][curves]") {
+  // At 12 rad/s the attached mass moves a hundred times as far as the mass that it holds nearly at rest; the
+  // delayed velocity of the lag is a velocity. Measured by the motion of the mass in metres, the steps became so
+  // short that both branches ended with their work, after 2000 points.
+  sim::Model model;
+  model.oscillator = {.mass = 1.0, .stiffness = 100.0, .damping = 1.0};
+  model.excitation = {.type = sim::ExcitationType::base_harmonic, .frequency = 12.0};
+  model.friction.emplace_back(friction::Coulomb(2.0, 2.0));
+  model.friction.emplace_back(friction::AttachedMass(0.05, 7.3, 0.002));
+  const sim::Branch attached = continue_branch(model, BranchParameter::amplitude, 0.06, 0.3);
+  REQUIRE(attached.outcome.ok());
+  CHECK(attached.end == sim::BranchEnd::range);
+  CHECK(attached.points.back().parameter == 0.3);
+  CHECK(attached.points.size() < 400);
+  CHECK(largest_error(attached, model, &sim::Excitation::amplitude, 60) < 1e-8);
+
+  model.excitation.amplitude = 0.1;
+  model.friction = {
+      test::law("friction_lag", {{"kinetic", 2.0}, {"static", 2.2}, {"stribeck_velocity", 0.2}, {"lag", 0.01}})};
+  const sim::Branch lagging = continue_branch(model, BranchParameter::frequency, 6.0, 16.0);
+  REQUIRE(lagging.outcome.ok());
+  CHECK(lagging.end == sim::BranchEnd::range);
+  CHECK(lagging.points.back().parameter == 16.0);
+  CHECK(lagging.points.size() < 800);
+  CHECK(largest_error(lagging, model, &sim::Excitation::frequency, 150) < 1e-8);
 }
