@@ -155,6 +155,7 @@ class SmoothEngine final : public Engine {
   void rates_of_motion(const Flow& flow, std::span<const double> X, double t, std::vector<double>& rates) const;
   [[nodiscard]] Eigen::VectorXd rates_now() const;
   void track_step();
+  [[nodiscard]] bool forgets_speed() const;
   void lead_near_stop();
   void drop_lead();
   [[nodiscard]] Eigen::RowVectorXd guard_gradient(std::size_t watch, double t, double& by_time) const;

@@ -123,20 +123,25 @@ void SmoothEngine::track_step() {
   note_course();
 }
 
-/// Near a stop, at the begin of a step: the perturbed motion is where the velocity is the same. A change of a speed
-/// that dies out within the step is left as it is where the motion's own acceleration is not known: the lead would
-/// be a large number, and the small change a difference of two.
+/// Whether the first step, or the one behind an event, leads away from the stop while a change of its speed dies
+/// out. The acceleration at its begin is then not known: a lead would be a large number, and what is left of the
+/// change a difference of two. Where the speed passes zero within the step the field is that of the other branch.
+bool SmoothEngine::forgets_speed() const {
+  constexpr int parts = 16;
+  if (course_.length > 0.0 || !(own_paces(flow_, X_, local_time_)[1] * taken_ > 1.0)) return false;
+  std::vector<double> state(X_.size());
+  for (int i = 0; i <= parts; ++i) {
+    stepper_->at(static_cast<double>(i) / parts, state);
+    if (!(friction::sign(direction_) * state[1] > 0.0)) return false;
+  }
+  return true;
+}
+
+/// Near a stop, at the begin of a step: the perturbed motion is where the velocity is the same.
 void SmoothEngine::lead_near_stop() {
   if (direction_ == friction::Direction::none) return;
-  const auto is_near = [&] { return std::abs(X_[1]) < near_stop * shortest_period() * std::abs(rates_[1]); };
   flow_.evaluate(X_, local_time_, rates_);
-  if (!is_near()) return;
-  if (course_.length == 0.0) {
-    if (own_paces(flow_, X_, local_time_)[1] * taken_ > 1.0) return;
-  } else {
-    rates_of_motion(flow_, X_, local_time_, rates_);
-    if (!is_near()) return;
-  }
+  if (!(std::abs(X_[1]) < near_stop * shortest_period() * std::abs(rates_[1])) || forgets_speed()) return;
   const Eigen::RowVectorXd ahead = columns_.row(1) / rates_[1];
   columns_ -= as_vector(rates_) * ahead;
   columns_.row(1).setZero();
