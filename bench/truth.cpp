@@ -13,6 +13,7 @@ void check_truth(scenarios::CheckedFile& file) {
     return;
   }
   const scenarios::Json& friction = file.values().at("system").at("friction");
+  const auto unit = [&](const char* name) { return core::unit_for(file.coordinate(), name); };
   const bool plain = friction.is_object() && friction.value("law", "") == "coulomb" &&
                      friction.contains("kinetic") && friction.contains("static") &&
                      friction.at("static") == friction.at("kinetic") && friction.size() == 3;
@@ -21,9 +22,10 @@ void check_truth(scenarios::CheckedFile& file) {
                   allowed);
   else if (scenarios::number(friction.at("kinetic")) == 0.0)
     file.complain("system.friction.kinetic",
-                  "'system.friction.kinetic' is out of range: numbers are relative to it", "> 0 N", "0 N");
+                  "'system.friction.kinetic' is out of range: numbers are relative to it", "> 0 " + unit("N"),
+                  "0 " + unit("N"));
   if (file.number_at("system", "damping").value_or(1.0) <= 0.0)
-    file.complain("system", "'system' has no damping: numbers are relative to it", "damping > 0 N.s/m");
+    file.complain("system", "'system' has no damping: numbers are relative to it", "damping > 0 " + unit("N.s/m"));
 }
 
 }  // namespace dualdamp::bench

@@ -143,7 +143,7 @@ void check_mass_and_stiffness(CheckedFile& file) {
   if (!m || !k || *k == 0.0) return;
   constexpr double least = 1e-40;
   constexpr double most = 1e40;
-  const auto check = [&](double value, const char* name, const char* allowed) {
+  const auto check = [&](double value, const char* name, const std::string& allowed) {
     if (value >= least && value <= most) return;
     file.complain(
         file.stands_in_file("system", "mass") ? "system.mass" : "system",
@@ -151,7 +151,8 @@ void check_mass_and_stiffness(CheckedFile& file) {
         "a mass of " + core::format_number(*m, 6) + " on a stiffness of " + core::format_number(*k, 6) + " (SI)");
   };
   check(std::sqrt(*k / *m), "natural frequency", "1e-40 rad/s to 1e40 rad/s");
-  check(std::sqrt(*m) * std::sqrt(*k), "critical damping", "sqrt(m k) of 1e-40 to 1e40 N.s/m");
+  check(std::sqrt(*m) * std::sqrt(*k), "critical damping",
+        "sqrt(m k) of 1e-40 to 1e40 " + core::unit_for(file.coordinate(), "N.s/m"));
 }
 
 /// Squares and products of all numbers must be neither zero nor infinite: below 1e-160 m the energies of a motion

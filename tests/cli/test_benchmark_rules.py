@@ -80,6 +80,19 @@ class Rules(unittest.TestCase):
             self.assertRegex(told, r"an amplitude above F0/k = 0\.00\d+ m[,;:) \n]")
         self.call("run", self.scenario, "--set", "system.friction.kinetic=11.7 N", "--dry-run")  # k times 7.5 mm is 11.76 N
 
+    def test_refusals_of_an_angle_have_the_units_of_a_rotation(self):
+        text = self.scenario.read_text()
+        for old, new in (("1.042 kg", "1.042 kg.m^2"), ("1568 N/m", "1568 N.m/rad"), ("4.39 N}", "4.39 N.m}"), (" mm", " mrad"), (" um", " urad")):
+            text = text.replace(old, new)
+        self.scenario.write_text(text)
+        self.call("run", self.scenario, "--dry-run")
+        told = self.call("run", self.scenario, "--set", "system.friction.kinetic=12 N.m", "--dry-run", status=3).stderr
+        self.assertRegex(told, r"an amplitude above F0/k = 0\.00765 rad\n +found: 0\.0075 rad\n")
+        told = self.call("run", self.scenario, "--set", "system.friction.kinetic=0 N.m", "--dry-run", status=3).stderr
+        self.assertIn("allowed: > 0 N.m\n", told)
+        told = self.call("run", self.scenario, "--set", "system.damping_ratio=0", "--dry-run", status=3).stderr
+        self.assertIn("damping > 0 N.m.s/rad\n", told)
+
     def test_equal_severities_are_refused(self):
         told = self.call("run", self.scenario, *setting(severities="[0.1, 0.01, 0.1]"), "--dry-run", status=3).stderr
         self.assertIn("'analysis.severities' has a value twice", told)

@@ -197,6 +197,17 @@ class Prediction(case.Case):
         self.assert_right(self.predicted("by_decay", first, *told))
         self.assert_right(self.predicted("by_decay", self.record("again.csv", "{type: none}", initial=0.03)))
 
+    def test_an_assumed_drive_of_an_angle_has_the_units_of_a_rotation(self):
+        drive = "{type: %s, amplitude: %s, frequency: 4 Hz}"
+        decay = self.record("decay.csv", "{type: none}", initial=0.04)
+        turning = ("--mass", "1 kg.m^2", "--stiffness", "1000 N.m/rad")
+        for kind, amplitude, unit in (("base_harmonic", "5 mm", "rad"), ("force_harmonic", "5 N", "N.m")):
+            for record in (decay, self.record("driven.csv", drive % (kind, amplitude))):
+                record.write_text(record.read_text().replace("x [m]", "x [rad]"))
+            told = ("--set", "excitation=" + drive % (kind, amplitude.split()[0] + ("e-3 rad" if unit == "rad" else " N.m")))
+            self.run_program("fit", "coulomb", "driven.csv", *turning, *told, "--no-profile", "--starts", "2", "--out", kind)
+            self.assertRegex(self.run_program("predict", kind, decay, status=4).stderr, rf"\({kind}, [0-9.]+ {unit}, 4 Hz\)")
+
     def test_the_times_of_a_record_are_those_of_its_drive(self):
         for drive in ("{type: base_chirp, amplitude: 5 mm, from: 2 Hz, to: 6 Hz, duration: 2 s}",
                       "{type: base_chirp, amplitude: 5 mm, from: 2 Hz, to: 6 Hz, duration: 2 s, spacing: log}",
