@@ -203,7 +203,7 @@ TEST_CASE("A history of any length from one period on gives a pair") {
   }
 }
 
-TEST_CASE("A warning tells what is wrong with a pair; what is no steady state gives none") {
+TEST_CASE("A warning says what is wrong with a pair; what is not a steady state gives none") {
   History history = driven_bearing_at(3.0 * soft_x_f, natural);
   const auto warnings = [](const History& h, double frequency = unknown) {
     std::string text;
@@ -220,7 +220,7 @@ TEST_CASE("A warning tells what is wrong with a pair; what is no steady state gi
         0.05 * 3.0 * soft_x_f * std::cos(3.0 * natural * static_cast<double>(i) / distorted.sample_rate);
   CHECK(warnings(distorted).find("its harmonic 3 has 5 % of the fundamental") != std::string::npos);
 
-  CHECK(warnings(history, 1.3 * natural).find("no steady state at the frequency") != std::string::npos);
+  CHECK(warnings(history, 1.3 * natural).find("not a steady state at the frequency") != std::string::npos);
   testing::Normal normal(3);
   History random = history;
   for (double& x : random.x) x = normal();
