@@ -179,7 +179,7 @@ analysis: {{type: fit, data: [{{file: loop.csv, loop: true}}, {{file: run.csv}}]
             said = [warning for warning in document["warnings"] if "the steady state may be off by" in warning]
             self.assertEqual(bool(said), tolerance == "1e-6", document["warnings"])
         off = max(abs(loose / tight - 1) for loose, tight in zip(results["1e-6"], results["1e-11"]))
-        self.assertGreater(off, 1e-5)
+        self.assertGreater(off, 1e-7)
         self.assertLess(off, 1e-3)
 
     def test_lengths_and_forces_beyond_all_machines(self):
