@@ -26,6 +26,9 @@ constexpr double shortest_probe = 1e-20;
 constexpr double equal = 1e-12;
 /// A guard that has grown by this part of what cancels in it has grown beyond rounding.
 constexpr double risen = 1e-14;
+/// Steps to a crossing, and the last correction of their length, as a part of it, where Newton's method converges.
+constexpr int most_corrections = 5;
+constexpr double settled = 1e-6;
 /// The rate of a guard is a difference over this part of a step.
 constexpr double part_of_rate = 1e-5;
 
@@ -364,20 +367,6 @@ bool SmoothEngine::may_be_swing_of_output(const Hit& hit) const {
   return is<SlipEnd>(watch.ending) && watch.values.back() > 0.0 && taken_ > shortest_part * longest_step();
 }
 
-/// Whether a slip is found to end where the equation of motion drives the mass on: friction that turns over within
-/// a speed far below the step's reach, so that an explicit step passes over the creep at which the forces balance.
-bool SmoothEngine::ends_against_flow(const Hit& hit) const {
-  if (!is<SlipEnd>(watches_[hit.watch].ending)) return false;
-  constexpr double clear = 1e-6;
-  flow_.evaluate(X_, local_time_, rates_);
-  const double before = std::abs(rates_[1]);
-  probe_.resize(end_.size());
-  stepper_->at(hit.part, probe_);
-  probe_[1] = 0.0;
-  flow_.evaluate(probe_, local_time_ + hit.part * taken_, rates_);
-  return friction::sign(direction_) * rates_[1] > clear * before;
-}
-
 /// Repeats the step so that it ends at the crossing, and corrects its length by Newton's method. False: the shorter
 /// step is not accurate; an implicit step that overran the crossing may have computed what only lies beyond it.
 bool SmoothEngine::land(const Hit& hit) {
@@ -395,17 +384,20 @@ bool SmoothEngine::land(const Hit& hit) {
   // An implicit step knows its end to a thousandth of what is allowed. A law with guards may stop its slider here
   // too and is told the time as well as it can be.
   const double known = watches_.size() == 1 && is<SlipEnd>(watch.ending) ? 1e-3 * allowed_[1] : 0.0;
-  for (int i = 0; i < 5; ++i) {
+  for (int i = 0;; ++i) {
     if (!stepper_->step(flow_, X_, local_time_, h, allowed_, end_, error_) || excess_error() > 1.0) return false;
     taken_ = h;
     evaluate_guards(end_, local_time_ + h, guard_values_);
     const double value = guard_values_[hit.watch];
-    if (std::abs(value) <= std::max(0.1 * resolution * size, known)) break;
+    if (std::abs(value) <= std::max(0.1 * resolution * size, known)) return true;
     const double correction = -value / guard_rate(hit.watch, end_, local_time_ + h, h);
-    if (!(std::abs(correction) < 0.1 * h) || std::abs(correction) < 1e-16 * whole) break;
+    const bool is_within_reach = std::abs(correction) < 0.1 * h;
+    if (std::abs(correction) < 1e-16 * whole || (i == 0 && !is_within_reach)) return true;
+    // Of a state that has died out, explicit steps at the limit of stability leave only their own swinging: its
+    // zero recedes from each correction, past the crossings of other guards.
+    if (i == most_corrections - 1 || !is_within_reach) return std::abs(correction) < settled * h;
     h += correction;
   }
-  return true;
 }
 
 /// Where a slip ends. Where the pull equals the limit within rounding, what both do next decides.

@@ -157,4 +157,18 @@ std::string SmoothEngine::infinite_force() {
   return {};
 }
 
+/// Whether a slip is found to end where the equation of motion drives the mass on: friction that turns over within
+/// a speed far below the step's reach, so that an explicit step passes over the creep at which the forces balance.
+bool SmoothEngine::ends_against_flow(const Hit& hit) const {
+  if (!is<SlipEnd>(watches_[hit.watch].ending)) return false;
+  constexpr double clear = 1e-6;
+  flow_.evaluate(X_, local_time_, rates_);
+  const double before = std::abs(rates_[1]);
+  probe_.resize(end_.size());
+  stepper_->at(hit.part, probe_);
+  probe_[1] = 0.0;
+  flow_.evaluate(probe_, local_time_ + hit.part * taken_, rates_);
+  return friction::sign(direction_) * rates_[1] > clear * before;
+}
+
 }  // namespace dualdamp::sim
