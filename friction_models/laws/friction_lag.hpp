@@ -40,9 +40,10 @@ class FrictionLag {
   }
   [[nodiscard]] double static_limit(const Memory& memory, const Instant& now) const { return level(memory, now); }
   void scales(const Memory&, std::span<double> scales) const { scales[0] = curve_.velocity(); }
-  /// |w|: the level has a kink where w changes its sign, some time after v does.
-  void guards(const Memory& memory, const Instant&, Direction, std::vector<double>& values) const {
-    if (memory.mode != 0) values.push_back(memory.mode * memory.state[0]);
+  /// |w|: the level has a kink where w changes its sign, some time after v does. Of a mass at rest w dies out and
+  /// keeps its sign; only its rounding would cross zero.
+  void guards(const Memory& memory, const Instant&, Direction direction, std::vector<double>& values) const {
+    if (memory.mode != 0 && direction != Direction::none) values.push_back(memory.mode * memory.state[0]);
   }
   void jump(Memory& memory, Trigger trigger, const Instant&, Direction direction) const;
 

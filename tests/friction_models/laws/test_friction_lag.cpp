@@ -10,6 +10,7 @@
 #include "friction_models/registry.hpp"
 #include "sim/conformance/law_conformance.hpp"
 #include "sim/law_host/law_host.hpp"
+#include "sim/motion/simulate.hpp"
 
 using namespace dualdamp;
 using friction::DelayedFriction;
@@ -114,4 +115,25 @@ TEST_CASE("friction_lag: the level peaks where w changes its sign", "[friction][
   CHECK(host.last_event().t == Approx(lag * std::numbers::ln2).epsilon(1e-9));
   CHECK(host.memory().mode == -1);
   CHECK(host.force() == Approx(-level(1.0 - 2.0 / std::numbers::e)).epsilon(1e-9));
+}
+
+TEST_CASE("friction_lag: the late velocity of a mass at rest makes no events", "[friction][friction_lag]") {
+  // It dies out and keeps its sign; of its rounding, thousands of zeros were events.
+  sim::Model model;
+  model.oscillator = {.mass = 5.7, .stiffness = 15400.0, .damping = 229.0};
+  model.friction = {Law(FrictionLag({20.0, 44.0, 0.0075}, 1e-3))};
+  model.excitation = {
+      .type = sim::ExcitationType::base_harmonic, .amplitude = 0.0045, .frequency = 12.0, .phase = 1.16};
+  model.solver.kind = sim::SolverKind::explicit_steps;
+  const std::vector<sim::Event> events = sim::simulate(model, {.duration = 5.0}).events;
+  bool rests = false;
+  int while_at_rest = 0;
+  int stops = 0;
+  for (const sim::Event& event : events) {
+    while_at_rest += rests && event.kind == sim::EventKind::switching ? 1 : 0;
+    stops += event.kind == sim::EventKind::stop ? 1 : 0;
+    if (event.kind != sim::EventKind::switching) rests = event.kind == sim::EventKind::stop;
+  }
+  CHECK(stops > 10);
+  CHECK(while_at_rest == 0);
 }
