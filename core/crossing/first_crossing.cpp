@@ -52,8 +52,9 @@ double clear_panel_end(const ExponentialBasis& basis, std::span<const Guard> gua
       decided = decided && (value >= guard_rounding * guard.amplitude ||
                             value >= guard_rounding * bound(basis, guard.value, *values, b, 0.0));
     }
-    if (decided) break;
-    b = a + 0.77 * (b - a);
+    const double nearer = a + 0.77 * (b - a);
+    if (decided || nearer == a) break;
+    b = nearer;
     basis.evaluate(b, room);
     values = &room;
   }
@@ -85,12 +86,18 @@ struct Panel {
   bool is_last = false;  ///< b is the horizon
 };
 
-/// The panel that begins at a. `room` holds the values at its end unless the basis has them ready.
+/// A time later than a, beyond the rounding of both.
+double later_than(double a) { return a + 4.0 * std::numeric_limits<double>::epsilon() * a; }
+
+/// The panel that begins at a. A panel narrower than the rounding of time, such as beside bounds that have left the
+/// range of double precision, would not advance. `room` holds the values at its end unless the basis has them
+/// ready.
 Panel next_panel(const ExponentialBasis& basis, std::span<const Guard> guards, double a, double horizon,
                  const ExponentialBasis::Values& at_a, ExponentialBasis::Values& room) {
   const double width = panel_width(basis, guards, at_a, a, horizon - a);
-  Panel panel{.a = a, .b = std::min(a + width, horizon), .at_a = &at_a, .at_b = &room};
-  if (!(width == basis.panel() && panel.b < horizon) || basis.has_chains()) {
+  const bool advances = a + width > a;
+  Panel panel{.a = a, .b = std::min(advances ? a + width : later_than(a), horizon), .at_a = &at_a, .at_b = &room};
+  if (!(width == basis.panel() && panel.b < horizon && advances) || basis.has_chains()) {
     basis.evaluate(panel.b, room);
   } else if (a == 0.0) {
     panel.at_b = &basis.over_panel();

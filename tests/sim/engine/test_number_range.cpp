@@ -6,6 +6,7 @@
 
 #include "friction_models/laws/coulomb.hpp"
 #include "sim/engine/engine.hpp"
+#include "tests/support/make_law.hpp"
 
 using namespace dualdamp;
 
@@ -35,4 +36,33 @@ TEST_CASE("a motion that leaves the range of double precision gives out numbers 
     CHECK(engine->outcome().kind == core::OutcomeKind::not_finite);
     CHECK(engine->outcome().reason == "the motion left the range of double precision");
   }
+}
+
+TEST_CASE("a motion beside a fast decay leaves the range of double precision at once") {
+  // A slip grows by a factor of e in 1.3 s beside a contact that decays within 1e-16 s. Near the end of the range,
+  // after 942 s, panels as narrow as that decay do not advance beyond the rounding of time: the search took 8 s.
+  sim::Model model;
+  model.oscillator = {.mass = 762.7311862185226, .stiffness = 61.90184528425616, .damping = -656.6481953624643};
+  model.excitation = {.type = sim::ExcitationType::base_harmonic,
+                      .amplitude = 0.7857855280727175,
+                      .frequency = 0.00041027930849503794,
+                      .phase = 1.1502662378786754};
+  model.friction = {test::law("contact_compliance", {{"kinetic", 0.0002355008624421857},
+                                                     {"contact_stiffness", 324673442.69351846},
+                                                     {"contact_damping", 5.056484589506709e-08}})};
+  const std::unique_ptr<sim::Engine> engine = sim::make_engine(model);
+  while (engine->next(1000.0) != nullptr) {
+  }
+  CHECK(engine->outcome().kind == core::OutcomeKind::not_finite);
+  CHECK(engine->outcome().reason == "the motion left the range of double precision");
+  CHECK(engine->work() < 10'000);
+  // Before that it is followed as any other: by the faster of the two growing parts.
+  const std::unique_ptr<sim::Engine> shorter = sim::make_engine(model);
+  while (shorter->next(800.0) != nullptr) {
+  }
+  CHECK(shorter->outcome().ok());
+  const sim::Oscillator& rig = model.oscillator;
+  const double growth =
+      (-rig.damping + std::sqrt(rig.damping * rig.damping - 4.0 * rig.mass * rig.stiffness)) / (2.0 * rig.mass);
+  CHECK(shorter->velocity() / shorter->position() == Approx(growth).epsilon(1e-9));
 }
