@@ -22,6 +22,8 @@ namespace {
 
 /// An amplitude that has decayed by exp(-gone) has died out.
 constexpr double gone = 45.0;
+/// In this part of the fastest element's time no value of the motion changes.
+constexpr double still = std::numeric_limits<double>::epsilon();
 
 }  // namespace
 
@@ -181,13 +183,17 @@ void ExactEngine::reset_sensitivity() {
 
 /// The end of a slip: stick or slip.
 void ExactEngine::settle() {
+  const Direction refused = ended_at_once_ && !can_stick_ ? direction_ : Direction::none;
   change_direction(Direction::none);
   collect(false);
   const double pull = pull_now();
   const double limit = total_->limit.constant;
   const double scale = force_scale() + limit;
-  const Direction direction =
+  Direction direction =
       direction_after_slip(pull, limit, clearly * scale, [&] { return leaves_limit(rounding * scale); });
+  // The sum of forces is within the rounding of a stiff bond, and the motion in this direction says the opposite.
+  if (refused != Direction::none && direction == refused)
+    direction = refused == Direction::forward ? Direction::backward : Direction::forward;
   if (direction != Direction::none) change_direction(direction);
 }
 
@@ -381,7 +387,8 @@ const Interval* ExactEngine::step(double left, bool to_period_end) {
   if (!at_once && !search(left)) return nullptr;
   const core::Crossing& end = crossing_;
   instant_scale_ = at_once ? std::max(instant_scale_, force_scale_) : force_scale_;
-  if (!comes_to_an_end(at_once || left == 0.0)) return nullptr;
+  const bool stands = !at_once && end.found && end.s * mode_->basis().fastest() < still;
+  if (!comes_to_an_end(at_once || left == 0.0 || stands)) return nullptr;
   describe_interval(begin.t);
   const bool ends = end.found || by_schedule;
   if (tracking_) track_motion(begin, end.s);
@@ -392,7 +399,9 @@ const Interval* ExactEngine::step(double left, bool to_period_end) {
   if (end.found) {
     const Ending ending = watches_[static_cast<std::size_t>(end.guard)].ending;
     if (const auto* guard = std::get_if<LawGuard>(&ending)) changed_law_ = guard->law;
+    ended_at_once_ = stands && begin.v == 0.0 && is<SlipEnd>(ending);
     interval_->ending = act(ending);
+    ended_at_once_ = false;
   } else if (by_schedule) {
     interval_->ending = act_on_schedule(due);
   }

@@ -9,6 +9,7 @@
 
 #include "friction_models/laws/contact_compliance.hpp"
 #include "tests/sim/engine/exact_motions.hpp"
+#include "tests/support/make_law.hpp"
 #include "tests/support/random.hpp"
 
 using namespace dualdamp;
@@ -269,4 +270,33 @@ TEST_CASE("A mass that no law holds moves on where a slow drive turns beside a f
     CHECK(late >= 18);
     CHECK(late <= 22);
   }
+}
+
+TEST_CASE("A reversal within the rounding of a stiff bond is one reversal, or a few within a turn", "[exact]") {
+  // The force that turns the mass, 2e-8 N, is far below the rounding of the bonds, 4e-6 N: the sum of the forces
+  // and the motion said different directions, and the mass began a slip of 3e-41 s again and again.
+  Model model;
+  model.oscillator = {.mass = 0.0012242718910256858, .stiffness = 1090.4475103472012, .damping = 6266.973175373381};
+  model.excitation = {
+      .type = ExcitationType::force_harmonic, .amplitude = 303.32490217983826, .frequency = 32.296419937616214};
+  model.friction = {law("iwan", {{"stiffness", 19299495527.86257}, {"limit", 2053.4801420093568}, {"count", 10.0}}),
+                    law("gap_spring", {{"stiffness", 738227688.7263021}, {"gap", 0.01734636043667924}})};
+  model.initial = {.position = -0.5609704126524431, .velocity = -138.03132304324674};
+  ExactEngine engine(model);
+  int reversals = 0;
+  double before = 0.0;
+  double farthest = 0.0;
+  while (const Interval* interval = engine.next(20.0)) {
+    if (interval->ending != EventKind::reversal) continue;
+    // Later ones belong to the same turn, of the mass within its rounding.
+    if (interval->end() - before > 1e-5)
+      ++reversals;
+    else
+      farthest = std::max(farthest, interval->end() - before);
+    before = interval->end();
+  }
+  REQUIRE(engine.outcome().ok());
+  // 205 half periods of the drive, and one where the start has died out.
+  CHECK(reversals == 206);
+  CHECK(farthest < 1e-6);
 }
