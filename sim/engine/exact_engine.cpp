@@ -183,7 +183,7 @@ void ExactEngine::reset_sensitivity() {
 
 /// The end of a slip: stick or slip.
 void ExactEngine::settle() {
-  const Direction refused = ended_at_once_ && !can_stick_ ? direction_ : Direction::none;
+  const Direction slipped = direction_;
   change_direction(Direction::none);
   collect(false);
   const double pull = pull_now();
@@ -191,9 +191,10 @@ void ExactEngine::settle() {
   const double scale = force_scale() + limit;
   Direction direction =
       direction_after_slip(pull, limit, clearly * scale, [&] { return leaves_limit(rounding * scale); });
-  // The sum of forces is within the rounding of a stiff bond, and the motion in this direction says the opposite.
-  if (refused != Direction::none && direction == refused)
-    direction = refused == Direction::forward ? Direction::backward : Direction::forward;
+  // Where nothing holds the mass and the sum of forces is within the rounding of a stiff bond, the motion in this
+  // direction has said the opposite.
+  if (ended_at_once_ && limit == 0.0 && direction == slipped)
+    direction = slipped == Direction::forward ? Direction::backward : Direction::forward;
   if (direction != Direction::none) change_direction(direction);
 }
 
@@ -208,12 +209,13 @@ Direction ExactEngine::leaves_limit(double tolerance) {
     limit_guard(pull, friction::sign(candidate), guard);
     if (core::germ(mode_->basis(), guard, tolerance).sign < 0) direction = candidate;
   }
-  if (direction == Direction::none && !can_stick_) direction = moved_later(pull, tolerance);
+  const bool is_held = total_->limit.constant != 0.0 || total_->limit.rate != 0.0;
+  if (direction == Direction::none && !is_held) direction = moved_later(pull, tolerance);
   mode_ = present;
   return direction;
 }
 
-/// If no law holds the mass, it stays at rest only if nothing ever moves it. Beside a fast decay the Taylor
+/// If no law holds the mass here, it stays at rest only if nothing ever moves it. Beside a fast decay the Taylor
 /// coefficients of a slow drive are within rounding, so the pull is evaluated after longer and longer times.
 Direction ExactEngine::moved_later(const ModeFunction& pull, double tolerance) const {
   constexpr int doublings = 60;

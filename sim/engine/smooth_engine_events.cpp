@@ -402,7 +402,7 @@ bool SmoothEngine::land(const Hit& hit) {
 
 /// Where a slip ends. Where the pull equals the limit within rounding, what both do next decides.
 void SmoothEngine::settle() {
-  const Direction refused = ended_at_once_ && !can_stick_ ? direction_ : Direction::none;
+  const Direction slipped = direction_;
   change_direction(Direction::none);
   judge_.freeze(memories_, Direction::none, time() - local_time_);
   std::vector<double> X;
@@ -432,8 +432,8 @@ void SmoothEngine::settle() {
   };
   Direction direction = direction_after_slip(pull, limit, tolerance, at_limit);
   // Creep below the rounding of the velocity shows only where it leads: not in this direction.
-  if (refused != Direction::none && direction == refused)
-    direction = refused == Direction::forward ? Direction::backward : Direction::forward;
+  if (ended_at_once_ && limit == 0.0 && direction == slipped)
+    direction = slipped == Direction::forward ? Direction::backward : Direction::forward;
   if (direction != Direction::none) change_direction(direction);
 }
 

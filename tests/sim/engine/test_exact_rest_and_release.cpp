@@ -282,6 +282,10 @@ TEST_CASE("A reversal within the rounding of a stiff bond is one reversal, or a 
   model.friction = {law("iwan", {{"stiffness", 19299495527.86257}, {"limit", 2053.4801420093568}, {"count", 10.0}}),
                     law("gap_spring", {{"stiffness", 738227688.7263021}, {"gap", 0.01734636043667924}})};
   model.initial = {.position = -0.5609704126524431, .velocity = -138.03132304324674};
+  // Beside it a law that could hold the mass, and does not while the mass is between its stops.
+  const bool beside_play = GENERATE(false, true);
+  if (beside_play) model.friction.push_back(law("free_play", {{"kinetic", 1.0}, {"play", 10.0}}));
+  CAPTURE(beside_play);
   ExactEngine engine(model);
   int reversals = 0;
   double before = 0.0;

@@ -335,3 +335,34 @@ TEST_CASE("smooth engine: what a motion says is a number up to the end of the ra
     CHECK(fastest > 1e280);
   }
 }
+
+TEST_CASE("smooth engine: a mass between the stops of a play turns within its rounding", "[sim][smooth]") {
+  // A bond that sticks holds the mass back, but no law holds it. A slip that ended at once began again in the same
+  // direction, as if the play could hold the mass.
+  sim::Model model;
+  model.oscillator = {.mass = 28.849586584400438,
+                      .stiffness = 1.9345833732647637,
+                      .damping = 242.4374010990789,
+                      .damper_to = sim::DamperTo::base};
+  model.excitation = {.type = sim::ExcitationType::force_harmonic,
+                      .amplitude = 0.0005774253002049363,
+                      .frequency = 0.0002873501294037647,
+                      .phase = 2.7928371876330345};
+  friction::ParameterValues contact{{"kinetic", 8.496246762069198e-06},
+                                    {"static", 9.099433582107653e-06},
+                                    {"contact_stiffness", 166979.83338947687}};
+  contact.set("warming", std::vector<friction::ParameterValues>{
+                             {{"power", 2.1512749004972426e-08}, {"time_constant", 17.83739701264118}}});
+  model.friction = {
+      law("contact_compliance", std::move(contact)),
+      law("free_play",
+          {{"kinetic", 0.20263290489561728}, {"static", 0.9215964943572423}, {"play", 0.000633699088210587}})};
+  model.initial = {.position = -0.00022153484585152978};
+  const sim::History automatic = sim::simulate(model, {.duration = 1400.0});
+  INFO(automatic.outcome.reason);
+  REQUIRE(automatic.outcome.ok());
+  model.solver = {sim::SolverKind::implicit_steps, 1e-13};
+  const sim::History tight = sim::simulate(model, {.duration = 1400.0});
+  REQUIRE(tight.outcome.ok());
+  CHECK(automatic.final.x == Approx(tight.final.x).epsilon(1e-9));
+}
