@@ -69,8 +69,8 @@ LawEntry bouc_wen_entry() {
           .modifiers = {"drift", "fluctuation", "warming"},
           .parameters = BoucWen::parameters(),
           .make = [](const ParameterValues& p) -> std::vector<Law> {
-            const Law law(BoucWen(p.number("limit"), p.number("stiffness"), p.number("exponent"), p.number("ratio"),
-                                  p.number("beta_share")));
+            const BoucWen law(p.number("limit"), p.number("stiffness"), p.number("exponent"), p.number("ratio"),
+                              p.number("beta_share"));
             return {modified(law, p, {}, {.stiffness = p.number("ratio") * p.number("stiffness")})};
           },
           .warnings = BoucWen::warnings};

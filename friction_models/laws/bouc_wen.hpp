@@ -48,6 +48,10 @@ class BoucWen {
   void scales(const Memory&, std::span<double> scales) const { scales[0] = limit_ / stiffness_; }
   /// F v minus the power stored in both springs.
   [[nodiscard]] double dissipation(const Memory& memory, const Instant& now, Direction direction) const;
+  /// J in the spring that yields.
+  [[nodiscard]] double stored_energy(const Memory& memory, const Instant&) const {
+    return 0.5 * (1.0 - ratio_) * stiffness_ * memory.state[0] * memory.state[0];
+  }
 
  private:
   enum : int { unmoved = 0 };  ///< else the sign of z

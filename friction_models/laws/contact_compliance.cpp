@@ -119,9 +119,16 @@ void ContactCompliance::slide(Memory& memory, const Instant& now, int side, Dire
   memory.mode = side * sliding_mode(direction);
 }
 
-void ContactCompliance::stop_slider(Memory& memory, const Instant& now, int next_mode) const {
+/// u [m]
+double ContactCompliance::stretch(const Memory& memory, const Instant& now) const {
+  const int side = sliding_side(memory);
+  if (side == 0) return now.x - memory.state[0];
   const double damper = is_damped() ? damping_ * memory.state[0] : 0.0;
-  const double u = (sliding_side(memory) * now.force_limit_now(kinetic_) - damper) / stiffness_;
+  return (side * now.force_limit_now(kinetic_) - damper) / stiffness_;
+}
+
+void ContactCompliance::stop_slider(Memory& memory, const Instant& now, int next_mode) const {
+  const double u = stretch(memory, now);
   memory.mode = next_mode;
   memory.state = {now.x - u};
 }
@@ -176,6 +183,11 @@ double ContactCompliance::dissipation(const Memory& memory, const Instant& now, 
   return slider + damping_ * stretching * stretching;
 }
 
+double ContactCompliance::stored_energy(const Memory& memory, const Instant& now) const {
+  const double u = stretch(memory, now);
+  return 0.5 * stiffness_ * u * u;
+}
+
 void ContactCompliance::advance(Memory& memory, const Instant& begin, const Instant&, double duration,
                                 Direction) const {
   if (sliding_side(memory) == 0 || !is_damped()) return;
@@ -196,8 +208,8 @@ LawEntry contact_compliance_entry() {
           .modifiers = all_modifiers_but("load_modulation"),
           .parameters = ContactCompliance::parameters(),
           .make = [](const ParameterValues& p) -> std::vector<Law> {
-            const Law law(ContactCompliance(p.number("kinetic"), p.number("static"), p.number("contact_stiffness"),
-                                            p.number("contact_damping")));
+            const ContactCompliance law(p.number("kinetic"), p.number("static"), p.number("contact_stiffness"),
+                                        p.number("contact_damping"));
             return {modified(law, p, {p.number("kinetic"), p.number("static")})};
           }};
 }

@@ -47,6 +47,8 @@ class ContactCompliance {
   void rates(const Memory& memory, const Instant& now, Direction, std::span<double> rates) const;
   /// Heat of the slider and the damper [W].
   [[nodiscard]] double dissipation(const Memory& memory, const Instant& now, Direction) const;
+  /// J in the spring.
+  [[nodiscard]] double stored_energy(const Memory& memory, const Instant& now) const;
   /// Size of a: the stretch at break-away. Size of q: that of v; for a creeping slider, the speed at which it
   /// counts as stopped.
   void scales(const Memory& memory, std::span<double> scales) const;
@@ -79,6 +81,7 @@ class ContactCompliance {
   [[nodiscard]] double slowest_creep(double static_level) const;
   [[nodiscard]] double stretching_at_break_away(const Memory& memory, const Instant& now, int side) const;
   void slide(Memory& memory, const Instant& now, int side, Direction direction) const;
+  [[nodiscard]] double stretch(const Memory& memory, const Instant& now) const;
   void stop_slider(Memory& memory, const Instant& now, int next_mode) const;
 
   double kinetic_;

@@ -45,7 +45,7 @@ LawEntry dahl_entry() {
           .modifiers = all_modifiers_but("load_gradient"),
           .parameters = Dahl::parameters(),
           .make = [](const ParameterValues& p) -> std::vector<Law> {
-            const Law law(Dahl(p.number("kinetic"), p.number("sigma0"), p.number("exponent")));
+            const Dahl law(p.number("kinetic"), p.number("sigma0"), p.number("exponent"));
             return {modified(law, p, {p.number("kinetic")})};
           }};
 }

@@ -42,6 +42,10 @@ class Dahl {
   void scales(const Memory&, std::span<double> scales) const { scales[0] = kinetic_ / sigma0_; }
   /// F v minus the power that the bristles store, sigma0 z z'.
   [[nodiscard]] double dissipation(const Memory& memory, const Instant& now, Direction direction) const;
+  /// J in the bristles.
+  [[nodiscard]] double stored_energy(const Memory& memory, const Instant&) const {
+    return 0.5 * sigma0_ * memory.state[0] * memory.state[0];
+  }
 
  private:
   double kinetic_;

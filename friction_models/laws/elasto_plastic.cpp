@@ -73,7 +73,7 @@ namespace {
 
 std::vector<Law> make_elasto_plastic(const ParameterValues& p) {
   const double elastic = p.number("sigma0") * p.number("elastic_limit");
-  return {modified(Law(ElastoPlastic(p)), p, {elastic, p.number("kinetic"), p.number("static")},
+  return {modified(ElastoPlastic(p), p, {elastic, p.number("kinetic"), p.number("static")},
                    {.damping = p.number("sigma2")})};
 }
 

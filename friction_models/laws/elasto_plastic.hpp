@@ -51,6 +51,10 @@ class ElastoPlastic {
   }
   void scales(const Memory&, std::span<double> scales) const { scales[0] = curve_.kinetic() / bristles_.sigma0; }
   [[nodiscard]] double dissipation(const Memory& memory, const Instant& now, Direction direction) const;
+  /// J in the bristles.
+  [[nodiscard]] double stored_energy(const Memory& memory, const Instant&) const {
+    return 0.5 * bristles_.sigma0 * memory.state[0] * memory.state[0];
+  }
 
  private:
   enum : int { elastic, yielding };

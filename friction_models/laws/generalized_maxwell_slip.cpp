@@ -124,6 +124,13 @@ double GeneralizedMaxwellSlip::dissipation(const Memory& memory, const Instant& 
   return heat;
 }
 
+double GeneralizedMaxwellSlip::stored_energy(const Memory& memory, const Instant&) const {
+  double energy = 0.0;
+  for (std::size_t i = 0; i < elements_.size(); ++i)
+    energy += 0.5 * memory.state[i] * memory.state[i] / elements_[i].stiffness;
+  return energy;
+}
+
 LawEntry generalized_maxwell_slip_entry() {
   return {.name = "generalized_maxwell_slip",
           .summary = "springs in parallel that slip one after the other at a level that falls with speed",
@@ -138,7 +145,7 @@ LawEntry generalized_maxwell_slip_entry() {
           .modifiers = all_modifiers_but("load_gradient"),
           .parameters = GeneralizedMaxwellSlip::parameters(),
           .make = [](const ParameterValues& p) -> std::vector<Law> {
-            return {modified(Law(GeneralizedMaxwellSlip(p)), p, {p.number("kinetic"), p.number("static")})};
+            return {modified(GeneralizedMaxwellSlip(p), p, {p.number("kinetic"), p.number("static")})};
           },
           .check = GeneralizedMaxwellSlip::check,
           .warnings = GeneralizedMaxwellSlip::warnings};

@@ -55,6 +55,8 @@ class GeneralizedMaxwellSlip {
   void scales(const Memory&, std::span<double> scales) const;
   /// F v minus the power stored in the springs.
   [[nodiscard]] double dissipation(const Memory& memory, const Instant& now, Direction direction) const;
+  /// J in the springs.
+  [[nodiscard]] double stored_energy(const Memory& memory, const Instant&) const;
 
  private:
   enum : int { stuck, slipping };  ///< of each element, in Memory::indices; Memory::state: F_i

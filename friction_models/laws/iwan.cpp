@@ -185,7 +185,7 @@ std::vector<Law> Iwan::laws(std::vector<Element> elements, const ParameterValues
   if (ModifierSettings(values).do_nothing()) return {Law(Iwan(std::move(elements)))};
   std::vector<Law> laws;
   for (const auto& [stiffness, limit] : elements)
-    laws.push_back(modified(Law(ContactCompliance(limit, limit, stiffness, 0.0)), values));
+    laws.push_back(modified(ContactCompliance(limit, limit, stiffness, 0.0), values));
   return laws;
 }
 

@@ -63,8 +63,8 @@ LawEntry lugre_entry() {
           .modifiers = all_modifiers_but("load_gradient"),
           .parameters = Lugre::parameters(),
           .make = [](const ParameterValues& p) -> std::vector<Law> {
-            return {modified(Law(Lugre(p)), p, {p.number("kinetic"), p.number("static")},
-                             {.damping = p.number("sigma2")})};
+            const Lugre law(p);
+            return {modified(law, p, {p.number("kinetic"), p.number("static")}, {.damping = p.number("sigma2")})};
           },
           .warnings = Lugre::warnings};
 }

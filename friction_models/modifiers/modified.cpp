@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -14,6 +15,9 @@ namespace {
 
 /// Beyond rounding, relative.
 constexpr double clearly = 1e-12;
+/// Of the heat that warms the contact, the least share that is not from its spring. At zero the spring relaxes by
+/// its own heat without end; a change of mode leaves the contact below this, and a slip leads away from it.
+constexpr double least_share = 1e-6;
 
 /// The memory of a modified law in its parts: the memory of the law inside, and under warming, as the last state,
 /// the mean power that the law turned to heat.
@@ -56,8 +60,12 @@ class ModifiedLaw final : public LawModel,
                           public ScheduleAbility,
                           public AperiodicAbility {
  public:
-  ModifiedLaw(Law law, const ModifierSettings& settings, std::vector<double> limits, const WithoutLimits& without)
-      : law_(std::move(law)), limits_(settings, std::move(limits)), without_(without) {}
+  ModifiedLaw(Law law, const ModifierSettings& settings, std::vector<double> limits, const WithoutLimits& without,
+              StoredEnergy stored_energy)
+      : law_(std::move(law)),
+        limits_(settings, std::move(limits)),
+        without_(without),
+        stored_energy_(std::move(stored_energy)) {}
 
   [[nodiscard]] Abilities abilities() const override;
   [[nodiscard]] double force(const Memory& memory, const Instant& now, Direction direction) const override {
@@ -142,6 +150,12 @@ class ModifiedLaw final : public LawModel,
   [[nodiscard]] double warming_rate(const Memory& inner, const ModifierCourse& course, double power,
                                     const Instant& now, Direction direction) const;
 
+  [[nodiscard]] double relaxing_heat(const Memory& inner, const Instant& now, Direction direction,
+                                     double heat) const;
+  [[nodiscard]] double stored_energy(const Memory& inner, const ModifierCourse& course, double power,
+                                     const Instant& now) const;
+  void add_heat_of_change(double before, OpenParts& parts, const Instant& now) const;
+
   void look_again(OpenParts& parts, const Instant& now, Direction direction) const;
   void settle(OpenParts& parts, const Instant& now, Direction direction) const;
   void pass_guard(OpenParts& parts, int guard, const Instant& now, Direction direction) const;
@@ -151,6 +165,7 @@ class ModifiedLaw final : public LawModel,
   Law law_;
   ForceLimits limits_;
   WithoutLimits without_;
+  StoredEnergy stored_energy_;
 };
 
 Abilities ModifiedLaw::abilities() const {
@@ -194,12 +209,55 @@ void ModifiedLaw::warm(Instant& modified, double rate) const {
   m.factor_rate -= (m.factor + m.factor_slope * modified.x) * rate / limits_.settings().warming_power;
 }
 
-/// d(power)/dt [W/s]. A stretched spring gives off heat when it relaxes with its force limit. This heat is
-/// neglected: it is of second order in the compliance, and it depends on the rate that is computed here.
+/// d(power)/dt [W/s]. `now`: under the force limits without their fall by warming.
 double ModifiedLaw::warming_rate(const Memory& inner, const ModifierCourse& course, double power,
                                  const Instant& now, Direction direction) const {
-  const double heat = limits_.are_gone(course) ? without_.heat(now) : law_.dissipation(inner, now, direction);
-  return (heat - power) / limits_.settings().warming_time;
+  const double time = limits_.settings().warming_time;
+  if (limits_.are_gone(course)) return (without_.heat(now) - power) / time;
+  const double heat = law_.dissipation(inner, now, direction);
+  const double rate = (heat - power) / time;
+  // The stretch of an undamped spring follows its force limit at once; other stretches are states.
+  if (!law_.is_affine() || law_.abilities().dissipation == nullptr) return rate;
+  return rate / std::max(least_share, 1.0 - relaxing_heat(inner, now, direction, heat) / time);
+}
+
+/// J: what the heat gains with d(power)/dt, in proportion to it, because a spring relaxes with its force limit.
+/// `heat`: without this gain [W].
+double ModifiedLaw::relaxing_heat(const Memory& inner, const Instant& now, Direction direction, double heat) const {
+  const ModifierSettings& settings = limits_.settings();
+  const double trial = (settings.warming_power + std::abs(heat)) / settings.warming_time;
+  Instant warming = now;
+  warm(warming, trial);
+  return (law_.dissipation(inner, warming, direction) - heat) / trial;
+}
+
+double ModifiedLaw::stored_energy(const Memory& inner, const ModifierCourse& course, double power,
+                                  const Instant& now) const {
+  if (!stored_energy_ || limits_.are_gone(course)) return 0.0;
+  return stored_energy_(inner, limits_.at(course, power, now));
+}
+
+/// The law has changed in an instant, and what its springs have lost is heat. `before`: their energy before [J].
+/// The force limits fall with the heat, and springs at their limits then lose more: of the solutions of
+/// time_constant rise = before - energy(rise) the largest is the one that ends the fall. The energy is convex, so
+/// secants from above lead down to it.
+void ModifiedLaw::add_heat_of_change(double before, OpenParts& parts, const Instant& now) const {
+  constexpr int most_steps = 100;
+  const auto rise_by = [&](double rise) {
+    const double after = stored_energy(parts.inner, parts.course, parts.power + rise, now);
+    return (before - after) / limits_.settings().warming_time;
+  };
+  double above = before / limits_.settings().warming_time;
+  double found_above = rise_by(above);
+  double rise = found_above;
+  const double rounding = 4.0 * std::numeric_limits<double>::epsilon() * above;
+  for (int step = 0; step < most_steps && above - rise > rounding; ++step) {
+    const double found = rise_by(rise);
+    const double share = (found_above - found) / (above - rise);
+    above = std::exchange(rise, share < 1.0 ? rise - (rise - found) / (1.0 - share) : found);
+    found_above = found;
+  }
+  parts.power += rise;
 }
 
 double ModifiedLaw::respond(const Memory& memory, const Instant& now, Direction direction,
@@ -274,9 +332,11 @@ void ModifiedLaw::settle(OpenParts& parts, const Instant& now, Direction directi
 
 void ModifiedLaw::jump(Memory& memory, Trigger trigger, const Instant& now, Direction direction) const {
   OpenParts parts{.inner = memory, .course = memory.course};
+  double stored = 0.0;
   if (warms()) {
     parts.power = memory.state.back();
     memory.state.pop_back();
+    stored = stored_energy(parts.inner, parts.course, parts.power, now);
   }
   const int own = static_cast<int>(limits_.guards(parts.course, parts.power, now).size());
   if (trigger.cause == Trigger::scheduled) {
@@ -288,16 +348,19 @@ void ModifiedLaw::jump(Memory& memory, Trigger trigger, const Instant& now, Dire
     law_.jump(memory, {cause}, modify(parts, now, direction), direction);
   }
   memory.course = parts.course;
-  if (warms()) memory.state.push_back(parts.power);
+  if (!warms()) return;
+  add_heat_of_change(stored, parts, now);
+  memory.state.push_back(parts.power);
 }
 
 }  // namespace
 
 Law modified(const Law& law, const ParameterValues& values, std::vector<double> limits,
-             const WithoutLimits& without) {
+             const WithoutLimits& without, StoredEnergy stored_energy) {
   const ModifierSettings settings(values);
   if (settings.do_nothing()) return law;
-  return Law(std::make_shared<const ModifiedLaw>(law, settings, std::move(limits), without));
+  return Law(
+      std::make_shared<const ModifiedLaw>(law, settings, std::move(limits), without, std::move(stored_energy)));
 }
 
 }  // namespace dualdamp::friction

@@ -21,6 +21,9 @@
 ///
 /// Cost: a few operations a call; with warming also a copy of what the law remembers.
 
+#include <concepts>
+#include <functional>
+#include <utility>
 #include <vector>
 
 #include "friction_models/instant.hpp"
@@ -42,9 +45,27 @@ struct WithoutLimits {
   [[nodiscard]] double heat(const Instant& now) const { return damping * now.v * now.v; }               ///< W
 };
 
+/// Has springs whose energy can turn to heat in an instant: at a change of mode, or when its force limits vanish.
+/// Returns this energy [J]; force times velocity is the dissipation plus its growth.
+template <class L>
+concept StoringLaw = DissipatingLaw<L> && requires(const L& law, const Memory& memory, const Instant& now) {
+  { law.stored_energy(memory, now) } -> std::same_as<double>;
+};
+using StoredEnergy = std::function<double(const Memory& memory, const Instant& now)>;  ///< J; empty: always 0
+
 /// `law` under the modifiers among `values`; `law` itself if no modifier has an effect. `limits`: the nominal force
 /// limits of a law that supports `position_slope` [N].
 [[nodiscard]] Law modified(const Law& law, const ParameterValues& values, std::vector<double> limits = {},
-                           const WithoutLimits& without = {});
+                           const WithoutLimits& without = {}, StoredEnergy stored_energy = {});
+
+template <FrictionLaw L>
+  requires(!std::same_as<L, Law>)
+[[nodiscard]] Law modified(const L& law, const ParameterValues& values, std::vector<double> limits = {},
+                           const WithoutLimits& without = {}) {
+  StoredEnergy stored_energy;
+  if constexpr (StoringLaw<L>)
+    stored_energy = [law](const Memory& memory, const Instant& now) { return law.stored_energy(memory, now); };
+  return modified(Law(law), values, std::move(limits), without, std::move(stored_energy));
+}
 
 }  // namespace dualdamp::friction

@@ -13,7 +13,9 @@
 #include "friction_models/registry.hpp"
 #include "sim/conformance/law_conformance.hpp"
 #include "sim/law_host/law_host.hpp"
+#include "sim/motion/simulate.hpp"
 #include "sim/orbits/steady_state.hpp"
+#include "tests/support/make_law.hpp"
 #include "tests/support/sliding.hpp"
 #include "tests/support/standard_system.hpp"
 
@@ -141,6 +143,101 @@ TEST_CASE("warming: a compliant contact is heated by its slider only", "[frictio
   REQUIRE_FALSE(host.broken());
   const double heat = tau * (host.memory().state.back() - before);
   CHECK(heat == Approx(4.0 * cold_kinetic * (A - cold_kinetic / 1e3)).epsilon(1e-7));
+}
+
+TEST_CASE("warming: the heat is the work less the energy of the spring, also where a change is sudden",
+          "[friction][warming]") {
+  // No heat is lost in a time so short: tau p is all the heat. The springs hold force^2/(2 stiffness).
+  const double tau = 1e8;
+  const double capacity = 0.5;  // J: tau power
+  const auto fluctuation = [](double ratio) {
+    const ParameterValues record{{"ratio", ratio}, {"correlation_time", 0.5}, {"seed", 3.0}};
+    return std::vector<ParameterValues>{record};
+  };
+  const auto contact = [](double static_level, double stiffness) {
+    return ParameterValues{{"kinetic", 2.0}, {"static", static_level}, {"contact_stiffness", stiffness}};
+  };
+  const auto with = [](ParameterValues values, const std::string& name, const auto& value) {
+    values.set(name, value);
+    return values;
+  };
+  const std::vector<ParameterValues> one_element{{{"stiffness", 200.0}, {"share", 1.0}}};
+  const ParameterValues curve{{"kinetic", 2.0}, {"static", 3.0}, {"stribeck_velocity", 0.05}};
+  struct {
+    std::string name;
+    ParameterValues values;
+    double stiffness;  // N/m
+  } const cases[] = {
+      {"contact_compliance", contact(2.0, 200.0), 200.0},
+      {"contact_compliance", contact(3.0, 200.0), 200.0},
+      // So soft that the heat of the slip that it causes makes it slip on: the slider falls below kinetic friction.
+      {"contact_compliance", contact(2.0, 6.0), 6.0},
+      {"contact_compliance", contact(3.0, 6.0), 6.0},
+      {"contact_compliance", with(contact(3.0, 200.0), "position_slope", 10.0), 200.0},
+      {"contact_compliance", with(contact(3.0, 200.0), "load_gradient", 4.0), 200.0},
+      {"contact_compliance", with(contact(3.0, 200.0), "fluctuation", fluctuation(0.4)), 200.0},
+      // The limits vanish for a while: what the springs hold then is heat.
+      {"contact_compliance", with(contact(3.0, 200.0), "fluctuation", fluctuation(1.0)), 200.0},
+      {"dahl", {{"kinetic", 2.0}, {"sigma0", 200.0}, {"fluctuation", fluctuation(1.0)}}, 200.0},
+      {"generalized_maxwell_slip",
+       with(with(with(curve, "elements", one_element), "attraction", 50.0), "fluctuation", fluctuation(1.0)),
+       200.0},
+  };
+  for (const auto& [name, values, stiffness] : cases) {
+    ParameterValues all = values;
+    all.set("warming", *warming(capacity / tau, tau).find("warming"));
+    CAPTURE(name, stiffness, values.has("fluctuation"));
+    sim::LawHost host(test::law(name, all), {});
+    for (const double x : {0.6, 0.3, 0.7, -0.2}) {
+      host.move_to(x);
+      REQUIRE_FALSE(host.broken());
+      const double heat = tau * host.memory().state.back();
+      const double stored = host.force() * host.force() / (2.0 * stiffness);
+      CHECK(heat == Approx(host.work() - stored).epsilon(1e-6));
+    }
+  }
+}
+
+TEST_CASE("warming: without damper the motion is the limit of those with less and less", "[friction][warming]") {
+  // The difference is a1 c + a2 c^2: extrapolated from three values of c to none.
+  for (const double static_level : {5.0, 9.0}) {
+    const auto end = [=](double damping) {
+      sim::Model model;
+      model.oscillator = {.mass = 1.0, .stiffness = 160.0, .damping = 0.3};
+      model.initial.position = -0.2;
+      ParameterValues values = warming(0.37, 1.1);
+      for (const auto& [name, value] : {std::pair{"kinetic", 5.0},
+                                        {"static", static_level},
+                                        {"contact_stiffness", 1200.0},
+                                        {"contact_damping", damping}})
+        values.set(name, value);
+      model.friction = {test::law("contact_compliance", values)};
+      const sim::History history = sim::simulate(model, {.duration = 1.2});
+      REQUIRE(history.outcome.ok());
+      return history.final.x;
+    };
+    const double c = 0.05;
+    const double limit = 3.0 * end(c) - 3.0 * end(2.0 * c) + end(3.0 * c);
+    CAPTURE(static_level);
+    CHECK(end(0.0) == Approx(limit).epsilon(3e-6));
+  }
+}
+
+TEST_CASE("warming: in steady vibration a compliant contact is as warm as the work of a period makes it",
+          "[friction][warming]") {
+  // tau is a hundred periods, so p differs from its mean by the swing of a period at most.
+  ParameterValues values = warming(1.0, 60.0);
+  for (const auto& [name, value] :
+       {std::pair{"kinetic", 1.0}, {"static", 3.0}, {"contact_stiffness", 200.0}, {"contact_damping", 0.0}})
+    values.set(name, value);
+  sim::Model model;
+  model.oscillator = {.mass = 1.0, .stiffness = 100.0, .damping = 1.0};
+  model.excitation = {.type = sim::ExcitationType::base_harmonic, .amplitude = 0.03, .frequency = 9.0};
+  model.friction = {test::law("contact_compliance", values)};
+  const sim::SteadyState orbit = sim::steady_state(model);
+  REQUIRE(orbit.outcome.ok());
+  const double mean = orbit.energy.friction / orbit.period;
+  CHECK(orbit.start.memories.front().state.back() == Approx(mean).epsilon(2e-3));
 }
 
 TEST_CASE("warming: a slow contact in steady vibration is coulomb at the mean power", "[friction][warming]") {
