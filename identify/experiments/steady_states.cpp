@@ -146,7 +146,7 @@ class SteadyStates final : public Experiment {
       // The phase that is nearest to the measured one, modulo 2 pi. A mass at rest has the phase with which its
       // motion dies out, when the friction reaches the largest pull: else the phase would jump there.
       const double measured = signals[1].measured[phases];
-      const double lag = state.amplitude > 0.0 ? state.phase : lag_at_rest(model, levels_[i]);
+      const double lag = std::isnan(state.phase) ? lag_at_rest(model, levels_[i]) : state.phase;
       outputs[static_cast<Eigen::Index>(levels_.size() + phases)] =
           measured + std::remainder(lag - measured, core::two_pi);
       ++phases;

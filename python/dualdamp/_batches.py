@@ -19,7 +19,7 @@ class SteadyStates:
     amplitude, peak, trough : float or ndarray
         (peak - trough)/2, max x, min x [m]. NaN where there is no steady state.
     phase : float or ndarray
-        Phase lag of the fundamental of x behind the drive [rad], in [0, 2 pi).
+        Phase lag of the fundamental of x behind the drive [rad], in [0, 2 pi). NaN where the mass never moves.
     multiplier : float or ndarray
         Largest modulus of the Floquet multipliers over one forcing period.
     stops : int or ndarray

@@ -28,8 +28,10 @@ const Analysis& frequency_response_analysis() {
       .summary = "output amplitude over frequency",
       .keys = {{frequencies(), continue_key()}},
       .needs = needs_of_steady_states({"amplitude"}),
-      .results = curve_fields({{"points[].omega", "rad/s", "forcing frequency"},
-                               {"points[].phase", "rad", "lag of x's fundamental behind the excitation"}}),
+      .results = curve_fields(
+          {{"points[].omega", "rad/s", "forcing frequency"},
+           {"points[].phase", "rad", "lag of x's fundamental behind the excitation; null: one has none"},
+           {"points[].phase_reason", "", "for a point without phase: the reason"}}),
       .chart = {.table = "curve",
                 .list = "points",
                 .x = "omega",

@@ -1,6 +1,7 @@
 #include "scenarios/analyses/steady_state.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "scenarios/results/motion.hpp"
 #include "sim/engine/engine.hpp"
@@ -16,7 +17,8 @@ ResultFields steady_state_fields() {
   return joined({{"peak", "m", "max x"},
                  {"trough", "m", "min x"},
                  {"amplitude", "m", "(peak - trough)/2"},
-                 {"phase", "rad", "lag of x's fundamental behind the excitation, in [0, 2 pi)"},
+                 {"phase", "rad", "lag of x's fundamental behind the excitation, in [0, 2 pi); null: one has none"},
+                 {"phase_reason", "", "if there is no phase: the reason"},
                  {"period", "s", "period of the motion"},
                  {"period_ratio", "1", "forcing periods in one period of the motion; above 1: subharmonic"},
                  {"max_speed", "m/s", "max |v|"},
@@ -56,7 +58,8 @@ Answer SteadyStateQuestion::run(const RunContext& context) const {
   result["peak"] = state.peak;
   result["trough"] = state.trough;
   result["amplitude"] = state.amplitude;
-  result["phase"] = state.phase;
+  result["phase"] = finite_or_null(state.phase);
+  if (std::isnan(state.phase)) result["phase_reason"] = why_no_phase(model, state.never_moves());
   result["period"] = state.period;
   result["period_ratio"] = state.period_ratio;
   result["max_speed"] = state.max_speed;

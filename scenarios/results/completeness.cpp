@@ -19,12 +19,15 @@ std::string missing_in(const Json& json, const std::string& path) {
   return "";
 }
 
+bool is_stated(const Column* reason, std::size_t row) { return reason != nullptr && !reason->text(row).empty(); }
+
 std::string missing_in(const Table& table) {
   const Column* const reason = table.find("reason");
   for (const Column& column : table.columns) {
     if (column.kind == CellKind::text) continue;
+    const Column* const own_reason = table.find(column.name + "_reason");
     for (std::size_t row = 0; row < column.numbers.size(); ++row) {
-      if (std::isfinite(column.numbers[row]) || (reason != nullptr && !reason->text(row).empty())) continue;
+      if (std::isfinite(column.numbers[row]) || is_stated(reason, row) || is_stated(own_reason, row)) continue;
       return (table.key.empty() ? table.name : table.key) + "[" + std::to_string(row) + "]." + column.name;
     }
   }

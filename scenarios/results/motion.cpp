@@ -37,6 +37,12 @@ Table history_table(std::string name, const std::vector<sim::Sample>& samples, c
   return table;
 }
 
+std::string why_no_phase(const sim::Model& model, bool never_moves) {
+  if (never_moves) return "the mass never moves";
+  if (model.excitation.amplitude == 0.0) return "the excitation has no fundamental, only further harmonics";
+  return "x has no fundamental that is clear of the accuracy of the motion";
+}
+
 ResultFields joined(ResultFields first, const ResultFields& second) {
   first.insert(first.end(), second.begin(), second.end());
   return first;

@@ -25,6 +25,9 @@ using ResultFields = std::vector<ResultField>;
 void add_certificate(Json& result, const sim::Model& model, const core::SearchCount& count);
 [[nodiscard]] ResultFields certificate_fields();
 
+/// Why a steady state has no phase.
+[[nodiscard]] std::string why_no_phase(const sim::Model& model, bool never_moves);
+
 /// Samples of a motion, with a column for its drive.
 [[nodiscard]] Table history_table(std::string name, const std::vector<sim::Sample>& samples,
                                   const sim::Excitation& excitation);

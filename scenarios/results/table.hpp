@@ -77,7 +77,8 @@ struct Table {
   bool is_long = false;  ///< not for a terminal
   bool is_file = true;   ///< false: only for a terminal
   std::string key = {};  ///< key of the list in the result that has these rows; empty: the table is only a file
-  /// Every row has all its numbers or a `reason`; otherwise the result is refused.
+  /// Every row has all its numbers or a `reason`, or in the column `NAME_reason` one for a number of the column
+  /// NAME; otherwise the result is refused.
   bool is_complete = false;
   /// How many rows there are depends on the error of the solver; a verification compares the rows of both results.
   bool ends_with_accuracy = false;

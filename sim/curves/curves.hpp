@@ -33,7 +33,7 @@ struct CurvePoint {
   double omega = 0.0;  ///< rad/s
   double Y = 0.0;      ///< m (base) or N (force)
   double x = 0.0;      ///< output amplitude (peak - trough)/2 [m]
-  double phase = 0.0;  ///< lag of x's fundamental [rad], in [0, 2 pi); of a frequency response only
+  double phase = 0.0;  ///< lag of x's fundamental [rad], as that of the steady state; of a frequency response only
   int stops = 0;       ///< stops in one period of the motion
   int sticks = 0;      ///< sticks in a period; in a regime map also by speed (`SteadyState::stick_count`)
   bool stable = false;

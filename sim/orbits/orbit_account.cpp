@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "core/constants.hpp"
+#include "sim/engine/engine.hpp"
 
 namespace dualdamp::sim {
 
@@ -14,12 +16,21 @@ namespace {
 
 /// Number of samples of the speed in a forcing period.
 constexpr int samples = 1000;
+/// Accuracy of x relative to the largest |x|, of the smooth engine relative to its tolerance.
+constexpr double exact_accuracy = 1e-14;
+constexpr double of_local_errors = 10.0;
+/// A fundamental below this share of the amplitude has no phase to six digits: the motion is computed to twelve.
+constexpr double least_fundamental = 1e-6;
+/// Nor has one that is less than this many times the accuracy of x.
+constexpr double clear_of_errors = 100.0;
 
 }  // namespace
 
 OrbitAccount::OrbitAccount(const Model& model, AccountParts parts)
     : full_(parts.full),
+      drive_(model.excitation.amplitude),
       drive_phase_(model.excitation.phase),
+      accuracy_(is_exact(model) ? exact_accuracy : of_local_errors * model.solver.tolerance),
       energy_(model.oscillator),
       fundamental_(model.excitation.frequency),
       sticks_by_speed_(parts.sticks_by_speed && !model.friction.empty() &&
@@ -102,6 +113,16 @@ bool OrbitAccount::is_at_rest(double period, int forcing_periods) const {
          peak_ - trough_ <= forcing_periods * hidden * std::max(std::abs(peak_), std::abs(trough_));
 }
 
+/// NaN where the excitation or x has no fundamental.
+double OrbitAccount::lag(int forcing_periods) const {
+  const double fundamental = std::abs(fundamental_.coefficient()) / forcing_periods;
+  const double largest = std::max(std::abs(peak_), std::abs(trough_));
+  const double least = std::max(least_fundamental * 0.5 * (peak_ - trough_), clear_of_errors * accuracy_ * largest);
+  if (drive_ == 0.0 || !(fundamental > least)) return std::numeric_limits<double>::quiet_NaN();
+  const double lag = drive_phase_ - std::arg(fundamental_.coefficient());
+  return lag - core::two_pi * std::floor(lag / core::two_pi);
+}
+
 void OrbitAccount::write(SteadyState& result) {
   join_stick_across_boundary();
   const bool is_held = is_at_rest(result.period, result.period_ratio);
@@ -123,13 +144,14 @@ void OrbitAccount::write(SteadyState& result) {
   if (result.sticks.size() == 1 && stops_ == 0) {
     result.warnings.emplace_back("the mass never moves: any rest position that friction can hold is steady too");
   }
-  if (!full_ || is_held) return;
+  if (!full_) return;
+  result.phase =
+      is_held || result.never_moves() ? std::numeric_limits<double>::quiet_NaN() : lag(result.period_ratio);
+  if (is_held) return;
   result.max_speed = extremes_.max_speed();
   result.energy = energy_.account();
   result.mean_square_speed = energy_.square_speed() / result.period;
   result.fundamental = std::abs(fundamental_.coefficient()) / result.period_ratio;
-  const double lag = drive_phase_ - std::arg(fundamental_.coefficient());
-  result.phase = result.amplitude > 0.0 ? lag - core::two_pi * std::floor(lag / core::two_pi) : 0.0;
 }
 
 void account_for_orbit(const Model& model, PeriodMap& map, AccountParts parts, SteadyState& result) {

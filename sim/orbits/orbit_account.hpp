@@ -29,10 +29,13 @@ class OrbitAccount final : public PeriodObserver {
   [[nodiscard]] int slow_spans(double period) const;
   void collect_stick(const Interval& interval, double x);
   void join_stick_across_boundary();
+  [[nodiscard]] double lag(int forcing_periods) const;
   [[nodiscard]] bool is_at_rest(double period, int forcing_periods) const;
 
   bool full_;
+  double drive_;  ///< amplitude of the fundamental of the excitation [m or N]
   double drive_phase_;
+  double accuracy_;  ///< of x, relative to the largest |x|
   PeakAndTrough extremes_;
   EnergyAudit energy_;
   Fundamental fundamental_;

@@ -36,10 +36,10 @@ struct SteadyState {
   core::Outcome outcome;              ///< if not ok(), the numbers below mean nothing
   std::vector<std::string> warnings;  ///< e.g. other orbits exist
 
-  double peak = 0.0;               ///< max x [m]
-  double trough = 0.0;             ///< min x [m]
-  double amplitude = 0.0;          ///< (peak - trough)/2 [m]
-  double phase = 0.0;              ///< lag of x's fundamental behind the excitation's [rad], in [0, 2 pi)
+  double peak = 0.0;       ///< max x [m]
+  double trough = 0.0;     ///< min x [m]
+  double amplitude = 0.0;  ///< (peak - trough)/2 [m]
+  double phase = 0.0;  ///< lag of x's fundamental behind the excitation's [rad], in [0, 2 pi); NaN: one has none
   double fundamental = 0.0;        ///< amplitude of x's fundamental [m]
   double period = 0.0;             ///< of the motion [s]
   int period_ratio = 1;            ///< forcing periods in it

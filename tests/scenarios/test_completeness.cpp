@@ -53,6 +53,19 @@ TEST_CASE("completeness: a row of a complete table lacks numbers only with a rea
   CHECK(missing_number(answer) == "points[0].Y");
 }
 
+TEST_CASE("completeness: a cell may have a reason of its own", "[scenarios][completeness]") {
+  Answer answer;
+  answer.tables = {
+      {.name = "curve",
+       .columns = {{.name = "phase", .numbers = {1.0, scenarios::none}},
+                   {.name = "x", .numbers = {1.0, 2.0}},
+                   {.name = "phase_reason", .texts = {"", "at rest"}, .kind = scenarios::CellKind::text}},
+       .is_complete = true}};
+  CHECK(missing_number(answer).empty());
+  answer.tables[0].columns[1].numbers[1] = infinity;
+  CHECK(missing_number(answer) == "curve[1].x");
+}
+
 TEST_CASE("completeness: a growing mode that takes no part in a stick loses no release",
           "[scenarios][completeness]") {
   // At rest under a slow drive with a damping of -12 N.s/m: the free motion would grow by e^12000 in that time. The

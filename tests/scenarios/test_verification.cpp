@@ -80,6 +80,22 @@ TEST_CASE("verification: counts are equal, and a missing number is a difference"
   CHECK(scenarios::compare_answers(other, answer(0.1, 1.0), fields).quantity == "peak");
 }
 
+TEST_CASE("verification: a phase that one computation does not have is not compared", "[scenarios][verification]") {
+  Answer without = answer(0.1, 1.0);
+  without.result["phase"] = nullptr;
+  without.result["phase_reason"] = "x has no fundamental";
+  CHECK(scenarios::compare_answers(answer(0.1, 1.0), without, fields).agrees);
+  CHECK(scenarios::compare_answers(without, answer(0.1, 1.0), fields).agrees);
+  CHECK_FALSE(scenarios::compare_answers(without, answer(0.2, 1.0), fields).agrees);
+  const auto curve = [](double phase) {
+    Answer result = curve_answer(1.0);
+    result.tables[0].columns.push_back({.name = "phase", .unit = "rad", .numbers = {phase, 1.0}});
+    return result;
+  };
+  CHECK(scenarios::compare_answers(curve(2.0), curve(scenarios::none), {}).agrees);
+  CHECK_FALSE(scenarios::compare_answers(curve(2.0), curve(3.0), {}).agrees);
+}
+
 TEST_CASE("verification: rows without numbers in one computation are told from those in both",
           "[scenarios][verification]") {
   const auto with_reasons = [](std::vector<std::string> reasons) {

@@ -1,6 +1,7 @@
 #include "scenarios/analyses/shared/curves.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/numbers.hpp"
 #include "scenarios/format/limits.hpp"
@@ -22,7 +23,17 @@ Column direction_column(const sim::Curve& curve, sim::Stepping stepping) {
   return column;
 }
 
-Table curve_table(const sim::Curve& curve, const Axis& axis, bool with_phase,
+/// Why points have no phase.
+Column phase_reasons(const sim::Curve& curve, const sim::Model& model) {
+  Column column{.name = "phase_reason", .kind = CellKind::text};
+  for (const sim::CurvePoint& point : curve.points) {
+    const bool lacks = point.ok() && std::isnan(point.phase);
+    column.texts.emplace_back(lacks ? why_no_phase(model, point.never_moves()) : "");
+  }
+  return column;
+}
+
+Table curve_table(const sim::Curve& curve, const sim::Model& model, const Axis& axis, bool with_phase,
                   std::optional<sim::Stepping> stepping) {
   using sim::CurvePoint;
   Table table{.name = "curve", .key = "points", .is_complete = true};
@@ -34,6 +45,8 @@ Table curve_table(const sim::Curve& curve, const Axis& axis, bool with_phase,
   columns.push_back(point_column("sticks", "", curve, CellKind::count, &CurvePoint::sticks));
   columns.push_back(point_column("stable", "", curve, CellKind::truth, &CurvePoint::stable));
   if (stepping) columns.push_back(direction_column(curve, *stepping));
+  const auto lacks_phase = [](const sim::CurvePoint& point) { return std::isnan(point.phase); };
+  if (with_phase && std::ranges::any_of(curve.points, lacks_phase)) columns.push_back(phase_reasons(curve, model));
   add_reasons(table, curve);
   return table;
 }
@@ -70,7 +83,7 @@ Answer answer_of_points(const sim::Curve& curve, const sim::Model& model, const 
 Answer answer_of_curve(const sim::Curve& curve, const sim::Model& model, const Axis& axis, bool with_phase,
                        std::optional<sim::Stepping> stepping) {
   Answer answer = answer_of_points(curve, model, "curve", {axis});
-  if (!answer.result.is_null()) answer.tables.push_back(curve_table(curve, axis, with_phase, stepping));
+  if (!answer.result.is_null()) answer.tables.push_back(curve_table(curve, model, axis, with_phase, stepping));
   return answer;
 }
 
