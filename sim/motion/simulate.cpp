@@ -36,6 +36,8 @@ History simulate(const Model& model, const SimulateOptions& options) {
     }
   }
   if (history.outcome.ok()) history.outcome = engine.outcome();
+  // The engine adds up periods and pieces of the drive, and ends there within rounding.
+  if (history.outcome.ok()) history.final.t = options.duration;
   sampler.finish(history.final);
   history.samples = std::move(sampler.samples());
   history.energy = energy.account();

@@ -7,6 +7,17 @@
 using namespace dualdamp;
 using testing::answer_to;
 
+TEST_CASE("simulate: the motion ends at the duration, whatever the pieces of the drive add up to",
+          "[scenarios][simulate]") {
+  const scenarios::Scenario scenario = scenarios::parse_scenario(
+      "schema: dualdamp/1\n"
+      "system: {mass: 1, stiffness: 100, damping: 1.5, friction: {law: coulomb, kinetic: 0.3}}\n"
+      "excitation: {type: base_noise, intensity: 40 mm^2/Hz, bandwidth: 12 Hz, seed: 3}\n"
+      "analysis: {type: simulate, duration: 5}\n",
+      "test.yaml");
+  CHECK(testing::result_of(scenarios::run(scenario)).at("final").at("t").get<double>() == 5.0);
+}
+
 TEST_CASE("simulate: events alternate and the energy balance closes", "[scenarios][simulate]") {
   const auto answer = answer_to("{type: simulate, cycles: 20, sample_rate: 100 Hz}");
   const auto& events = answer.at("events");
