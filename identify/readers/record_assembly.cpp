@@ -248,10 +248,20 @@ class Assembly {
     });
   }
 
+  /// Without the rests of the mass at which the measured force or base stops or turns.
+  Clipping without_sticks_of(std::string_view name, const std::vector<double>& signal, Clipping clipping,
+                             std::size_t fewest_places) {
+    for (const std::string_view drive : {"force", "y"})
+      if (const std::vector<double>* driven = name == "x" ? values(drive) : nullptr)
+        clipping = without_sticks(clipping, signal, *driven, fewest_places);
+    return clipping;
+  }
+
   /// Adds a problem for a clipped signal, or a warning where it is not certain. False after a problem.
   bool check_range(std::string_view name, const std::vector<double>& signal) {
-    const Clipping exact = clipping_of(signal);
-    const Clipping clipping = exact.samples > 0 ? exact : noisy_clipping_of(signal);
+    const Clipping exact = without_sticks_of(name, signal, clipping_of(signal), 2);
+    const Clipping clipping =
+        exact.samples > 0 ? exact : without_sticks_of(name, signal, noisy_clipping_of(signal), 1);
     if (clipping.samples == 0) return true;
     const std::vector<double>* v = name == "x" ? values("v") : nullptr;
     if (v != nullptr && is_still_at(clipping, *v)) return true;

@@ -124,6 +124,65 @@ Clipping both_ends(std::span<const double> signal, double range, const PlateauRu
   return all;
 }
 
+/// Slope of a line through samples [begin, end) of a signal, per sample.
+double slope_of(std::span<const double> signal, std::size_t begin, std::size_t end) {
+  const double middle = 0.5 * static_cast<double>(begin + end - 1);
+  double products = 0.0;
+  double squares = 0.0;
+  for (std::size_t i = begin; i < end; ++i) {
+    const double d = static_cast<double>(i) - middle;
+    products += d * signal[i];
+    squares += d * d;
+  }
+  return squares > 0.0 ? products / squares : 0.0;
+}
+
+/// The speed that a drive reaches or exceeds for a tenth of the time, from lines through `width` samples.
+double usual_speed(std::span<const double> drive, std::size_t width) {
+  std::vector<double> speeds;
+  for (std::size_t i = 0; i + width <= drive.size(); i += width)
+    speeds.push_back(std::abs(slope_of(drive, i, i + width)));
+  if (speeds.empty()) return 0.0;
+  const auto at = speeds.begin() + static_cast<std::ptrdiff_t>(9 * (speeds.size() - 1) / 10);
+  std::ranges::nth_element(speeds, at);
+  return *at;
+}
+
+/// Whether a mass slows down between a corner of its drive and a later plateau: a mass that glides into its stop
+/// covers two thirds of the way that it covers without one.
+bool slows_down(std::span<const double> x, double sign, std::size_t width, std::size_t corner,
+                std::size_t plateau) {
+  const double speed = sign * slope_of(x, corner - width, corner);
+  if (!(speed > 0.0)) return false;
+  if (corner >= plateau) return true;
+  constexpr double share = 0.75;
+  constexpr double slack = 2.0;
+  return sign * (x[plateau] - x[corner]) <= speed * (share * static_cast<double>(plateau - corner) + slack);
+}
+
+/// Whether a drive that moves outwards has a corner where a plateau of x begins, and goes no further from there.
+bool stops_at(std::span<const double> drive, std::span<const double> x, double sign,
+              const std::pair<std::size_t, std::size_t>& plateau) {
+  constexpr std::size_t widths = 8;
+  constexpr std::size_t narrowest = 4;
+  constexpr std::size_t places = 40;
+  constexpr std::size_t late = 20;
+  const std::size_t begin = plateau.first;
+  const std::size_t length = plateau.second - begin;
+  const std::size_t width = std::max(narrowest, length / widths);
+  const std::size_t last = begin + std::max<std::size_t>(2, length / late);
+  const double least = 0.5 * usual_speed(drive, width);
+  constexpr double stopped = 0.1;
+  for (std::size_t corner = std::max(width, begin - std::min(begin, length));
+       corner <= last && corner + width <= drive.size(); corner += std::max<std::size_t>(1, length / places)) {
+    const double before = sign * slope_of(drive, corner - width, corner);
+    const double after = sign * slope_of(drive, corner, corner + width);
+    const bool is_corner = before > 0.0 && before >= least && after <= stopped * before;
+    if (is_corner && slows_down(x, sign, width, corner, begin)) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 Clipping clipping_of(std::span<const double> signal) {
@@ -165,6 +224,21 @@ bool is_still_at(const Clipping& clipping, std::span<const double> v) {
   }
   constexpr double share = 0.1;
   return upper_median(std::move(inside)) < share * upper_median(std::move(beside));
+}
+
+Clipping without_sticks(const Clipping& clipping, std::span<const double> x, std::span<const double> drive,
+                        std::size_t fewest_places) {
+  const auto [low, high] = std::ranges::minmax(x);
+  Clipping left{.value = clipping.value};
+  for (const auto& stretch : clipping.stretches) {
+    const double sign = x[stretch.first] > 0.5 * (low + high) ? 1.0 : -1.0;
+    if (stops_at(drive, x, sign, stretch)) continue;
+    left.first = left.places == 0 ? stretch.first : std::min(left.first, stretch.first);
+    ++left.places;
+    left.samples += stretch.second - stretch.first;
+    left.stretches.push_back(stretch);
+  }
+  return left.places < fewest_places ? Clipping{} : left;
 }
 
 bool is_constant(std::span<const double> signal) {

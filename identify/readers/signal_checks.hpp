@@ -35,6 +35,16 @@ struct Clipping {
 /// displacement were clipped.
 [[nodiscard]] bool is_still_at(const Clipping& clipping, std::span<const double> v);
 
+/// The same without the places where the mass sticks because its drive stops or turns: a mass that a ramp carries
+/// along arrives with speed, and stays where the ramp ends. `drive`: the force on the mass or the position of the
+/// base, of the same samples. The drive has a corner there, between lines through an eighth of the plateau's length
+/// on both sides: before it, the drive moves outwards at half its usual speed or more, and after it not at all or
+/// back. The mass slows down from there to the plateau. The corner is not behind the begin of the plateau by more
+/// than a twentieth of its length: an end of the range is reached while the drive still moves on. A harmonic drive
+/// has no corner. Nothing is left of fewer places than `fewest_places`.
+[[nodiscard]] Clipping without_sticks(const Clipping& clipping, std::span<const double> x,
+                                      std::span<const double> drive, std::size_t fewest_places);
+
 [[nodiscard]] bool is_constant(std::span<const double> signal);
 
 }  // namespace dualdamp::identify

@@ -118,3 +118,56 @@ TEST_CASE("signal checks: the velocity tells an imposed stop from clipping") {
     CHECK_FALSE(identify::is_still_at(clipping, speed));
   }
 }
+
+namespace {
+
+/// A slow triangular drive of amplitude 1, or one whose ramps end at stops, and the motion that it carries along
+/// against a friction of 0.25: the mass stays where the drive turns, and until it has fallen by twice the friction.
+struct Carried {
+  std::vector<double> drive;
+  std::vector<double> x;
+};
+
+Carried carried(bool stops) {
+  Carried both;
+  double x = -0.75;
+  constexpr int quarter = 200;
+  for (int i = 0; i < 16 * quarter; ++i) {
+    const double part = std::fmod(static_cast<double>(i), 4.0 * quarter) / quarter;
+    const double ramp = part < 2.0 ? part - 1.0 : 3.0 - part;
+    const double force = stops ? std::clamp(1.5 * ramp, -1.0, 1.0) : ramp;
+    x = std::clamp(x, force - 0.25, force + 0.25);
+    both.drive.push_back(force);
+    both.x.push_back(x);
+  }
+  return both;
+}
+
+}  // namespace
+
+TEST_CASE("signal checks: a plateau that begins where the drive stops or turns is a rest of the mass") {
+  for (const bool stops : {false, true})
+    for (const double noise : {0.0, 1e-3}) {
+      CAPTURE(stops, noise);
+      const Carried motion = carried(stops);
+      const std::vector<double> drive = with_noise(motion.drive, 1e-3);
+      const auto left = [&](const std::vector<double>& exact) {
+        const std::vector<double> x = with_noise(exact, noise);
+        const Clipping found = noise > 0.0 ? noisy_clipping_of(x) : clipping_of(x);
+        REQUIRE(found.places > 2);
+        return identify::without_sticks(found, x, drive, 2).places;
+      };
+      CHECK(left(motion.x) == 0);
+      CHECK(left(clipped(motion.x, -0.6, 0.6)) > 2);
+    }
+  // A harmonic drive turns at any phase of the motion.
+  const std::vector<double> x = clipped(decay(), -0.8, 0.8);
+  const Clipping found = clipping_of(x);
+  for (double phase = 0.0; phase < 6.3; phase += 0.1) {
+    CAPTURE(phase);
+    std::vector<double> drive;
+    for (std::size_t i = 0; i < x.size(); ++i)
+      drive.push_back(std::cos(2.0 * std::numbers::pi * static_cast<double>(i) / per_swing + phase));
+    CHECK(identify::without_sticks(found, x, with_noise(drive, 1e-3), 2).places == found.places);
+  }
+}
