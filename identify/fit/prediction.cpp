@@ -9,34 +9,13 @@
 #include <utility>
 
 #include "core/numbers.hpp"
+#include "identify/fit/record_zeros.hpp"
 #include "identify/fit/residual_test.hpp"
 #include "identify/statistics/decompositions.hpp"
 
 namespace dualdamp::identify {
 
 namespace {
-
-std::vector<FitParameter> parameters_of_records(const Rig& rig, const Experiments& experiments) {
-  std::vector<FitParameter> list;
-  const bool placed = feels_place(rig, {});
-  for (std::size_t e = 0; e < experiments.size(); ++e)
-    for (const RecordParameter each : sought_of_record(*experiments[e], placed))
-      list.push_back(parameter_of_record(*experiments[e], e, each, experiments.size() == 1));
-  return list;
-}
-
-/// rms of the residuals over the rms of the signal, all signals together.
-double error_of(const Fit& fit) {
-  double sum = 0.0;
-  double count = 0.0;
-  for (const FittedSignal& signal : fit.signals) {
-    const auto size = static_cast<double>(signal.rows.end - signal.rows.begin);
-    const double share = signal.rms / signal.range;
-    sum += size * share * share;
-    count += size;
-  }
-  return std::sqrt(sum / count);
-}
 
 /// Whether a change of the parameters along a direction that the fit does not determine has an effect.
 bool shows_undetermined(const Eigen::MatrixXd& by_rig, const Eigen::MatrixXd& undetermined) {
@@ -151,14 +130,16 @@ bool lasts(const Fit& fit) {
   });
 }
 
+/// Residuals of a right law, over the noise.
+constexpr double most_noise_units = 1.2;
+
 void judge(Prediction& found, const Fit& attainable) {
   // The chance is small, and the error exceeds the attainable error by more than a tenth.
   constexpr double level = 1e-3;
   constexpr double share = 1.1;
   const bool does_not_carry_over = found.compromise.p_value < level && found.error > share * found.attainable;
   // Noise is not correlated from sample to sample; the residuals of a wrong law are.
-  constexpr double units = 1.2;
-  const bool cannot = attainable.noise_units > units && lasts(attainable);
+  const bool cannot = attainable.noise_units > most_noise_units && lasts(attainable);
   found.is_wrong = does_not_carry_over || cannot;
   found.text = "the prediction misses by " + percent(found.error) + " of the motion";
   if (!std::isnan(found.noise_units))
@@ -244,27 +225,26 @@ std::vector<FitParameter> at_values_of(const Rig& rig, const std::vector<FitPara
 
 void describe_held(const Rig& rig, const std::vector<FitParameter>& parameters, const SharedUncertainty& known,
                    const Experiments& experiments, Prediction& found) {
-  found.error = error_of(found.fit);
+  found.error = relative_error(found.fit);
   found.noise_units = found.fit.noise_units;
   found.bands = bands_of(found.fit, experiments);
   found.uncertainty = uncertainty_of(found.fit, rig, parameters, known, experiments);
 }
 
-}  // namespace
-
-Prediction predict_records(const Rig& rig, const std::vector<FitParameter>& parameters,
-                           const SharedUncertainty& known, const Experiments& experiments,
-                           const FitOptions& options, const Refusal& refuses) {
+/// The prediction with these zeros of the records among their own parameters.
+Prediction predicted_with(const std::vector<RecordZero>& zeros, const Rig& rig,
+                          const std::vector<FitParameter>& parameters, const SharedUncertainty& known,
+                          const Experiments& experiments, const FitOptions& options, const Refusal& refuses) {
   Prediction found;
   FitOptions quick = options;
   quick.profile = false;
-  found.fit = fit_rig(rig, parameters_of_records(rig, experiments), experiments, quick);
+  found.fit = fit_rig(rig, parameters_of_records(rig, experiments, zeros), experiments, quick);
   if (!found.fit.outcome.ok()) {
     found.outcome = found.fit.outcome;
     found.text = found.outcome.reason;
     return found;
   }
-  found.error = error_of(found.fit);
+  found.error = relative_error(found.fit);
   if (std::isnan(found.error)) {
     found.text = "the record holds no motion to predict";
     return found;
@@ -277,7 +257,7 @@ Prediction predict_records(const Rig& rig, const std::vector<FitParameter>& para
   describe_held(rig, parameters, known, experiments, found);
   const std::vector<FitParameter> shared = at_values_of(rig, parameters);
   std::vector<FitParameter> all = shared;
-  std::ranges::move(parameters_of_records(rig, experiments), std::back_inserter(all));
+  std::ranges::move(parameters_of_records(rig, experiments, zeros), std::back_inserter(all));
   Fit attainable = fit_rig(rig, all, experiments, quick);
   if (!attainable.outcome.ok()) {
     found.text = "the record alone does not determine the rig: " + attainable.outcome.reason;
@@ -287,7 +267,7 @@ Prediction predict_records(const Rig& rig, const std::vector<FitParameter>& para
     const Loads loads = loads_of_both(found.fit, attainable, experiments);
     quick.seeks_loads = false;
     quick.known = loads.known;
-    std::vector<FitParameter> of_records = parameters_of_records(rig, experiments);
+    std::vector<FitParameter> of_records = parameters_of_records(rig, experiments, zeros);
     std::ranges::copy(loads.sought, std::back_inserter(of_records));
     std::ranges::copy(loads.sought, std::back_inserter(all));
     Fit held = fit_rig(rig, of_records, experiments, quick);
@@ -299,12 +279,40 @@ Prediction predict_records(const Rig& rig, const std::vector<FitParameter>& para
     }
   }
   // If the search ended at a worse place than the prediction, the prediction itself is the best fit.
-  const Fit& best = error_of(attainable) < found.error ? attainable : found.fit;
-  found.attainable = error_of(best);
+  const Fit& best = relative_error(attainable) < found.error ? attainable : found.fit;
+  found.attainable = relative_error(best);
   found.warnings = contradictions_of_stated(experiments, best);
   found.attainable_noise_units = best.noise_units;
   found.compromise = compromise_of({rig, shared, known}, experiments, found.fit, attainable);
   judge(found, best);
+  return found;
+}
+
+/// Whether a prediction leaves more than noise.
+bool leaves_more(const Prediction& found) {
+  return found.outcome.ok() && !std::isnan(found.error) &&
+         (found.is_wrong || (found.noise_units > most_noise_units && lasts(found.fit)));
+}
+
+}  // namespace
+
+Prediction predict_records(const Rig& rig, const std::vector<FitParameter>& parameters,
+                           const SharedUncertainty& known, const Experiments& experiments,
+                           const FitOptions& options, const Refusal& refuses) {
+  FitOptions quick = options;
+  quick.profile = false;
+  std::vector<RecordZero> zeros = zeros_sought_in(parameters, experiments);
+  Prediction found = predicted_with(zeros, rig, parameters, known, experiments, options, refuses);
+  if (leaves_more(found)) {
+    const std::vector<RecordZero> off = zeros_that_are_off(rig, experiments, found.fit, zeros, quick);
+    if (!off.empty()) {
+      std::ranges::copy(off, std::back_inserter(zeros));
+      Prediction shifted = predicted_with(zeros, rig, parameters, known, experiments, options, refuses);
+      if (shifted.outcome.ok() && shifted.error < found.error) found = std::move(shifted);
+    }
+  }
+  if (found.outcome.ok() && !std::isnan(found.error))
+    found.text += text_of_zeros(rig, experiments, found.fit, zeros, quick);
   return found;
 }
 

@@ -1,8 +1,9 @@
 #pragma once
 /// Prediction of a record with the parameters of a fit to other records of the same rig.
 ///
-/// The parameters of the record itself, such as its first state, are fitted to it; the rig is held fixed. The
-/// attainable error is that of the same laws when they are fitted to this record. The rig is called wrong
+/// The parameters of the record itself, such as its first state, are fitted to it; the rig is held fixed. The zero
+/// of a sensor is one of them if it was sought in the fit or is off (`record_zeros.hpp`); the text then says so.
+/// The attainable error is that of the same laws when they are fitted to this record. The rig is called wrong
 /// * if one set of parameters does not agree with both records (`compromise.hpp`, a chance below 0.001) and the
 ///   error of the prediction exceeds the attainable error by more than a tenth; or
 /// * if even the attainable fit leaves residuals that are not noise.
@@ -47,8 +48,9 @@ struct Prediction {
 /// Why records are not to be judged, from the fit of their own parameters; empty: they are.
 using Refusal = std::function<std::string(const Fit& held)>;
 
-/// `parameters`: those that were fitted; `rig` has their fitted values. `known`: uncertainty of `parameters`.
-/// `refuses` is asked before the rig is fitted to the records, which takes most of the time.
+/// `parameters`: those that were fitted, with the zeros that were sought in their records; `rig` has their fitted
+/// values. `known`: uncertainty of `parameters`. `refuses` is asked before the rig is fitted to the records, which
+/// takes most of the time.
 [[nodiscard]] Prediction predict_records(const Rig& rig, const std::vector<FitParameter>& parameters,
                                          const SharedUncertainty& known, const Experiments& experiments,
                                          const FitOptions& options = {}, const Refusal& refuses = {});

@@ -31,6 +31,10 @@ Section predict_keys() {
        name_list("free",
                  "names of the numbers that were fitted; they are fitted to the data to find the error that the "
                  "same laws can attain"),
+       name_list(
+           "zeros",
+           "names of the sensors' zeros that the fit sought in its records, such as offset; those of the data "
+           "are fitted to them"),
        quantities("covariance", {"1"},
                   "covariance of these numbers, row by row, SI; it gives the error that their uncertainty "
                   "explains")
@@ -70,6 +74,24 @@ std::vector<identify::FitParameter> fitted_parameters(const identify::Rig& rig, 
                                           " numbers, and each change of " + std::to_string(size) +
                                           " parameters needs " + std::to_string(size)});
   return parameters;
+}
+
+/// The zeros that the fit sought in its records.
+std::vector<identify::FitParameter> fitted_zeros(const Json& analysis, std::vector<SetupFault>& faults) {
+  std::vector<identify::FitParameter> zeros;
+  for (const Json& name : analysis.value("zeros", Json::array())) {
+    const auto& names = identify::record_parameter_names;
+    const auto found = std::ranges::find(names, name.get<std::string>());
+    if (found == names.end() || !found->starts_with("offset"))
+      faults.push_back({"zeros", "'" + name.get<std::string>() +
+                                     "' in 'analysis.zeros' is no zero: offset, offset_v "
+                                     "and offset_a are those of x, v and a"});
+    else
+      zeros.push_back({.name = std::string(*found),
+                       .owner = identify::Owner::record,
+                       .record_parameter = static_cast<identify::RecordParameter>(found - names.begin())});
+  }
+  return zeros;
 }
 
 /// The numbers of a key as rows of `size`; empty without the key.
@@ -234,6 +256,7 @@ std::unique_ptr<const Question> ask_predict(CheckedValues&& values) {
   std::vector<SetupFault> faults;
   identify::Rig rig = rig_of(values.system, values.model);
   std::vector<identify::FitParameter> parameters = fitted_parameters(rig, values.analysis, faults);
+  const std::vector<identify::FitParameter> zeros = fitted_zeros(values.analysis, faults);
   std::vector<DataItem> items = items_of(values.analysis, values.files, "data");
   identify::Experiments undriven = undriven_data(items, values);
   std::vector<std::string> warnings = leave_out_holds(items, values.model, false);
@@ -252,6 +275,7 @@ std::unique_ptr<const Question> ask_predict(CheckedValues&& values) {
   identify::SharedUncertainty uncertainty = {
       rows_of(values.analysis, "covariance", parameters.size()),
       rows_of(values.analysis, "undetermined", parameters.size()).transpose()};
+  std::ranges::copy(zeros, std::back_inserter(parameters));
   return std::make_unique<PredictQuestion>(std::move(rig), std::move(parameters), std::move(uncertainty),
                                            std::move(data), std::move(undriven), std::move(warnings),
                                            assumed_drive(values, items), values.words);

@@ -17,6 +17,18 @@ bool is_of_one_record(const std::string& name) {
          identify::record_parameter_names.end();
 }
 
+/// The zeros of sensors among the parameters, each once.
+Json zeros_among(const Json& parameters) {
+  Json zeros = Json::array();
+  for (const Json& parameter : parameters) {
+    const auto name = parameter.at("name").get<std::string>();
+    const std::string zero = name.substr(0, name.find('['));
+    if (zero.starts_with("offset") && is_of_one_record(name) && std::ranges::find(zeros, Json(zero)) == zeros.end())
+      zeros.push_back(zero);
+  }
+  return zeros;
+}
+
 }  // namespace
 
 Json prediction_keys(const Json& result) {
@@ -32,6 +44,7 @@ Json prediction_keys(const Json& result) {
   Json keys = {{"type", "predict"}};
   const Json marks = result.value("fitted_readings", Json::array());
   if (!marks.empty()) keys["fitted_readings"] = marks;
+  if (Json zeros = zeros_among(parameters); !zeros.empty()) keys["zeros"] = std::move(zeros);
   if (shared.empty()) return keys;
   const auto add_shared = [&shared](const Json& row, Json& list) {
     for (const std::size_t j : shared) list.push_back(row.at(j).get<double>());

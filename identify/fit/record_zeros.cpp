@@ -1,0 +1,135 @@
+#include "identify/fit/record_zeros.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "core/coordinate.hpp"
+#include "core/numbers.hpp"
+
+namespace dualdamp::identify {
+
+namespace {
+
+constexpr std::array zeros_of_sensors = {RecordParameter::offset, RecordParameter::offset_v,
+                                         RecordParameter::offset_a};
+
+/// The signal whose zero this is.
+std::string signal_of(RecordParameter which) {
+  return which == RecordParameter::offset_v ? "v" : which == RecordParameter::offset_a ? "a" : "x";
+}
+
+bool has_zero(const Experiment& experiment, RecordParameter which) {
+  return experiment.kind == ExperimentKind::history &&
+         std::ranges::find(experiment.signals, signal_of(which), &Signal::name) != experiment.signals.end() &&
+         std::ranges::find(experiment.record_others, which) != experiment.record_others.end();
+}
+
+const FittedParameter* find_zero(const Fit& fit, const RecordZero& zero) {
+  for (const FittedParameter& fitted : fit.parameters)
+    if (fitted.parameter.owner == Owner::record && fitted.parameter.index == zero.experiment &&
+        fitted.parameter.record_parameter == zero.which)
+      return &fitted;
+  return nullptr;
+}
+
+std::string text_of(const Rig& rig, const Experiment& experiment, const FittedParameter& zero, bool is_alone) {
+  const core::Coordinate coordinate = rig.known.oscillator.coordinate;
+  const auto with_unit = [&](double value, int digits, const std::string& unit) {
+    return core::format_number(value, digits) + " " + core::unit_for(coordinate, unit);
+  };
+  constexpr int digits = 4;
+  const RecordParameter which = zero.parameter.record_parameter;
+  std::string text = is_alone ? "" : experiment.label + ": ";
+  text += "the zero of " + signal_of(which) + " is fitted to this record, " +
+          with_unit(zero.value, digits, zero.parameter.unit);
+  if (!std::isnan(zero.std)) text += " with a standard error of " + with_unit(zero.std, 2, zero.parameter.unit);
+  const double force = rig.known.oscillator.stiffness * zero.value;
+  if (which == RecordParameter::offset && std::isfinite(force) && force != 0.0)
+    text += " (a constant force on the mass of " + with_unit(force, 3, "N") + " would do the same)";
+  return text;
+}
+
+}  // namespace
+
+std::vector<FitParameter> parameters_of_records(const Rig& rig, const Experiments& experiments,
+                                                const std::vector<RecordZero>& zeros) {
+  std::vector<FitParameter> list;
+  const bool placed = feels_place(rig, {});
+  for (std::size_t e = 0; e < experiments.size(); ++e) {
+    std::vector<RecordParameter> sought = sought_of_record(*experiments[e], placed);
+    for (const RecordZero& zero : zeros)
+      if (zero.experiment == e && std::ranges::find(sought, zero.which) == sought.end())
+        sought.push_back(zero.which);
+    for (const RecordParameter each : sought)
+      list.push_back(parameter_of_record(*experiments[e], e, each, experiments.size() == 1));
+  }
+  return list;
+}
+
+std::vector<RecordZero> zeros_sought_in(const std::vector<FitParameter>& parameters,
+                                        const Experiments& experiments) {
+  std::vector<RecordZero> zeros;
+  for (std::size_t e = 0; e < experiments.size(); ++e)
+    for (const RecordParameter which : zeros_of_sensors)
+      if (has_zero(*experiments[e], which) &&
+          std::ranges::any_of(parameters, [which](const FitParameter& parameter) {
+            return parameter.owner == Owner::record && parameter.record_parameter == which;
+          }))
+        zeros.push_back({e, which});
+  return zeros;
+}
+
+std::vector<RecordZero> zeros_that_are_off(const Rig& rig, const Experiments& experiments, const Fit& held,
+                                           const std::vector<RecordZero>& sought, const FitOptions& options) {
+  std::vector<RecordZero> all = sought;
+  for (std::size_t e = 0; e < experiments.size(); ++e)
+    for (const RecordParameter which : zeros_of_sensors)
+      if (has_zero(*experiments[e], which) && find_zero(held, {e, which}) == nullptr &&
+          std::ranges::find(all, RecordZero{e, which}) == all.end())
+        all.push_back({e, which});
+  if (all.size() == sought.size()) return {};
+  const Fit shifted = fit_rig(rig, parameters_of_records(rig, experiments, all), experiments, options);
+  constexpr double half = 0.5;
+  if (!shifted.outcome.ok() || !(std::pow(relative_error(shifted) / relative_error(held), 2) < half)) return {};
+  constexpr double least = 4.0;
+  std::erase_if(all, [&](const RecordZero& zero) {
+    const FittedParameter* found = find_zero(shifted, zero);
+    return std::ranges::find(sought, zero) != sought.end() || found == nullptr ||
+           !(std::abs(found->value) > least * found->std);
+  });
+  return all;
+}
+
+std::string text_of_zeros(const Rig& rig, const Experiments& experiments, const Fit& held,
+                          const std::vector<RecordZero>& zeros, const FitOptions& options) {
+  std::string text;
+  for (const RecordZero& zero : zeros) {
+    const FittedParameter* found = find_zero(held, zero);
+    if (found == nullptr) continue;
+    text += "; " + text_of(rig, *experiments[zero.experiment], *found, experiments.size() == 1);
+  }
+  if (text.empty()) return text;
+  const Fit without = fit_rig(rig, parameters_of_records(rig, experiments, {}), experiments, options);
+  if (!without.outcome.ok()) return text;
+  text +=
+      "; with no zero but 0, the prediction misses by " + core::format_number(100.0 * relative_error(without), 3) + " %";
+  if (!std::isnan(without.noise_units))
+    text += ", " + core::format_number(without.noise_units, 3) + " times the noise";
+  return text;
+}
+
+double relative_error(const Fit& fit) {
+  double sum = 0.0;
+  double count = 0.0;
+  for (const FittedSignal& signal : fit.signals) {
+    const auto size = static_cast<double>(signal.rows.end - signal.rows.begin);
+    const double share = signal.rms / signal.range;
+    sum += size * share * share;
+    count += size;
+  }
+  return std::sqrt(sum / count);
+}
+
+}  // namespace dualdamp::identify
