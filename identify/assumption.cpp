@@ -11,7 +11,7 @@ struct Words {
 
 constexpr std::array<Words, assumption_count> words = {{
     {"constants", "mass, stiffness and frequency are as stated"},
-    {"sensors", "the sensors have their gain, no delay and enough range"},
+    {"sensors", "the sensors have their zero and gain, no delay and enough range"},
     {"spring", "the spring is linear"},
     {"one_mode", "the structure moves in one mode"},
     {"drive", "the drive is harmonic and steady"},

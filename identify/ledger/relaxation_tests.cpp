@@ -375,6 +375,34 @@ bool explains(const JointModel& relaxed, const std::vector<std::size_t>& taken, 
   return std::ranges::all_of(tests, [](const RelaxationTest& test) { return test.p_value >= family_level; });
 }
 
+/// Adds to each departure those relaxations that cannot be told from the ones taken and explain it as well beside
+/// the others. Departures are found one after the other, and what is still missed when the first one is charged
+/// decides between relaxations that are nearly the same.
+void name_alike(const JointModel& model, const std::vector<std::size_t>& taken,
+                const std::vector<std::size_t>& alike, double least_change,
+                std::vector<FoundDeparture>& departures) {
+  if (!model.refit || departures.size() < 2) return;
+  for (std::size_t d = 0; d < departures.size(); ++d) {
+    std::vector<RelaxationTest>& explanations = departures[d].explanations;
+    std::vector<std::size_t> others = taken;
+    others.erase(others.begin() + static_cast<std::ptrdiff_t>(d));
+    std::optional<Rest> own;
+    for (const std::size_t index : alike) {
+      if (std::ranges::find(explanations, index, &RelaxationTest::index) != explanations.end()) continue;
+      if (!own) own = rest_of(model, others, taken[d], least_change);
+      const Rest rest = rest_of(model, others, index, least_change);
+      const bool leaves_as_little = rest.p_value >= family_level || own->p_value < family_level;
+      if (!leaves_as_little || !(rest.misfit <= own->misfit + far_better)) continue;
+      RelaxationTest test;
+      test.index = index;
+      test.p_value = explanations.front().p_value;
+      test.constants = rest.constants;
+      set_change(rest.change, test);
+      explanations.push_back(test);
+    }
+  }
+}
+
 }  // namespace
 
 RelaxationTests test_relaxations(const JointModel& model, double least_change) {
@@ -415,6 +443,7 @@ RelaxationTests test_relaxations(const JointModel& model, double least_change) {
     taken = std::move(further);
     projection = project(result.relaxed ? *result.relaxed : model, taken);
   }
+  name_alike(model, taken, projection.alike, least_change, result.departures);
   return result;
 }
 

@@ -86,6 +86,26 @@ TEST_CASE("A swing out of step with a linear spring is charged to the spring, wi
   CHECK(ledger.joint->value.F0 == Approx(0.013).epsilon(0.02));
 }
 
+TEST_CASE("A zero that is off and drifts is no friction of one direction for certain") {
+  Measured m;
+  m.rig = {.m = 0.8, .k = 1200.0, .zeta = 0.0145, .F0 = 1.1};
+  constexpr double rate = 200.0;
+  const auto motion = motion_of(m.rig, [](double) { return 0.0; }, 4.0, rate, 0.025);
+  const dualdamp::core::RandomStream noise{5, 1};
+  History history{.sample_rate = rate};
+  for (std::size_t i = 0; i < motion.x.size(); ++i) {
+    const double share = static_cast<double>(i) / static_cast<double>(motion.x.size());
+    history.x.push_back(motion.x[i] + 3e-4 + 1.5e-3 * share + 1e-5 * noise.normal(static_cast<std::uint64_t>(i)));
+  }
+  m.record.histories.push_back(history);
+  m.constants = {m.rig.m, m.rig.k, unknown};
+  const Ledger ledger = ledger_of(m.record, m.constants);
+  CHECK(ledger.is_violated(Assumption::stationarity));
+  CHECK(ledger.is_violated(Assumption::symmetry));
+  CHECK(ledger.is_violated(Assumption::sensors));
+  CHECK(ledger.entry(Assumption::sensors).test == "zero of x free");
+}
+
 TEST_CASE("The history of the drive is asked for only where it is missing") {
   const auto about = [](Kind kind) {
     const Measured m = measured(kind, first_seed);
