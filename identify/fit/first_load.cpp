@@ -6,6 +6,7 @@
 
 #include "core/constants.hpp"
 #include "core/numbers.hpp"
+#include "identify/fit/steps.hpp"
 #include "identify/fit/uncertainty.hpp"
 #include "identify/statistics/decompositions.hpp"
 #include "identify/statistics/distributions.hpp"
@@ -67,6 +68,7 @@ class LoadSearch {
     auto task = std::make_unique<FitTask>(before_.rig, before_.experiments, std::move(parameters), std::move(sizes),
                                           std::move(begins));
     task->problem.limit(most_work_);
+    task->problem.set_stepped(before_.problem.stepped());
     return task;
   }
 
@@ -139,6 +141,7 @@ class LoadSearch {
       points.emplace_back(found_.coordinates.size() + 1);
       points.back() << found_.coordinates, travel / size;
     }
+    loaded.task->problem.set_stepped(stepped_parameters(problem, points.front()));
     std::optional<SearchResult> best = search_near(problem, points, options_);
     if (leaves_motion_ && (!best || holds_motion(*best, problem))) {
       std::optional<SearchResult> other =

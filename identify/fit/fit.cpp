@@ -17,6 +17,7 @@
 #include "identify/fit/residual_test.hpp"
 #include "identify/fit/search.hpp"
 #include "identify/fit/serial_test.hpp"
+#include "identify/fit/steps.hpp"
 #include "identify/fit/uncertainty.hpp"
 #include "identify/statistics/huber.hpp"
 
@@ -262,6 +263,9 @@ Fit fit_rig(const Rig& rig, std::vector<FitParameter> parameters, const Experime
   const SearchOptions search{
       .points = result.starts, .most_starts = all_stated ? 2U : 3U, .robust = options.robust, .scale = scale};
   problem.limit(options.most_work);
+  task->problem.set_stepped(
+      stepped_parameters(problem, problem.coordinates(Eigen::Map<const Eigen::VectorXd>(
+                                      sizes.data(), static_cast<Eigen::Index>(sizes.size())))));
   std::optional<SearchResult> found = search_parameters(problem, parameters, sizes, search);
   if (problem.is_exhausted()) {
     result.outcome = cut_short(options.most_work);

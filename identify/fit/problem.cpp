@@ -64,6 +64,7 @@ FitProblem::FitProblem(const FitProblem& whole, Experiments parts)
       parts_(std::move(parts)),
       experiments_(whole.experiments_),
       coordinates_(whole.coordinates_),
+      stepped_(whole.stepped_),
       known_(whole.known_),
       most_work_(whole.most_work_) {
   for (std::size_t e = 0; e < parts_.size(); ++e)
@@ -111,6 +112,13 @@ void FitProblem::number_rows() {
     if (!holds_mass_) continue;
     for (const std::size_t i : signal(rows).stuck) counted_[rows.begin + static_cast<Eigen::Index>(i)] = 0.0;
   }
+}
+
+bool FitProblem::has_stepped() const { return std::ranges::count(stepped_, true) > 0; }
+
+bool FitProblem::has_loops_only() const {
+  return std::ranges::all_of(experiments_,
+                             [](const Experiment* experiment) { return experiment->kind == ExperimentKind::loop; });
 }
 
 long FitProblem::work() const {
@@ -310,6 +318,10 @@ bool FitProblem::derivatives(const Eigen::VectorXd& q, Eigen::VectorXd& result, 
   std::atomic<bool> ok = true;
   sim::in_parts(static_cast<std::size_t>(q.size()), 1, 0, [&](std::size_t number, std::size_t) {
     const auto i = static_cast<Eigen::Index>(number);
+    if (is_stepped(i)) {
+      jacobian.col(i).setZero();
+      return;
+    }
     Eigen::VectorXd slope;
     constexpr double farthest = 0.1;
     constexpr double farther = 10.0;

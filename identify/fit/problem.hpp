@@ -73,6 +73,16 @@ class FitProblem {
   void limit(long most) const;
   [[nodiscard]] bool is_exhausted() const { return work() > *most_work_; }
 
+  /// Sets which parameters act in steps (`steps.hpp`): their derivatives are zero. All others if nothing is set.
+  void set_stepped(std::vector<bool> stepped) { stepped_ = std::move(stepped); }
+  [[nodiscard]] const std::vector<bool>& stepped() const { return stepped_; }
+  [[nodiscard]] bool is_stepped(Eigen::Index i) const {
+    const auto at = static_cast<std::size_t>(i);
+    return at < stepped_.size() && stepped_[at];
+  }
+  [[nodiscard]] bool has_stepped() const;
+  [[nodiscard]] bool has_loops_only() const;
+
   [[nodiscard]] Eigen::Index rows() const { return rows_; }
   [[nodiscard]] const std::vector<SignalRows>& signals() const { return signals_; }
   [[nodiscard]] const std::vector<SearchCoordinate>& coordinates() const { return coordinates_; }
@@ -139,6 +149,7 @@ class FitProblem {
   Experiments parts_;  ///< experiments that this problem owns
   std::vector<const Experiment*> experiments_;
   std::vector<SearchCoordinate> coordinates_;
+  std::vector<bool> stepped_;        ///< of each parameter; empty: none
   std::vector<RecordValues> known_;  ///< of each experiment
   std::vector<SignalRows> signals_;
   std::vector<Eigen::Index> begins_;  ///< of each experiment

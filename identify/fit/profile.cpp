@@ -255,7 +255,8 @@ double Profiler::end(Eigen::Index i, const FittedParameter& fitted, double limit
   ProfilePath within = others;
   Bracket bracket;
   double last = 0.0;
-  constexpr int most_rounds = 16;
+  // A step of the sum of squares may be some thousand times shorter than the first distance.
+  const int most_rounds = problem_.is_stepped(i) ? 40 : 16;
   constexpr double close = 0.02;
   for (int round = 0; round < most_rounds; ++round) {
     const double value = value_at(distance);

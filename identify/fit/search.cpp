@@ -8,6 +8,7 @@
 #include "identify/experiments/starts.hpp"
 #include "identify/fit/freedom.hpp"
 #include "identify/fit/residual_test.hpp"
+#include "identify/fit/steps.hpp"
 #include "identify/statistics/huber.hpp"
 #include "identify/statistics/least_squares.hpp"
 #include "sim/parallel.hpp"
@@ -252,6 +253,21 @@ std::optional<LeastSquaresFit> search_roughly(const std::vector<Eigen::VectorXd>
   return best;
 }
 
+/// Scans the parameters that act in steps, from the end of another search.
+LeastSquaresFit scan(LeastSquaresFit from, const Search& search, const FitProblem& problem) {
+  if (!problem.has_stepped()) return from;
+  constexpr double close = 1e-6;
+  constexpr int few = 8;
+  const SearchPlace best = scan_steps(problem, {from.parameters, search.squares(from.parameters)},
+                                      [&](const Eigen::VectorXd& q) -> SearchPlace {
+                                        const LeastSquaresFit found = search.improve(q, close, few);
+                                        return {found.parameters, search.squares(found.parameters)};
+                                      });
+  from.parameters = best.q;
+  from.sum_of_squares = best.squares;
+  return from;
+}
+
 /// Continues a search to its end, with weights from the residuals of each signal.
 std::optional<LeastSquaresFit> finish(LeastSquaresFit found, Search& search, const FitProblem& problem,
                                       bool several_weights) {
@@ -299,7 +315,8 @@ std::optional<SearchResult> search_near(const FitProblem& problem, const std::ve
   std::optional<LeastSquaresFit> best;
   for (const Eigen::VectorXd& q : points)
     take_better(rough_search.improve(q, rough, some), rough_search, rough_problem, best);
-  return best ? search_from(problem, best->parameters, options) : std::nullopt;
+  if (!best) return std::nullopt;
+  return search_from(problem, scan(std::move(*best), rough_search, rough_problem).parameters, options);
 }
 
 std::optional<SearchResult> search_from(const FitProblem& problem, const Eigen::VectorXd& coordinates,
@@ -325,7 +342,7 @@ std::optional<SearchResult> search_parameters(const FitProblem& problem,
   std::optional<SearchResult> best;
   const auto take = [&](std::optional<LeastSquaresFit> found) {
     Search search(problem, options);
-    if (found) found = finish(std::move(*found), search, problem, several_weights);
+    if (found) found = finish(scan(std::move(*found), search, problem), search, problem, several_weights);
     if (found && (!best || alike.squares(found->parameters) < alike.squares(best->coordinates)))
       best = search.result(*found);
   };

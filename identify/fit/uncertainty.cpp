@@ -39,7 +39,7 @@ class Uncertainty {
     for (Eigen::Index i = 0; i < size_; ++i) quantiles_.push_back(quantile95(freedom_along(scaled_row(i))));
     for (Eigen::Index i = 0; i < size_; ++i) add_interval(i);
     for (FittedParameter& fitted : fit_.parameters) end_above_other(fitted);
-    if (end_.profile) add_profiles();
+    if (end_.profile || end_.problem.has_stepped()) add_profiles();
     for (Eigen::Index i = 0; i < size_; ++i) judge_profile(i);
     add_trade_offs();
     add_undetermined();
@@ -318,6 +318,8 @@ class Uncertainty {
       FittedParameter& fitted = fit_.parameters[static_cast<std::size_t>(i)];
       if ((is_lost(i) && !acts_in_steps(i)) || (fitted.at_bound && free_.empty())) return;
       if (needs_noise(scaled_row(i))) return;
+      // What acts in steps has no other interval.
+      if (!end_.profile && !end_.problem.is_stepped(i)) return;
       // Correlated residuals widen the profile as they widen the covariance.
       const double variance = slope_.row(i) * classical_ * slope_.row(i).transpose();
       const double widening = fitted.at_bound || !(variance > 0.0)
@@ -328,6 +330,7 @@ class Uncertainty {
       fitted.profile95 = profiler.interval(i, fitted, limit);
     });
     for (Eigen::Index i = 0; i < size_; ++i) {
+      if (limits[static_cast<std::size_t>(i)] == 0.0) continue;
       FittedParameter& fitted = fit_.parameters[static_cast<std::size_t>(i)];
       fitted.profile95 = profiler.widened(i, fitted.profile95, limits[static_cast<std::size_t>(i)]);
     }
