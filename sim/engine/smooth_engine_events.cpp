@@ -360,11 +360,20 @@ double SmoothEngine::crossing(std::size_t watch, double before, double negative)
 }
 
 /// A slip that ends and begins again within one step may be the dense output alone: it swings below zero where the
-/// velocity begins with a high power of time, as under a level that falls steeply at v = 0. A shorter step swings
-/// less; a true reversal is met by a step that ends in it.
+/// velocity begins with a high power of time, as under a level that falls steeply at v = 0. Nor does a slip end
+/// where it begins while the forces drive it on: the step passed over a swing that is within its error. A shorter
+/// step swings less; a true reversal is met by a step that ends in it.
 bool SmoothEngine::may_be_swing_of_output(const Hit& hit) const {
   const Watch& watch = watches_[hit.watch];
-  return is<SlipEnd>(watch.ending) && watch.values.back() > 0.0 && taken_ > shortest_part * longest_step();
+  if (!is<SlipEnd>(watch.ending) || !(taken_ > shortest_part * longest_step())) return false;
+  if (watch.values.back() > 0.0) return true;
+  if (hit.part != 0.0 || !(guard_rate(hit.watch, X_, local_time_, taken_) > 0.0)) return false;
+  // A steep dashpot turns the force over at once.
+  constexpr double soon = 1e-6;
+  probe_ = X_;
+  for (std::size_t k = 0; k < probe_.size(); ++k) probe_[k] += soon * taken_ * rates_[k];
+  flow_.evaluate(probe_, local_time_ + soon * taken_, rates_);
+  return friction::sign(direction_) * rates_[1] > 0.0;
 }
 
 /// Repeats the step so that it ends at the crossing, and corrects its length by Newton's method. False: the shorter
