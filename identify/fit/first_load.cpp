@@ -43,9 +43,9 @@ class LoadSearch {
         found_(found),
         index_(index),
         length_(length),
-        options_(options),
+        options_(begun_at(options, found)),
         most_work_(most_work),
-        leaves_motion_(holds_motion(found, before.problem)) {}
+        leaves_motion_(holds_motion(found, before.problem, index)) {}
 
   [[nodiscard]] std::optional<LoadedFit> run() const {
     const std::vector<double> travels = best_travels();
@@ -60,6 +60,12 @@ class LoadSearch {
 
  private:
   static constexpr double most_chance = 2e-3;
+
+  /// The weights of several signals take many rounds to settle: a search with a load begins with those without it.
+  [[nodiscard]] static SearchOptions begun_at(SearchOptions options, const SearchResult& found) {
+    if (found.deviations.size() > 1) options.deviations = found.deviations;
+    return options;
+  }
 
   [[nodiscard]] std::unique_ptr<FitTask> task_with(std::vector<FitParameter> parameters, std::vector<double> sizes,
                                                    double travel) const {
@@ -143,7 +149,9 @@ class LoadSearch {
     }
     loaded.task->problem.set_stepped(stepped_parameters(problem, points.front()));
     std::optional<SearchResult> best = search_near(problem, points, options_);
-    if (leaves_motion_ && (!best || holds_motion(*best, problem))) {
+    // Beside other records, which determine the rig as well, the full search costs more than it finds.
+    const bool is_alone = before_.experiments.size() == 1;
+    if (leaves_motion_ && (!best || (is_alone && holds_motion(*best, problem, index_)))) {
       std::optional<SearchResult> other =
           search_parameters(problem, loaded.task->parameters, loaded.task->sizes, options_);
       if (other &&
@@ -212,7 +220,7 @@ class LoadSearch {
   const SearchResult& found_;
   std::size_t index_;
   double length_;
-  const SearchOptions& options_;
+  SearchOptions options_;
   long most_work_;
   bool leaves_motion_;
 };

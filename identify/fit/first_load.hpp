@@ -7,8 +7,8 @@
 ///
 ///   1. The fit with unloaded contacts is predicted with travels of either sign, from 1e-4 of the motion to all of
 ///      it. What the other parameters can make up for, to first order, does not count.
-///   2. From the best of these, a search seeks the travel as well. If the residuals of both fits are more than
-///      noise, all steps of a search are repeated with it.
+///   2. From the best of these, a search seeks the travel as well. If the residuals of the record are more than
+///      noise with both fits, and there is no other record, all steps of a search are repeated with it.
 ///   3. The travel is kept if it reduces the sum of squares by more than chance does (F test, 0.002). So one in
 ///      some hundred records that begin unloaded gets a travel, which then is near zero.
 ///

@@ -24,13 +24,20 @@ class Search {
  public:
   Search(const FitProblem& problem, const SearchOptions& options)
       : problem_(problem), options_(options), weights_(Eigen::VectorXd::Ones(problem.rows())) {
-    for (const SignalRows& rows : problem.signals()) deviations_.push_back(first_deviation(rows));
+    deviations_ = options.deviations;
+    if (deviations_.size() != problem.signals().size()) {
+      deviations_.clear();
+      for (const SignalRows& rows : problem.signals()) deviations_.push_back(first_deviation(rows));
+    }
     spread();
   }
 
   [[nodiscard]] SearchResult result(const LeastSquaresFit& found) const {
-    return {found.parameters, weights_, unbounded_};
+    return {found.parameters, weights_, unbounded_, deviations_};
   }
+
+  /// Whether the weights are only guessed yet.
+  [[nodiscard]] bool begins_anew() const { return options_.deviations.empty(); }
 
   /// Weighted sum of squares, or Huber's sum of a robust search; infinite if there is no motion. For weights that
   /// are not yet bounded.
@@ -274,15 +281,28 @@ std::optional<LeastSquaresFit> finish(LeastSquaresFit found, Search& search, con
   constexpr double fine = 1e-8;
   constexpr int most_rounds = 12;
   constexpr double settled = 1e-3;
+  // While the weights still change by a multiple, a minimum by them need not be found to its last digits.
+  constexpr double coarse = 1e-5;
+  constexpr double large = 0.1;
+  double last = several_weights && search.begins_anew() ? core::infinity : 0.0;
   for (int round = 0; round < most_rounds; ++round) {
     Eigen::VectorXd outputs;
-    LeastSquaresFit next = search.improve(found.parameters, fine, 100);
+    LeastSquaresFit next = search.improve(found.parameters, last > large ? coarse : fine, 100);
     if (next.jacobian.rows() == problem.rows() && next.jacobian.allFinite()) found = std::move(next);
     if (!problem.outputs(found.parameters, outputs)) return std::nullopt;
     const double change = search.reweight(outputs, found.jacobian);
-    if (!several_weights || change < settled) break;
+    if (!several_weights || (change < settled && last <= large)) break;
+    last = change;
   }
   return found;
+}
+
+/// Whether two searches came to the same minimum: by their sums of squares, and by the change of the readings
+/// between them.
+bool is_same_place(const LeastSquaresFit& a, const LeastSquaresFit& b) {
+  constexpr double alike = 0.01;
+  const double between = (b.jacobian * (a.parameters - b.parameters)).squaredNorm();
+  return std::abs(a.sum_of_squares / b.sum_of_squares - 1.0) < alike && between < alike * b.sum_of_squares;
 }
 
 bool has_several_weights(const FitProblem& problem, const SearchOptions& options) {
@@ -294,12 +314,13 @@ constexpr Accuracy of_first_steps{.tolerance = 1e-7, .step = 1e-3};
 
 }  // namespace
 
-bool holds_motion(const SearchResult& found, const FitProblem& problem) {
+bool holds_motion(const SearchResult& found, const FitProblem& problem, std::optional<std::size_t> record) {
   Eigen::VectorXd outputs;
   if (!problem.outputs(found.coordinates, outputs)) return false;
   const Eigen::VectorXd misses = problem.misses(outputs);
   const auto parameters = static_cast<double>(found.coordinates.size());
   return std::ranges::any_of(problem.signals(), [&](const SignalRows& rows) {
+    if (record && rows.experiment != *record) return false;
     const Eigen::Index size = rows.end - rows.begin;
     const Eigen::VectorXd part =
         bounded_residuals(misses.segment(rows.begin, size), found.weights.segment(rows.begin, size));
@@ -340,7 +361,13 @@ std::optional<SearchResult> search_parameters(const FitProblem& problem,
   const bool several_weights = has_several_weights(problem, options);
   const Search alike(problem, options);  // compares ended searches with equal weights
   std::optional<SearchResult> best;
+  std::vector<LeastSquaresFit> ended;  // before their weights were found
   const auto take = [&](std::optional<LeastSquaresFit> found) {
+    // With several weights the end of a search takes most of its time: the same place is not ended twice.
+    if (found && several_weights &&
+        std::ranges::any_of(ended, [&](const LeastSquaresFit& other) { return is_same_place(*found, other); }))
+      return;
+    if (found) ended.push_back(*found);
     Search search(problem, options);
     if (found) found = finish(scan(std::move(*found), search, problem), search, problem, several_weights);
     if (found && (!best || alike.squares(found->parameters) < alike.squares(best->coordinates)))

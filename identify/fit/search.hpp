@@ -23,12 +23,15 @@ struct SearchOptions {
   std::size_t most_starts = 3;  ///< how many of the best starts are fitted with all readings
   bool robust = false;
   DataScale scale = {};  ///< of the data, for the spread of the starts
+  /// Of each signal, at which the search begins: those of an earlier search. Empty: from the data.
+  std::vector<double> deviations = {};
 };
 
 struct SearchResult {
   Eigen::VectorXd coordinates;
-  Eigen::VectorXd weights;    ///< of each row of the problem: 1/deviation, smaller for outliers
-  Eigen::VectorXd unbounded;  ///< the same without the bound of outliers
+  Eigen::VectorXd weights;         ///< of each row of the problem: 1/deviation, smaller for outliers
+  Eigen::VectorXd unbounded;       ///< the same without the bound of outliers
+  std::vector<double> deviations;  ///< of each signal
 };
 
 /// `sizes`: of each parameter, as in the problem. Nothing if the rig has no such motion at any start.
@@ -46,7 +49,8 @@ struct SearchResult {
                                                       const std::vector<Eigen::VectorXd>& points,
                                                       const SearchOptions& options);
 
-/// Whether the residuals of any signal are more than noise.
-[[nodiscard]] bool holds_motion(const SearchResult& found, const FitProblem& problem);
+/// Whether the residuals of any signal are more than noise; of a single record, if its number is given.
+[[nodiscard]] bool holds_motion(const SearchResult& found, const FitProblem& problem,
+                                std::optional<std::size_t> record = {});
 
 }  // namespace dualdamp::identify
