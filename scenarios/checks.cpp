@@ -40,9 +40,6 @@ void resolve_gravity(CheckedFile& file) {
   const auto gravity = file.number_at("system", "gravity_stiffness");
   if (!gravity) return;
   const std::string path = "system.gravity_stiffness";
-  if (file.coordinate() != core::Coordinate::angle)
-    file.complain(path, "'" + path + "' is of a pendulum, and the coordinate is no angle",
-                  "with coordinate: angle, or with the units of rotation");
   if (moves_base(file.text_at("excitation", "type")))
     file.complain(path, "'" + path + "' does not work with a base in motion: gravity has a direction of its own",
                   "excitation type none, or one of force");
@@ -54,6 +51,14 @@ void resolve_gravity(CheckedFile& file) {
   Json& system = file.values()["system"];
   system["stiffness"] = *gravity;
   put_in_order(system, file.keys_of("system"));
+}
+
+/// The units of measured data may show what the coordinate is.
+void check_pendulum(CheckedFile& file) {
+  const std::string path = "system.gravity_stiffness";
+  if (file.number_at("system", "gravity_stiffness") && file.coordinate() != core::Coordinate::angle)
+    file.complain(path, "'" + path + "' is of a pendulum, and the coordinate is no angle",
+                  "with coordinate: angle, or with the units of rotation");
 }
 
 /// Only analyses of measured data can do without them.
@@ -339,6 +344,7 @@ Checked check(const Document& document, Reading& reading, const Section& format,
   resolve_frequency(file);
   if (file.needs() != nullptr && !file.needs()->excitations.empty()) read_drive(file);
   if (analysis->check != nullptr) analysis->check(file);
+  check_pendulum(file);
   if (file.values().contains("expect"))
     check_expectations(file, {result_fields(*analysis, file.values().at("analysis")),
                               "analysis '" + file.analysis() + "'", [&](std::string_view list) {

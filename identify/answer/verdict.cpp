@@ -99,13 +99,22 @@ std::string departures_text(const Ledger& ledger) {
   return text;
 }
 
+/// " The drive steps between two samples ... (delay of x free, p = 1e-20)."
+std::string step_text(const Ledger& ledger) {
+  const auto found = std::ranges::find_if(ledger.entries, &LedgerEntry::is_of_step);
+  if (found == ledger.entries.end()) return {};
+  return " The data show that " + found->reason + " (" + found->test +
+         ", p = " + core::format_number(*found->p_value, 2) + ").";
+}
+
 /// "zero of x free (p = 1e-20)", of departures that are seen and violate nothing. Entries with the same p are one
 /// departure.
 std::string harmless_text(const Ledger& ledger) {
   std::vector<std::string> texts;
   std::vector<double> seen;
   for (const LedgerEntry& entry : ledger.entries) {
-    if (entry.standing != Standing::holds || entry.p_value.value_or(1.0) >= family_level) continue;
+    if (entry.standing != Standing::holds || entry.p_value.value_or(1.0) >= family_level || entry.is_of_step)
+      continue;
     const auto known = std::ranges::find(seen, *entry.p_value);
     if (known != seen.end()) {
       texts[static_cast<std::size_t>(known - seen.begin())].insert(0, entry.test + " or ");
@@ -244,7 +253,7 @@ std::string verdict_of(const Identification& all) {
   for (const Estimate& other : all.estimates)
     if (disagree(best, other))
       text += " " + other.method + " disagrees: " + numbers_of(other, all.ledger.coordinate) + ".";
-  text += range_text(all);
+  text += step_text(all.ledger) + range_text(all);
   return text + over_laws(all);
 }
 

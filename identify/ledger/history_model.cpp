@@ -63,10 +63,9 @@ class Histories {
     Numbers all(list_.relaxations.size());
     std::iota(all.begin(), all.end(), std::size_t{0});
     Fitted best{start_, linearised(start_, taken, Whitening::off)};
-    bool of_constants = false;
+    const bool of_constants = std::ranges::any_of(taken, [this](auto each) { return is_constant(each); });
     for (const std::size_t number : taken) {
       const std::optional<Place> other = is_constant(number) ? freed(number) : std::nullopt;
-      of_constants = of_constants || is_constant(number);
       if (other) best.take_nearer({*other, linearised(*other, taken, Whitening::off)});
     }
     descend(taken, best);
@@ -440,6 +439,7 @@ std::variant<JointModel, std::string> history_model(const Record& record, const 
     return "the simulated motion, fitted with the mass and the stiffness as stated, grows beyond all numbers";
   model.refit = [histories](const Numbers& numbers) { return histories->fitted(numbers); };
   model.of_histories = true;
+  model.step_interval = step_interval_of(fit.tests());
   model.data = std::to_string(fit.residuals().count()) + " samples of " + std::to_string(fit.tests().size()) +
                (fit.tests().size() == 1 ? " history" : " histories");
   for (const Exclusion& exclusion : exclusions.excluded)

@@ -19,6 +19,7 @@ void add(HistoryRelaxations& list, Assumption assumption, std::string test, cons
     relaxation.freed = part.term->freed;
   }
   if (part.kind == Kind::gain) relaxation.freed = Freed::gain;
+  if (part.kind == Kind::delay) relaxation.freed = Freed::delay;
   list.relaxations.push_back(std::move(relaxation));
   list.parts.push_back(part);
 }
@@ -64,6 +65,29 @@ std::vector<FreeZero> free_zeros(const std::vector<ForwardTest>& tests, const Mo
     if (!history.a.empty()) list.push_back({t, MotionSensor::a, unit_of_a, mean(history.a) / unit_of_a});
   }
   return list;
+}
+
+double step_interval_of(const std::vector<ForwardTest>& tests) {
+  constexpr double share = 0.1;    // of the range
+  constexpr double clearly = 5.0;  // times the differences beside it
+  constexpr int most = 2;
+  int steps = 0;
+  double interval = 0.0;
+  for (const ForwardTest& test : tests) {
+    const History& history = *test.history;
+    for (const std::vector<double>* drive : {&history.y, &history.force}) {
+      if (drive->empty()) continue;
+      const auto [low, high] = std::ranges::minmax(*drive);
+      const auto difference = [&](std::size_t i) { return std::abs((*drive)[i + 1] - (*drive)[i]); };
+      for (std::size_t i = 1; i + 2 < drive->size(); ++i)
+        if (difference(i) > share * (high - low) &&
+            difference(i) > clearly * std::max(difference(i - 1), difference(i + 1))) {
+          ++steps;
+          interval = std::max(interval, 1.0 / history.sample_rate);
+        }
+    }
+  }
+  return steps > 0 && steps <= most ? interval : 0.0;
 }
 
 double share_of(const FreedPart& part, std::size_t test, std::size_t tests) {

@@ -19,8 +19,8 @@
 namespace dualdamp::identify {
 
 /// What of a rig a relaxation sets free: the mass or the stiffness by the frequency or the period, the gain of a
-/// sensor. All others add an effect.
-enum class Freed { effect, mass, stiffness, gain };
+/// sensor, its delay. All others add an effect.
+enum class Freed { effect, mass, stiffness, gain, delay };
 
 struct Relaxation {
   Assumption assumption = Assumption::constants;
@@ -74,6 +74,9 @@ struct JointModel {
   double scale_freedom = 0.0;  ///< degrees of freedom behind the deviation that decides about friction
   /// Of a channel that is estimated beside one that is stated and decides about friction.
   double other_freedom = std::numeric_limits<double>::infinity();
+  /// Of a measured drive that steps between two samples, once or twice in all histories: their distance [s]. Where
+  /// in between it steps is not known. 0: there is no such step.
+  double step_interval = 0.0;
   ParameterSet value;        ///< of the fit
   KnownConstants constants;  ///< as stated, or as fitted
   /// The model fitted again with these relaxations free, and linearised there; empty: no such fit is needed.

@@ -119,7 +119,8 @@ class Writer {
   void charge(const FoundDeparture& departure, Ledger& ledger) const {
     const auto any = [&](auto is) { return std::ranges::any_of(departure.explanations, is); };
     const bool stated = any([&](const RelaxationTest& t) { return is_as_stated(t); });
-    const bool harms = !stated && any([&](const RelaxationTest& t) { return matters(t); });
+    const bool of_step = is_of_step(departure.explanations.front());
+    const bool harms = !stated && !of_step && any([&](const RelaxationTest& t) { return matters(t); });
     std::vector<Assumption> named;
     const std::vector<ChangedConstant> of_joint = changed_constants(departure.explanations.front());
     for (const RelaxationTest& test : departure.explanations) {
@@ -127,16 +128,20 @@ class Writer {
       if (entry.standing == Standing::violated) continue;
       set(test, entry);
       entry.standing = harms ? Standing::violated : Standing::holds;
+      entry.is_of_step = of_step && !stated;
       entry.reason =
-          harms    ? alternatives(departure, test)
-          : stated ? "a departure is seen, and lies within the uncertainties that are stated"
-                   : "a departure is seen and moves zeta and F0 by less than " + in_percent(options_.least_change);
+          harms     ? alternatives(departure, test)
+          : stated  ? "a departure is seen, and lies within the uncertainties that are stated"
+          : of_step ? "the drive steps between two samples, and where between them is not known: a delay of " +
+                          rounded(test.coefficient) + " s, less than their distance of " +
+                          rounded(model_.step_interval) + " s, stands for it"
+                    : "a departure is seen and moves zeta and F0 by less than " + in_percent(options_.least_change);
       if (harms && is_uneven(test))
         entry.reason += std::string("; ") + (test.zeta_part == 0.0 ? "F0" : "zeta") +
                         " of a part of the record is off its mean by " + in_percent(unevenness(test));
       if (harms && entry.assumption == Assumption::constants) {
         entry.wanted = wanted_constants(departure);
-        if (!of_joint.empty()) entry.fitted = of_joint.front().fitted;
+        entry.fitted = of_joint.empty() ? stated_of_joint(departure) : of_joint.front().fitted;
         if (!entry.wanted.empty()) entry.reason = "these data fit " + entry.wanted + "; " + entry.reason;
       }
       if (harms) named.push_back(assumption_of(test));
@@ -153,6 +158,19 @@ class Writer {
         for (const ChangedConstant& changed : changed_constants(test))
           texts.push_back(changed.fitted + ", not the stated " + changed.stated);
     return core::joined(texts, ", or ");
+  }
+
+  /// The constants of a joint estimate that explains the departure by something else, and so keeps them.
+  [[nodiscard]] std::string stated_of_joint(const FoundDeparture& departure) const {
+    std::vector<std::string> texts;
+    const auto add = [&](const char* what, double stated, const char* unit) {
+      if (std::isfinite(stated)) texts.push_back(what + core::format_number(stated, 4) + " " + stated_.unit(unit));
+    };
+    add("stiffness of ", stated_.stiffness, "N/m");
+    add("mass of ", stated_.mass, "kg");
+    const bool has_inertia = assumption_of(departure.explanations.front()) == Assumption::one_mode;
+    return "the stated " + core::joined(texts, " and ") +
+           (has_inertia ? ", with inertia that a further mode adds" : "");
   }
 
   /// A constant as a fit has it, and as stated: "a mass of 1.1 kg", "1 kg".
@@ -225,6 +243,13 @@ class Writer {
       return std::abs(std::log(test.constants.mass / known.mass)) < allowed &&
              std::abs(std::log(test.constants.stiffness / known.stiffness)) < allowed;
     return relaxation.freed == Freed::gain && std::abs(test.coefficient) < allowed;
+  }
+
+  /// The unknown place of a step between two samples shows as a delay: the drive is taken as smooth between them.
+  [[nodiscard]] bool is_of_step(const RelaxationTest& test) const {
+    constexpr double most = 0.75;  // of the interval: half of it, and the noise
+    return model_.relaxations[test.index].freed == Freed::delay &&
+           std::abs(test.coefficient) < most * model_.step_interval;
   }
 
   [[nodiscard]] std::string alternatives(const FoundDeparture& departure, const RelaxationTest& own) const {

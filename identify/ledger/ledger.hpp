@@ -49,7 +49,9 @@ struct LedgerEntry {
   std::optional<double> sight;
   /// The constants that explain a departure: "a stiffness of 1421 N/m, not the stated 1563 N/m".
   std::string wanted;
-  std::string fitted;  ///< the constant that the joint estimate has: "a stiffness of 1421 N/m"
+  /// A departure is seen that the unknown place of a step of the drive between two samples explains.
+  bool is_of_step = false;
+  std::string fitted;  ///< the constants that the joint estimate has: "a stiffness of 1421 N/m"
 };
 
 /// The joint model misses the record by more than its noise.

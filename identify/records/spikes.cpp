@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
+#include <optional>
 #include <string_view>
 #include <utility>
 
@@ -52,6 +54,28 @@ double range_around(const std::vector<double>& signal, std::size_t i) {
   return high - low;
 }
 
+/// Second difference about sample i; nothing at the ends.
+std::optional<double> bend(const std::vector<double>& signal, std::ptrdiff_t i) {
+  if (i < 1 || i + 1 >= std::ssize(signal)) return std::nullopt;
+  const auto at = static_cast<std::size_t>(i);
+  return signal[at - 1] - 2.0 * signal[at] + signal[at + 1];
+}
+
+/// Whether the signal returns beside sample i. A spike of height h has the second differences h, -2 h, h; a corner,
+/// as at the begin and the end of a blow, has one, or two of one sign. Those of the smooth signal count as known
+/// from two samples further on.
+bool returns(const std::vector<double>& signal, std::size_t sample) {
+  const auto i = static_cast<std::ptrdiff_t>(sample);
+  double smooth = 0.0;
+  const std::optional<double> before = bend(signal, i - 2);
+  const std::optional<double> after = bend(signal, i + 2);
+  if (before || after) smooth = (before.value_or(0.0) + after.value_or(0.0)) / (before && after ? 2.0 : 1.0);
+  const double here = *bend(signal, i) - smooth;
+  const double beside = 0.5 * (*bend(signal, i - 1) + *bend(signal, i + 1)) - smooth;
+  constexpr double share = 0.25;  // half of it for a spike, none for a corner
+  return here * beside < 0.0 && std::abs(beside) > share * std::abs(here);
+}
+
 }  // namespace
 
 std::vector<Spike> spikes_of(const std::vector<double>& signal) {
@@ -69,7 +93,8 @@ std::vector<Spike> spikes_of(const std::vector<double>& signal) {
     // but small relative to the range.
     constexpr double share = 0.03;
     const bool large = off[i] > share * range_around(signal, i);
-    if (large && off[i] > far * noise) spikes.push_back({i, off[i] / noise, smooth_at(signal, i)});
+    if (large && off[i] > far * noise && returns(signal, i))
+      spikes.push_back({i, off[i] / noise, smooth_at(signal, i)});
   }
   return spikes;
 }

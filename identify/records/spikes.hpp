@@ -3,8 +3,9 @@
 ///
 /// In a signal with enough samples, the difference of a sample from the cubic through its four neighbours is small
 /// noise. A spike differs by more than eight standard deviations, both of the whole signal and of its surroundings,
-/// by more than 3 % of the range of its surroundings, and by clearly more than either neighbour. Steps, peaks and
-/// reversals of friction are therefore no spikes. Cost: 0.2 us a sample.
+/// by more than 3 % of the range of its surroundings, and by clearly more than either neighbour; and the
+/// signal returns beside it. Steps, peaks, corners and reversals of friction are therefore no spikes. Cost: 0.2 us
+/// a sample.
 
 #include <cstddef>
 #include <string>

@@ -62,6 +62,19 @@ class Pendulum(Case):
         estimate = json.loads(said.stdout)["result"]["estimates"][0]
         return 100 * (estimate["zeta"] / zeta - 1), 100 * (estimate["F0"] / F0 - 1)
 
+    def test_a_record_in_degrees_is_of_an_angle_though_no_stated_unit_says_so(self):
+        state, rows = (math.radians(60), 0.0), []
+        for i in range(300):
+            rows.append(f"{i / 100!r},{math.degrees(state[0]) + 0.05 * math.sin(977.0 * i * i)!r}")
+            for _ in range(5):
+                state = step(state, STEP, 0.04, math.copysign(0.05, state[1] or -1.0))
+        record = self.write("swing.csv", "t [s],x [deg]\n" + "\n".join(rows) + "\n")
+        found = json.loads(self.run_program("fit", "coulomb", record, "--set", f"system.gravity_stiffness={G} N.m", "--no-profile", "--json").stdout)
+        values = {each["name"]: each["value"] for each in found["result"]["parameters"]}
+        self.assertAlmostEqual(values["mass"], INERTIA, delta=0.01 * INERTIA)
+        other = self.write("line.csv", record.read_text().replace("deg", "mm"))
+        self.assertIn("no angle", self.run_program("fit", "coulomb", other, "--set", f"system.gravity_stiffness={G} N.m", status=3).stderr)
+
     def test_the_table_of_the_page(self):
         page = PAGE.read_text()
         linear = lambda values: " to ".join(f"{v:.1f}" if abs(v) < 10 else f"{v:.0f}" for v in (min(values, key=abs), max(values, key=abs)))

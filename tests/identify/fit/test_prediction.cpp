@@ -136,25 +136,6 @@ TEST_CASE("prediction: one rig against two tells a wrong law that the own fit do
   CHECK(!right.is_wrong);
 }
 
-TEST_CASE("prediction: the zero of a sensor is of the record, and a text says what it does", "[identify][fit]") {
-  const test::RandomRig rig = test::random_rig("coulomb", test::MotionKind::forced, 2, "x");
-  const identify::Fit fit = test::fit_of(rig);
-  REQUIRE(fit.outcome.ok());
-  test::RandomRig second = test::driven_again(rig, 1.5, 100'002);
-  const double held =
-      std::get<double>(*rig.truth.laws.front().values.find("kinetic")) / rig.truth.known.oscillator.stiffness;
-  const double zero = 0.3 * held;
-  for (double& x : second.record.histories.front().x) x += zero;
-  const identify::Prediction found = test::predicted_by(fit, second);
-  CAPTURE(found.text);
-  CHECK(!found.is_wrong);
-  CHECK(found.noise_units < 1.1);
-  CHECK(found.fit.of_records[0][static_cast<std::size_t>(identify::RecordParameter::offset)] ==
-        Approx(zero).epsilon(0.1));
-  CHECK_THAT(found.text, Catch::Contains("the zero of x is fitted to this record") &&
-                             Catch::Contains("with no zero but 0, the prediction misses by"));
-}
-
 TEST_CASE("prediction: a record without motion is not judged", "[identify][fit]") {
   const test::RandomRig rig = test::random_rig("coulomb", test::MotionKind::forced, 1);
   identify::Record still = rig.record;

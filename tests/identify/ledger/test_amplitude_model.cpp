@@ -217,6 +217,15 @@ TEST_CASE("A fit of steady states with a relaxation free is never worse than the
   }
 }
 
+TEST_CASE("An answer beside inertia of a further mode says to which stated constants it belongs") {
+  Measured m = measured(Kind::xy_phase, model_seed + 2);
+  m.constants.stiffness *= 1.25;
+  const Ledger ledger = ledger_of(m.record, m.constants);
+  REQUIRE(ledger.departures.front().front() == Assumption::one_mode);
+  REQUIRE(ledger.is_violated(Assumption::constants));
+  CHECK(ledger.entry(Assumption::constants).fitted.starts_with("the stated stiffness of 5726 N/m and mass of "));
+}
+
 TEST_CASE("A mass that grows with the frequency names a further mode with the constants, and the mass that fits") {
   Measured m = measured(Kind::response, 100,
                         [](Rig& rig) {

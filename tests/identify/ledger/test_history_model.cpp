@@ -86,6 +86,31 @@ TEST_CASE("A swing out of step with a linear spring is charged to the spring, wi
   CHECK(ledger.joint->value.F0 == Approx(0.013).epsilon(0.02));
 }
 
+TEST_CASE("The place of a step of the drive between two samples is no delay of a sensor") {
+  Measured m;
+  m.rig = {.m = 1.5, .k = 2000.0, .zeta = 0.055, .F0 = 4.0};
+  constexpr double rate = 500.0;
+  const auto force = [](double t) { return t < 1.0004 ? 20.0 * t : 0.0; };  // of a wire that is cut
+  const auto motion = motion_of(m.rig, force, 2.0, 10.0 * rate);
+  const dualdamp::core::RandomStream noise{6, 1};
+  History history{.sample_rate = rate};
+  for (std::size_t i = 0; i < motion.x.size() / 10; ++i) {
+    history.x.push_back(motion.x[10 * i] + 1e-5 * noise.normal(2 * i));
+    history.force.push_back(motion.drive[10 * i] + 0.01 * noise.normal(2 * i + 1));
+  }
+  m.record.histories.push_back(history);
+  m.constants = {m.rig.m, m.rig.k, unknown};
+  const Ledger ledger = ledger_of(m.record, m.constants);
+  const LedgerEntry& sensors = ledger.entry(Assumption::sensors);
+  CAPTURE(sensors.test, sensors.reason);
+  CHECK(sensors.p_value.value_or(1.0) < 1e-3);
+  CHECK(sensors.standing == Standing::holds);
+  CHECK(sensors.is_of_step);
+  CHECK_THAT(sensors.reason, Catch::StartsWith("the drive steps between two samples"));
+  REQUIRE(ledger.joint);
+  CHECK(ledger.joint->value.zeta == Approx(0.055).epsilon(0.05));
+}
+
 TEST_CASE("A zero that is off and drifts is no friction of one direction for certain") {
   Measured m;
   m.rig = {.m = 0.8, .k = 1200.0, .zeta = 0.0145, .F0 = 1.1};

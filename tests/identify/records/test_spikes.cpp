@@ -67,6 +67,25 @@ TEST_CASE("Reversals of friction are no spikes, though nothing hides them") {
   }
 }
 
+TEST_CASE("The begin and the end of a blow are no spikes") {
+  constexpr double rate = 2000.0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed)
+    for (const double length : {0.004, 0.008, 0.02}) {
+      const core::RandomStream stream{seed, 1};
+      const double begin = 0.2 + 1e-4 * static_cast<double>(seed % 5);  // also between two samples
+      std::vector<double> force;
+      for (std::uint64_t i = 0; i < 2000; ++i) {
+        const double share = (static_cast<double>(i) / rate - begin) / length;
+        const bool strikes = share > 0.0 && share < 1.0;
+        force.push_back((strikes ? 160.0 * std::sin(std::acos(-1.0) * share) : 0.0) + 0.2 * stream.normal(i));
+      }
+      CAPTURE(seed, length);
+      CHECK(spikes_of(force).empty());
+      force[1000] += 20.0;
+      CHECK(spikes_of(force).size() == 1);
+    }
+}
+
 TEST_CASE("Noise, steps, peaks and rounding are no spikes") {
   for (std::uint64_t seed = 1; seed <= 50; ++seed) {
     CHECK(spikes_of(decay(0.001, seed)).empty());
