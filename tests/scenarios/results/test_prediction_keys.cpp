@@ -21,14 +21,15 @@ TEST_CASE("A prediction takes the parameters that records share, with their rows
                           {{0.5, 0.25, -1.0}});
   const Json keys = prediction_keys(fit);
   CHECK(keys == Json({{"type", "predict"},
+                      {"zeros", Json::array({"offset"})},
                       {"free", {"mass", "kinetic"}},
                       {"covariance", {1.0, 3.0, 3.0, 6.0}},
                       {"undetermined", {0.5, -1.0}}}));
 }
 
-TEST_CASE("A prediction by a fit of single records alone states nothing else", "[scenarios]") {
+TEST_CASE("A prediction by a fit of single records alone states their zeros and nothing else", "[scenarios]") {
   CHECK(prediction_keys(fit_of({"velocity", "offset_v[1]"}, {{1.0, 0.0}, {0.0, 1.0}}, Json::array())) ==
-        Json({{"type", "predict"}}));
+        Json({{"type", "predict"}, {"zeros", Json::array({"offset_v"})}}));
 }
 
 TEST_CASE("A prediction takes the marks of the fitted readings", "[scenarios]") {
