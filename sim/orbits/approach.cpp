@@ -248,8 +248,12 @@ void Approach::try_candidate(const State& state) {
   streak_[static_cast<std::size_t>(periods)] = 0;
   std::optional<Orbit> orbit = solver_.near(state, periods);
   if (!orbit) return;
-  if (periods > 1 && never_moves(*orbit))
-    orbit = Orbit{solver_.patient_map_over(1).from(orbit->period.begin, Monodromy::with), 1};
+  if (periods > 1 && never_moves(*orbit)) {
+    PeriodMap& single = solver_.patient_map_over(1);
+    orbit = Orbit{single.from(orbit->period.begin, Monodromy::with), 1};
+    // Slips within rounding may end it in another mode.
+    if (!single.outcome().ok() || !orbit->period.ends_in_its_mode()) return;
+  }
   if (candidate_ && solver_.same(candidate_->orbit, *orbit)) return;
   if (candidate_) others_.push_back(std::move(candidate_->orbit));
   const double resolution = std::max(arrived, 100.0 * map_.engine().accuracy());

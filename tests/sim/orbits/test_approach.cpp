@@ -9,6 +9,7 @@
 #include "friction_models/laws/iwan.hpp"
 #include "sim/orbits/steady_state.hpp"
 #include "tests/sim/orbits/range_of_motion.hpp"
+#include "tests/support/make_law.hpp"
 
 using namespace dualdamp;
 using sim::testing::after;
@@ -84,4 +85,24 @@ TEST_CASE("a motion that ends close beside an orbit that attracts is followed to
   CHECK(state.peak == Approx(seen.peak).epsilon(1e-10));
   CHECK(state.trough == Approx(seen.trough).epsilon(1e-10));
   CHECK(state.peak + state.trough > 1e-6 * state.peak);
+}
+
+TEST_CASE("an orbit of slips within rounding, one period of which ends in another mode, is no candidate") {
+  using friction::ParameterValues;
+  const ParameterValues warming{{"power", 11.924297821804675}, {"time_constant", 6.205092480011393}};
+  sim::Model model;
+  model.oscillator = {.mass = 53.78239364313715, .stiffness = 4989.326568063972, .damping = 478.65923105568385};
+  model.excitation = {.type = sim::ExcitationType::base_harmonic,
+                      .amplitude = 0.007985414876846125,
+                      .frequency = 10.861171358890656};
+  model.initial = {.position = 0.047790209666205126};
+  model.friction = {
+      test::law("contact_compliance", {{"kinetic", 0.5340922401530578},
+                                       {"contact_stiffness", 9879924.736839242},
+                                       {"position_slope", 256.21351589968447}}),
+      test::law("coulomb", {{"kinetic", 46.11711514256353}, {"warming", std::vector<ParameterValues>{warming}}})};
+  const sim::SteadyState state = sim::steady_state(model);
+  INFO(state.outcome.reason);
+  REQUIRE(state.outcome.ok());
+  CHECK(state.never_moves());
 }
