@@ -52,7 +52,8 @@ Readings readings_of(const Motions& motions, const identify::Sensors& sensors) {
   } else if (record.pairs) {
     for (const identify::Pair& pair : record.pairs->pairs) {
       list.push_back(pair.x);
-      list.push_back(pair.phase);
+      // A mass that never moves has no phase, and a deviation of its phase without bound.
+      list.push_back(std::isnan(pair.phase) ? 0.0 : pair.phase);
     }
   }
   if (record.decay) append(list, with_rest(record.decay->extremes, motions.peaks));

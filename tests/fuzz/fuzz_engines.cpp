@@ -53,9 +53,11 @@ void require_steady(const sim::Model& model) {
   const sim::SteadyState state = sim::steady_state(model, {.max_periods = 100});
   require_reason(state.outcome);
   if (!state.outcome.ok()) return;
-  for (const double value : {state.peak, state.trough, state.amplitude, state.phase, state.fundamental,
-                             state.period, state.max_speed, state.mean_square_speed, state.energy.defect})
+  for (const double value : {state.peak, state.trough, state.amplitude, state.fundamental, state.period,
+                             state.max_speed, state.mean_square_speed, state.energy.defect})
     require(std::isfinite(value), "a number of a steady state is finite");
+  // A motion without a fundamental has no phase.
+  require(std::isfinite(state.phase) || std::isnan(state.phase), "a phase is finite or there is none");
   require(state.peak >= state.trough, "a peak is not below its trough");
 }
 
