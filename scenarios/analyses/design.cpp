@@ -158,8 +158,9 @@ Answer DesignQuestion::run(const RunContext& context) const {
 
 const Analysis& design_analysis() {
   static const Analysis analysis = {.name = "design",
-                                    .summary = "what to measure next, so that the ranges over friction laws narrow; "
-                                               "without a scenario the command next",
+                                    .summary =
+                                        "what to measure next, so that the ranges over friction laws narrow; "
+                                        "without a scenario the command next",
                                     .keys = design_keys(),
                                     .needs = design_needs(),
                                     .results = design_fields(),

@@ -87,6 +87,9 @@ class OrbitFinder {
   SteadyStateOptions options_;
   PeriodMap map_;
   Motions motions_;
+  /// At an end of the positions in which friction can hold the mass, where it slips by less than rounding. The
+  /// motion may rest elsewhere, or approach this end for ever, by ever smaller slips.
+  std::optional<Orbit> end_of_rest_;
   std::vector<SteadyState> others_;
   std::optional<OrbitAccount> account_;  ///< of the sliding orbit that Newton's method began on, if it stayed there
   core::SearchCount searched_;           ///< in addition to those of the engine
@@ -121,7 +124,11 @@ std::optional<Orbit> OrbitFinder::only_orbit_from(const State& start, SteadyStat
   if (closed.steps > 0) account_.reset();
   if (closed.found && period.radius() < 1.0 - neutral_margin) return Orbit{std::move(period), 1};
   const bool only = motions_ == Motions::meet_sliding && period.moves;
-  if (closed.found && only && correction_left(period, newton.omega) < known) return Orbit{std::move(period), 1};
+  if (closed.found && only && correction_left(period, newton.omega) < known) {
+    Orbit orbit{std::move(period), 1};
+    if (!outlined(orbit).never_moves()) return orbit;
+    end_of_rest_ = std::move(orbit);
+  }
   account_.reset();
   return std::nullopt;
 }
@@ -252,6 +259,10 @@ void OrbitFinder::find(SteadyState& result) {
     OrbitSolver solver(model_, options_.tolerance, rounding_closure_);
     Approach approach(model_, options_, map_, solver, motions_);
     orbit = approach.find(result);
+    if (!orbit && end_of_rest_) {
+      orbit = std::move(end_of_rest_);
+      result.outcome = {};
+    }
     if (orbit && motions_ == Motions::may_part && !has_past) {
       for (const Orbit& other : other_orbits(model_, *orbit, approach.others(), solver))
         others_.push_back(outlined(other));

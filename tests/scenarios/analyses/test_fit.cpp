@@ -161,9 +161,9 @@ TEST_CASE("fit: what cannot be fitted is refused with its place", "[scenarios][f
              Contains("neither the mass nor the stiffness is known"));
   CHECK_THAT(fault_of(fit_scenario(known, "data: {file: fit_faults.csv, loop: true}")),
              Contains("a loop needs the columns"));
-  CHECK_THAT(fault_of(fit_scenario(known, "data: {file: fit_faults.csv, sigma_v: 1 mm/s}")),
-             Contains("fit_faults.csv: 'sigma_v' states the noise of v, and the file has no v") &&
-                 !Contains("compares"));
+  CHECK_THAT(
+      fault_of(fit_scenario(known, "data: {file: fit_faults.csv, sigma_v: 1 mm/s}")),
+      Contains("fit_faults.csv: 'sigma_v' states the noise of v, and the file has no v") && !Contains("compares"));
   CHECK_THAT(fault_of(fit_scenario(known, "data: fit_faults.csv, laws: [dahl]")),
              Contains("stands beside 'system.friction'"));
   CHECK_THAT(fault_of(fit_scenario(known, "data: fit_faults.csv, bounds: [{name: kinetic, low: 3 kg}]")),

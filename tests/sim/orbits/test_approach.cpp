@@ -87,6 +87,27 @@ TEST_CASE("a motion that ends close beside an orbit that attracts is followed to
   CHECK(state.peak + state.trough > 1e-6 * state.peak);
 }
 
+TEST_CASE(
+    "a mass that comes to rest is reported where it does, not at the end of the positions that friction holds") {
+  // The drive pulls a little more than friction holds forward: below Y - F/k = 3.8 mm the mass slips. From 0 it
+  // approaches this end by ever smaller slips.
+  for (const double start : {-0.0444, 0.0, 0.04}) {
+    CAPTURE(start);
+    sim::Model model;
+    model.oscillator = {.mass = 1.686, .stiffness = 457.0, .damping = 0.986};
+    model.excitation = {.type = sim::ExcitationType::base_harmonic, .amplitude = 0.0361, .frequency = 5.94};
+    model.initial = {.position = start};
+    model.friction = {test::law("asymmetric_coulomb", {{"kinetic_forward", 14.75}, {"kinetic_backward", 20.45}})};
+    const sim::SteadyState state = sim::steady_state(model);
+    REQUIRE(state.outcome.ok());
+    CHECK(state.never_moves());
+    const sim::History history = sim::simulate(model, {.duration = 20.0 * sim::testing::forcing_period(model)});
+    const double end = 0.0361 - 14.75 / 457.0;
+    CHECK(state.peak == Approx(start == 0.0 ? end : history.final.x).epsilon(1e-6));
+    CHECK((history.final.x < end) == (start == 0.0));
+  }
+}
+
 TEST_CASE("an orbit of slips within rounding, one period of which ends in another mode, is no candidate") {
   using friction::ParameterValues;
   const ParameterValues warming{{"power", 11.924297821804675}, {"time_constant", 6.205092480011393}};
