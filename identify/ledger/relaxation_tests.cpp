@@ -375,9 +375,8 @@ bool explains(const JointModel& relaxed, const std::vector<std::size_t>& taken, 
   return std::ranges::all_of(tests, [](const RelaxationTest& test) { return test.p_value >= family_level; });
 }
 
-/// Adds to each departure those relaxations that cannot be told from the ones taken and explain it as well beside
-/// the others. Departures are found one after the other, and what is still missed when the first one is charged
-/// decides between relaxations that are nearly the same.
+/// Adds to each departure the relaxations that are like the one taken for it and explain it as well beside the
+/// others: when the first departure was charged, what the others add decided between relaxations nearly the same.
 void name_alike(const JointModel& model, const std::vector<std::size_t>& taken,
                 const std::vector<std::size_t>& alike, double least_change,
                 std::vector<FoundDeparture>& departures) {
@@ -387,16 +386,15 @@ void name_alike(const JointModel& model, const std::vector<std::size_t>& taken,
     std::vector<std::size_t> others = taken;
     others.erase(others.begin() + static_cast<std::ptrdiff_t>(d));
     std::optional<Rest> own;
+    const std::vector<std::size_t> like_this = project(model, {taken[d]}).alike;
     for (const std::size_t index : alike) {
-      if (std::ranges::find(explanations, index, &RelaxationTest::index) != explanations.end()) continue;
+      const bool is_named = std::ranges::find(explanations, index, &RelaxationTest::index) != explanations.end();
+      if (is_named || std::ranges::find(like_this, index) == like_this.end()) continue;
       if (!own) own = rest_of(model, others, taken[d], least_change);
       const Rest rest = rest_of(model, others, index, least_change);
       const bool leaves_as_little = rest.p_value >= family_level || own->p_value < family_level;
       if (!leaves_as_little || !(rest.misfit <= own->misfit + far_better)) continue;
-      RelaxationTest test;
-      test.index = index;
-      test.p_value = explanations.front().p_value;
-      test.constants = rest.constants;
+      RelaxationTest test{.index = index, .p_value = explanations.front().p_value, .constants = rest.constants};
       set_change(rest.change, test);
       explanations.push_back(test);
     }

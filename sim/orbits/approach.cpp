@@ -207,7 +207,8 @@ bool Approach::has_arrived(const State& state) {
 /// it does. A test costs some tens of periods of the orbit, so after a failure the next one waits.
 bool Approach::holds_ahead(const Candidate& candidate) {
   if (motions_ != Motions::may_part || has_past_) return true;
-  if (passed_ < next_look_ahead_ || candidate.attraction.arrives_soon()) return false;
+  const bool is_cheap = map_.engine().accuracy() == 0.0;  // a period of the exact engine
+  if (passed_ < next_look_ahead_ || (is_cheap && candidate.attraction.arrives_soon())) return false;
   if (candidate.attraction.holds_ahead(solver_.patient_map_over(candidate.orbit.period_ratio))) return true;
   next_look_ahead_ = passed_ + 8 + passed_ / 8;
   return false;

@@ -17,7 +17,8 @@
 /// zero: at k = 1, 2, ..., 8 and from there on at steps of a quarter of k, so at some ten places of the first turn.
 ///
 /// Orbits may lie so close beside each other that only the motion itself decides between them. Where the linear
-/// motion arrives within twenty periods, which cost no more than this test, the motion is followed to the end.
+/// motion arrives within twenty periods of the exact engine, which cost no more than this test, the motion is
+/// followed to the end.
 
 #include <Eigen/Core>
 #include <vector>
