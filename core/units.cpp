@@ -15,7 +15,7 @@
 namespace dualdamp::core {
 
 std::string_view trimmed(std::string_view text) {
-  constexpr const char* blanks = " \t";
+  constexpr const char* blanks = " \t\r";
   const std::size_t begin = text.find_first_not_of(blanks);
   return begin == std::string_view::npos ? std::string_view()
                                          : text.substr(begin, text.find_last_not_of(blanks) - begin + 1);

@@ -41,7 +41,7 @@ struct QuantityText {
 [[nodiscard]] QuantityText unit_factor(std::string_view unit, std::string_view si_unit,
                                        Coordinate coordinate = Coordinate::displacement);
 
-/// `text` without blanks and tabs at its ends.
+/// `text` without the blanks, tabs and carriage returns at its ends.
 [[nodiscard]] std::string_view trimmed(std::string_view text);
 
 /// Whether the unit can name a dimension: an SI unit, or a product of SI units, with factor 1.

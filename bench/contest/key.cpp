@@ -12,6 +12,7 @@
 #include "core/diagnostics.hpp"
 #include "core/numbers.hpp"
 #include "core/random.hpp"
+#include "core/units.hpp"
 #include "core/utf8.hpp"
 #include "scenarios/format/json_text.hpp"
 
@@ -29,11 +30,9 @@ constexpr std::uint32_t order_stream = 128;                    // away from the 
       core::Diagnostic{{path, line, 0, {}}, std::move(message), std::move(allowed), std::move(found), {}});
 }
 
-std::string trimmed(std::string_view text) {
-  constexpr const char* blank = " \t\r";
-  const std::size_t begin = text.find_first_not_of(blank);
-  if (begin == std::string_view::npos) return {};
-  text = text.substr(begin, text.find_last_not_of(blank) - begin + 1);
+/// Without the quotation marks around it.
+std::string unquoted(std::string_view text) {
+  text = core::trimmed(text);
   if (text.size() > 1 && text.front() == '"' && text.back() == '"') text = text.substr(1, text.size() - 2);
   return std::string(text);
 }
@@ -41,7 +40,7 @@ std::string trimmed(std::string_view text) {
 std::vector<std::string> fields_of(const std::string& line) {
   std::vector<std::string> fields;
   std::istringstream stream(line);
-  for (std::string field; std::getline(stream, field, ',');) fields.push_back(trimmed(field));
+  for (std::string field; std::getline(stream, field, ',');) fields.push_back(unquoted(field));
   if (line.ends_with(',')) fields.emplace_back();
   return fields;
 }
@@ -69,7 +68,7 @@ class EntryReader {
     for (std::string line; std::getline(text, line);) {
       ++line_;
       if (line.starts_with(core::byte_order_mark)) line.erase(0, core::byte_order_mark.size());
-      if (trimmed(line).empty() || line.starts_with('#')) continue;
+      if (core::trimmed(line).empty() || line.starts_with('#')) continue;
       if (!std::exchange(has_header, true)) {
         read_header(fields_of(line));
         continue;

@@ -14,7 +14,6 @@
 /// answer.
 
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <vector>
 

@@ -298,6 +298,18 @@ Fit fit_rig(const Rig& rig, std::vector<FitParameter> parameters, const Experime
   }
 }
 
+double relative_error(const Fit& fit) {
+  double sum = 0.0;
+  double count = 0.0;
+  for (const FittedSignal& signal : fit.signals) {
+    const auto size = static_cast<double>(signal.rows.end - signal.rows.begin);
+    const double share = signal.rms / signal.range;
+    sum += size * share * share;
+    count += size;
+  }
+  return std::sqrt(sum / count);
+}
+
 SharedUncertainty shared_uncertainty(const Fit& fit) {
   std::vector<Eigen::Index> shared;
   for (std::size_t i = 0; i < fit.parameters.size(); ++i)

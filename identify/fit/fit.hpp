@@ -109,6 +109,9 @@ using Experiments = std::vector<std::unique_ptr<Experiment>>;
 [[nodiscard]] Fit fit_rig(const Rig& rig, std::vector<FitParameter> parameters, const Experiments& experiments,
                           const FitOptions& options = {});
 
+/// rms of the residuals over the rms of the signal, all signals together.
+[[nodiscard]] double relative_error(const Fit& fit);
+
 /// The uncertainty of the parameters that do not belong to a single record, in their order.
 struct SharedUncertainty {
   Eigen::MatrixXd covariance;    ///< as in `Fit`; empty: not known

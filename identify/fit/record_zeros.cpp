@@ -120,16 +120,4 @@ std::string text_of_zeros(const Rig& rig, const Experiments& experiments, const 
   return text;
 }
 
-double relative_error(const Fit& fit) {
-  double sum = 0.0;
-  double count = 0.0;
-  for (const FittedSignal& signal : fit.signals) {
-    const auto size = static_cast<double>(signal.rows.end - signal.rows.begin);
-    const double share = signal.rms / signal.range;
-    sum += size * share * share;
-    count += size;
-  }
-  return std::sqrt(sum / count);
-}
-
 }  // namespace dualdamp::identify

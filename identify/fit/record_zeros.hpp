@@ -44,7 +44,4 @@ struct RecordZero {
 [[nodiscard]] std::string text_of_zeros(const Rig& rig, const Experiments& experiments, const Fit& held,
                                         const std::vector<RecordZero>& zeros, const FitOptions& options);
 
-/// rms of the residuals over the rms of the signal, all signals together.
-[[nodiscard]] double relative_error(const Fit& fit);
-
 }  // namespace dualdamp::identify

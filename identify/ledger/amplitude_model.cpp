@@ -406,14 +406,14 @@ std::variant<JointModel, std::string> amplitude_model(const Record& record, cons
   if (pairs->size() < fewest) return "fewer than four steady states";
   const double unit = std::ranges::max_element(*pairs, {}, &Pair::x)->x;
   std::vector<SteadyPoint> points = points_of(*pairs, constants, unit);
-  std::vector<std::string> said;
+  std::vector<std::string> left_out;
   KnownDeviations stated{known.sigma_x / unit, known.sigma_Y / unit};
   double ratio = 1.0;
   while (points.size() >= fewest) {
     const SteadyStates states(points, true, stated);
     const AmplitudeFit fit = best_fit(states, {first_guess(points), states.none_relaxed()}, {});
     if (!std::isfinite(fit.deviance)) return "no damping ratio and friction force fit the steady states";
-    if (drop_sticking(points, fit.at.friction, said)) continue;
+    if (drop_sticking(points, fit.at.friction, left_out)) continue;
     const double freedom = static_cast<double>(states.amplitudes() - states.smooth_columns());
     if (is_stated(stated)) ratio = fit.scatter;
     const ScatterBesideStated scatter = scatter_of(ratio, is_stated(known) ? freedom : 0.0);
@@ -423,7 +423,7 @@ std::variant<JointModel, std::string> amplitude_model(const Record& record, cons
     }
     JointModel model = amplitude_model_of(fit, states, {}, unit, constants);
     note_contradiction(scatter, ratio, "amplitudes", model);
-    model.left_out = std::move(said);
+    model.left_out = std::move(left_out);
     return model;
   }
   return "fewer than four steady states do not stick";

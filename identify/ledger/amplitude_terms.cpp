@@ -151,13 +151,13 @@ constexpr std::array<AmplitudeTerm, 13> all_amplitude_terms = {{
 std::span<const AmplitudeTerm> amplitude_terms() { return all_amplitude_terms; }
 
 bool drop_sticking(std::vector<SteadyPoint>& points, const PlainFriction& friction,
-                   std::vector<std::string>& said) {
+                   std::vector<std::string>& left_out) {
   if (!(friction.x_f > 0.0)) return false;
   const std::size_t before = points.size();
   Sticking sticking(friction.zeta, friction.x_f);
   std::erase_if(points, [&](const SteadyPoint& point) {
     const bool sticks = sticking.sticks(point.x, point.r);
-    if (sticks) said.push_back("state " + std::to_string(point.number) + " sticks at the fit and is left out");
+    if (sticks) left_out.push_back("state " + std::to_string(point.number) + " sticks at the fit and is left out");
     return sticks;
   });
   return points.size() < before;
