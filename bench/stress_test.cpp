@@ -292,10 +292,12 @@ void check_samples(CheckedFile& file, const Json& analysis) {
   for (const Json& range : analysis.at("ranges"))
     if (range.contains("amplitudes")) most = std::max(most, static_cast<double>(states_of(range)));
   const double period = core::two_pi / file.number_at("excitation", "frequency").value_or(1.0);
-  for (const Json& set : analysis.at("sensors"))
+  for (std::size_t i = 0; i < analysis.at("sensors").size(); ++i) {
+    const Json& set = analysis.at("sensors").at(i);
     if (set.contains("sample_rate"))
-      check_rows(file, "analysis.sample_rate",
+      check_rows(file, "analysis.sensors[" + std::to_string(i) + "].sample_rate",
                  most * scenarios::number(set.at("sample_rate")) * period * set.value("average_cycles", 1));
+  }
 }
 
 void check_stress_test(CheckedFile& file) {

@@ -67,23 +67,30 @@ std::vector<RecordParameter> sought_of_record(const Experiment& experiment, bool
 std::vector<std::unique_ptr<Experiment>> experiments_of(const Record& record, const ExperimentOptions& options,
                                                         std::string& fault) {
   std::vector<std::unique_ptr<Experiment>> found;
-  const auto add = [&](std::unique_ptr<Experiment> experiment, const std::string& part) {
-    if (experiment == nullptr) return;
-    experiment->label = options.name + (part.empty() ? "" : ", " + part);
-    found.push_back(std::move(experiment));
+  const auto add = [&](const std::string& part, const auto& make) {
+    std::string reason;
+    std::unique_ptr<Experiment> made = make(reason);
+    if (made == nullptr) {
+      fault += (fault.empty() ? "" : "; ") + (part.empty() ? "" : part + ": ") + reason;
+      return;
+    }
+    made->label = options.name + (part.empty() ? "" : ", " + part);
+    found.push_back(std::move(made));
   };
   if (options.loop && record.histories.empty()) {
     fault = "a loop needs the columns t, force, and x or v";
     return found;
   }
-  if (record.pairs) add(steady_states(*record.pairs, options, fault), "");
-  if (record.decay) add(free_vibration(*record.decay, options, fault), "");
+  if (record.pairs) add("", [&](std::string& reason) { return steady_states(*record.pairs, options, reason); });
+  if (record.decay) add("", [&](std::string& reason) { return free_vibration(*record.decay, options, reason); });
   for (std::size_t h = 0; h < record.histories.size(); ++h) {
     const History& history = record.histories[h];
-    std::unique_ptr<Experiment> made =
-        options.loop ? friction_loop(history, options, fault) : motion(history, options, fault);
-    if (made != nullptr && !options.loop && h < options.drives.size()) made->drive = options.drives[h];
-    add(std::move(made), history.sweep);
+    add(history.sweep, [&](std::string& reason) {
+      if (options.loop) return friction_loop(history, options, reason);
+      std::unique_ptr<Experiment> made = motion(history, options, reason);
+      if (made != nullptr && h < options.drives.size()) made->drive = options.drives[h];
+      return made;
+    });
   }
   if (found.empty() && fault.empty()) fault = "the record is empty";
   return found;

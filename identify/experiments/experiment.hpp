@@ -144,7 +144,8 @@ struct ExperimentOptions {
   std::vector<std::optional<sim::Excitation>> drives = {};
 };
 
-/// One experiment for the pairs or the decay of a record, or one for each history. `fault`: why there is none.
+/// One experiment for the pairs or the decay of a record, or one for each history. `fault`: why parts of the record
+/// have none, each with the name of its history; empty if all have one.
 [[nodiscard]] std::vector<std::unique_ptr<Experiment>> experiments_of(const Record& record,
                                                                       const ExperimentOptions& options,
                                                                       std::string& fault);

@@ -253,3 +253,15 @@ TEST_CASE("loop: bristles follow the motion between the samples", "[identify][fi
     largest = std::max(largest, std::abs(coarse[i] - fine[i * finer]));
   CHECK(largest < 2e-4);
 }
+
+TEST_CASE("experiments: every history that cannot be used is named with its own reason", "[identify][fit]") {
+  identify::Record record;
+  record.histories.push_back({.sample_rate = 100.0, .x = std::vector<double>(5, 1e-3), .sweep = "short"});
+  record.histories.push_back({.sample_rate = 100.0, .x = std::vector<double>(50, 1e-3), .sweep = "good"});
+  record.histories.push_back({.sample_rate = 100.0, .force = std::vector<double>(50, 1.0), .sweep = "still"});
+  std::string fault;
+  const identify::Experiments experiments = identify::experiments_of(record, {.name = "record"}, fault);
+  REQUIRE(experiments.size() == 1);
+  CHECK(experiments.front()->label == "record, good");
+  CHECK(fault == "short: a history needs eight samples; still: a history needs one of the columns x, v, a");
+}
