@@ -34,7 +34,7 @@ double least_deviation(const FittedSignal& signal) {
 double plain_deviance_of(const FittedSignal& signal, bool as_stated) {
   const double deviation = std::max(as_stated ? signal.noise : signal.rms, least_deviation(signal));
   const double misfit = signal.rms / deviation;
-  const auto size = static_cast<double>(signal.rows.end - signal.rows.begin);
+  const auto size = static_cast<double>(signal.rows.size());
   return size * (2.0 * std::log(deviation / signal.range) + misfit * misfit);
 }
 
@@ -45,7 +45,7 @@ double deviance_of(const Fit& fit, const std::vector<Fit>& fits) {
   for (std::size_t s = 0; s < fit.signals.size(); ++s) {
     const FittedSignal& signal = fit.signals[s];
     sum += plain_deviance_of(signal, is_as_stated(fits, s));
-    count += static_cast<double>(signal.rows.end - signal.rows.begin);
+    count += static_cast<double>(signal.rows.size());
   }
   return sum / count;
 }
@@ -88,7 +88,7 @@ double sum_of_reference(const CommonDeviation& common, double deviation) {
 /// the common variance times (sum of the reference + difference of Huber's sums)/n. For normal readings within the
 /// bound this is the mean square itself; equal outliers of two laws leave the difference.
 RobustDeviance robust_deviance_of(const FittedSignal& signal, bool as_stated, const CommonDeviation& common) {
-  const auto size = static_cast<double>(signal.rows.end - signal.rows.begin);
+  const auto size = static_cast<double>(signal.rows.size());
   const double deviation = std::max(as_stated ? signal.noise : common.deviation, least_deviation(signal));
   const double count = std::max(1.0, static_cast<double>(signal.misses.size()));
   const Eigen::VectorXd residuals = signal.misses / deviation;
@@ -120,7 +120,7 @@ double set_robust_deviances(std::vector<Fit>& fits) {
       const FittedSignal& signal = fit.signals[s];
       const bool as_stated = is_as_stated(fits, s);
       const CommonDeviation common = as_stated ? CommonDeviation{} : common_deviation(fits, s);
-      count += static_cast<double>(signal.rows.end - signal.rows.begin);
+      count += static_cast<double>(signal.rows.size());
       if (!as_stated && common.reference == nullptr) {
         all.sum += plain_deviance_of(signal, false);
         continue;

@@ -12,6 +12,7 @@
 #include "identify/statistics/decompositions.hpp"
 #include "identify/statistics/distributions.hpp"
 #include "identify/statistics/least_squares.hpp"
+#include "identify/statistics/statistics.hpp"
 #include "sim/parallel.hpp"
 
 namespace dualdamp::identify {
@@ -88,9 +89,9 @@ class Compromiser {
     double independent = 0.0;
     bool all_stated = true;
     for (const FittedSignal& signal : alone.signals) {
-      const Eigen::Index count = signal.rows.end - signal.rows.begin;
+      const Eigen::Index count = signal.rows.size();
       const double share = signal.independent / static_cast<double>(count);
-      const double counted = problem_.counted().segment(signal.rows.begin, count).sum();
+      const double counted = problem_.count(signal.rows);
       const double own = signal.rms * std::sqrt(counted / std::max(signal.freedom, least_freedom));
       // A stated noise is used unless the residuals are larger.
       const bool as_stated = problem_.signal(signal.rows).is_stated && own < signal.noise;
@@ -99,8 +100,7 @@ class Compromiser {
       independent += signal.independent;
       all_stated = all_stated && as_stated;
     }
-    constexpr double known = 1e9;
-    denominator_ = all_stated ? known : std::max(1.0, independent - static_cast<double>(size()));
+    denominator_ = all_stated ? known_freedom : std::max(1.0, independent - static_cast<double>(size()));
   }
 
   /// Sets W with W^T W = C_A^-1, over what A determines of the parameters.

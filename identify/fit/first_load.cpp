@@ -203,7 +203,7 @@ class LoadSearch {
     double independent = 0.0;
     double all = 0.0;
     for (const SignalRows& rows : loaded.task->problem.signals()) {
-      const Eigen::Index size = rows.end - rows.begin;
+      const Eigen::Index size = rows.size();
       independent +=
           independent_samples(misses.segment(rows.begin, size), loaded.task->problem.signal(rows).is_sampled);
       all += static_cast<double>(size);

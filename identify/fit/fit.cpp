@@ -51,8 +51,8 @@ void describe_signals(const FitProblem& problem, const Eigen::VectorXd& weights,
   double count = 0.0;
   for (std::size_t s = 0; s < freedoms.size(); ++s) {
     const SignalRows& rows = problem.signals()[s];
-    const Eigen::Index size = rows.end - rows.begin;
-    const double counted = problem.counted().segment(rows.begin, size).sum();
+    const Eigen::Index size = rows.size();
+    const double counted = problem.count(rows);
     const Eigen::VectorXd measured = problem.measured().segment(rows.begin, size);
     FittedSignal signal{.rows = rows, .rms = problem.rms(misses, rows), .freedom = freedoms[s]};
     signal.range = rms(measured.array() - measured.mean());
@@ -302,7 +302,7 @@ double relative_error(const Fit& fit) {
   double sum = 0.0;
   double count = 0.0;
   for (const FittedSignal& signal : fit.signals) {
-    const auto size = static_cast<double>(signal.rows.end - signal.rows.begin);
+    const auto size = static_cast<double>(signal.rows.size());
     const double share = signal.rms / signal.range;
     sum += size * share * share;
     count += size;

@@ -19,9 +19,8 @@ std::vector<double> freedoms_of(const FitProblem& problem, const Eigen::MatrixXd
   }
   std::vector<double> freedoms;
   for (const SignalRows& signal : problem.signals()) {
-    const Eigen::Index size = signal.end - signal.begin;
-    const double count = problem.counted().segment(signal.begin, size).sum();
-    freedoms.push_back(std::max(0.0, count - basis.middleRows(signal.begin, size).squaredNorm()));
+    const double spent = basis.middleRows(signal.begin, signal.size()).squaredNorm();
+    freedoms.push_back(std::max(0.0, problem.count(signal) - spent));
   }
   return freedoms;
 }

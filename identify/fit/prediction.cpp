@@ -61,11 +61,11 @@ double uncertainty_of(const Fit& held, const Rig& rig, const std::vector<FitPara
   const Eigen::MatrixXd by_own = jacobian.rightCols(jacobian.cols() - shared);
   double sum = 0.0;
   for (const FittedSignal& signal : held.signals) {
-    by_rig.middleRows(signal.rows.begin, signal.rows.end - signal.rows.begin) /= signal.range;
+    by_rig.middleRows(signal.rows.begin, signal.rows.size()) /= signal.range;
   }
   Eigen::MatrixXd own = by_own;
   for (const FittedSignal& signal : held.signals)
-    own.middleRows(signal.rows.begin, signal.rows.end - signal.rows.begin) /= signal.range;
+    own.middleRows(signal.rows.begin, signal.rows.size()) /= signal.range;
   if (own.cols() > 0) by_rig -= own * own.colPivHouseholderQr().solve(by_rig);
   if (shows_undetermined(by_rig, known.undetermined)) return unknown;
   for (Eigen::Index i = 0; i < by_rig.rows(); ++i)
@@ -80,7 +80,7 @@ std::vector<PredictionBand> bands_of(const Fit& held, const Experiments& experim
   });
   if (sampled == held.signals.end()) return {};
   const Signal& signal = experiments[sampled->rows.experiment]->signals[sampled->rows.signal];
-  const Eigen::Index count = sampled->rows.end - sampled->rows.begin;
+  const Eigen::Index count = sampled->rows.size();
   constexpr Eigen::Index least = 64;
   if (count < least) return {};
   const double rate = static_cast<double>(count - 1) / (signal.at.back() - signal.at.front());

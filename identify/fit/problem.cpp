@@ -106,8 +106,8 @@ void FitProblem::number_rows() {
   measured_.resize(rows_);
   counted_ = Eigen::VectorXd::Ones(rows_);
   for (const SignalRows& rows : signals_) {
-    measured_.segment(rows.begin, rows.end - rows.begin) =
-        Eigen::Map<const Eigen::VectorXd>(signal(rows).measured.data(), rows.end - rows.begin);
+    measured_.segment(rows.begin, rows.size()) =
+        Eigen::Map<const Eigen::VectorXd>(signal(rows).measured.data(), rows.size());
     for (const std::size_t i : signal(rows).unsure) counted_[rows.begin + static_cast<Eigen::Index>(i)] = 0.0;
     if (!holds_mass_) continue;
     for (const std::size_t i : signal(rows).stuck) counted_[rows.begin + static_cast<Eigen::Index>(i)] = 0.0;
@@ -151,9 +151,7 @@ Eigen::VectorXd FitProblem::counted(const Eigen::VectorXd& misses, const SignalR
 }
 
 double FitProblem::rms(const Eigen::VectorXd& misses, const SignalRows& rows) const {
-  const Eigen::Index size = rows.end - rows.begin;
-  return misses.segment(rows.begin, size).norm() /
-         std::sqrt(std::max(1.0, counted_.segment(rows.begin, size).sum()));
+  return misses.segment(rows.begin, rows.size()).norm() / std::sqrt(std::max(1.0, count(rows)));
 }
 
 const Signal& FitProblem::signal(const SignalRows& rows) const {

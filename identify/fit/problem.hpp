@@ -41,6 +41,8 @@ struct SignalRows {
   std::size_t signal = 0;
   Eigen::Index begin = 0;
   Eigen::Index end = 0;
+
+  [[nodiscard]] Eigen::Index size() const { return end - begin; }
 };
 
 /// The motions at the last point of a search, from which those at its next points are found: steady states of
@@ -108,6 +110,10 @@ class FitProblem {
   [[nodiscard]] const Eigen::VectorXd& measured() const { return measured_; }
   /// 1 for each reading that counts, 0 for one that does not.
   [[nodiscard]] const Eigen::VectorXd& counted() const { return counted_; }
+  /// Number of readings of a signal that count.
+  [[nodiscard]] double count(const SignalRows& rows) const {
+    return counted_.segment(rows.begin, rows.size()).sum();
+  }
   /// Outputs minus readings; 0 for a reading that does not count.
   [[nodiscard]] Eigen::VectorXd misses(const Eigen::VectorXd& outputs) const {
     return (outputs - measured_).cwiseProduct(counted_);

@@ -85,12 +85,14 @@ double p_value_of_motion(const Signal& signal, const Eigen::VectorXd& measured, 
 
 }  // namespace
 
+bool is_rounding(const Eigen::VectorXd& residuals, const Eigen::VectorXd& measured) {
+  constexpr double exact = 1e-5;
+  return residuals.norm() <= exact * (measured.array() - measured.mean()).matrix().norm();
+}
+
 double noise_p_value(const Signal& signal, const Eigen::VectorXd& residuals, double spent) {
   const Eigen::VectorXd measured = Eigen::Map<const Eigen::VectorXd>(signal.measured.data(), residuals.size());
-  // Residuals of exact data are errors of integration and rounding: neither noise nor motion.
-  constexpr double exact = 1e-5;
-  const double size = (measured.array() - measured.mean()).matrix().norm();
-  if (residuals.norm() <= exact * size) return unknown;
+  if (is_rounding(residuals, measured)) return unknown;
   if (signal.is_sampled)
     return residuals.size() < least_test_samples ? unknown : p_value_of_motion(signal, measured, residuals);
   const double freedom = static_cast<double>(residuals.size()) - spent;
@@ -246,7 +248,7 @@ std::vector<double> zero_gains_of(const FitProblem& problem, const Eigen::Vector
   const Eigen::VectorXd residuals = weights.cwiseProduct(misses);
   std::vector<double> gains;
   for (const SignalRows& rows : problem.signals()) {
-    const Eigen::Index size = rows.end - rows.begin;
+    const Eigen::Index size = rows.size();
     Eigen::VectorXd shift = Eigen::VectorXd::Zero(residuals.size());
     shift.segment(rows.begin, size) =
         weights.segment(rows.begin, size).cwiseProduct(problem.counted().segment(rows.begin, size));

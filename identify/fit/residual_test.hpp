@@ -32,6 +32,9 @@
 
 namespace dualdamp::identify {
 
+/// Whether residuals are errors of integration and rounding, as of exact data: neither noise nor motion.
+[[nodiscard]] bool is_rounding(const Eigen::VectorXd& residuals, const Eigen::VectorXd& measured);
+
 /// The chance that noise alone leaves such residuals. `unknown` for fewer than 64 samples, or for other readings
 /// without a stated noise. `spent`: number of parameters that these readings determine.
 [[nodiscard]] double noise_p_value(const Signal& signal, const Eigen::VectorXd& residuals, double spent);

@@ -86,7 +86,7 @@ class Search {
     double change = 0.0;
     for (std::size_t s = 0; s < deviations_.size(); ++s) {
       const SignalRows& rows = problem_.signals()[s];
-      const double count = problem_.counted().segment(rows.begin, rows.end - rows.begin).sum();
+      const double count = problem_.count(rows);
       if (problem_.signal(rows).is_stated || freedoms[s] < least_freedom) continue;
       const double found = options_.robust ? robust_deviation(problem_.counted(misses, rows), freedoms[s]).deviation
                                            : problem_.rms(misses, rows) * std::sqrt(count / freedoms[s]);
@@ -129,7 +129,7 @@ class Search {
     const Signal& signal = problem_.signal(rows);
     if (signal.noise > 0.0) return signal.noise;
     if (signal.unit == "rad") return 0.01;
-    const Eigen::VectorXd part = problem_.measured().segment(rows.begin, rows.end - rows.begin);
+    const Eigen::VectorXd part = problem_.measured().segment(rows.begin, rows.size());
     const double size = std::sqrt((part.array() - part.mean()).square().mean());
     return size > 0.0 ? 0.01 * size : 1.0;
   }
@@ -137,7 +137,7 @@ class Search {
   void spread() {
     for (std::size_t s = 0; s < deviations_.size(); ++s) {
       const SignalRows& rows = problem_.signals()[s];
-      weights_.segment(rows.begin, rows.end - rows.begin).setConstant(1.0 / deviations_[s]);
+      weights_.segment(rows.begin, rows.size()).setConstant(1.0 / deviations_[s]);
     }
     weights_ = weights_.cwiseProduct(problem_.counted());
     unbounded_ = weights_;
@@ -321,7 +321,7 @@ bool holds_motion(const SearchResult& found, const FitProblem& problem, std::opt
   const auto parameters = static_cast<double>(found.coordinates.size());
   return std::ranges::any_of(problem.signals(), [&](const SignalRows& rows) {
     if (record && rows.experiment != *record) return false;
-    const Eigen::Index size = rows.end - rows.begin;
+    const Eigen::Index size = rows.size();
     const Eigen::VectorXd part =
         bounded_residuals(misses.segment(rows.begin, size), found.weights.segment(rows.begin, size));
     return !is_noise(noise_p_value(problem.signal(rows), part, parameters));

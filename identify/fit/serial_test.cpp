@@ -7,6 +7,7 @@
 #include <numeric>
 #include <vector>
 
+#include "identify/fit/residual_test.hpp"
 #include "identify/record.hpp"
 #include "identify/statistics/decompositions.hpp"
 
@@ -53,8 +54,8 @@ double chance_below_zero(const Eigen::VectorXd& lambda) {
 
 double serial_p_value(const Eigen::VectorXd& residuals, const Eigen::MatrixXd& base) {
   const Eigen::Index count = residuals.size();
-  constexpr double least_freedom = 3.5;
-  if (static_cast<double>(count) - base.squaredNorm() < least_freedom || !(residuals.squaredNorm() > 0.0))
+  constexpr double least_for_test = 3.5;
+  if (static_cast<double>(count) - base.squaredNorm() < least_for_test || !(residuals.squaredNorm() > 0.0))
     return unknown;
   const double d = (residuals.tail(count - 1) - residuals.head(count - 1)).squaredNorm() / residuals.squaredNorm();
   constexpr Eigen::Index many = 400;
@@ -83,11 +84,9 @@ SerialTest::SerialTest(const FitProblem& problem, const Eigen::VectorXd& weights
 
 double SerialTest::p_value(const SignalRows& rows) const {
   const Signal& signal = problem_.signal(rows);
-  const Eigen::Index count = rows.end - rows.begin;
+  const Eigen::Index count = rows.size();
   const Eigen::VectorXd measured = problem_.measured().segment(rows.begin, count);
-  constexpr double exact = 1e-5;
-  const double size = (measured.array() - measured.mean()).matrix().norm();
-  if (misses_.segment(rows.begin, count).norm() <= exact * size) return unknown;
+  if (is_rounding(misses_.segment(rows.begin, count), measured)) return unknown;
   std::vector<std::size_t> order(static_cast<std::size_t>(count));
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::ranges::stable_sort(order, {}, [&](std::size_t i) { return signal.at[i]; });

@@ -21,14 +21,14 @@ bool agrees_with_stated(double square, double freedom) {
 
 /// Of the readings that count as independent, those that the parameters and the outliers leave.
 double freedom_left(const FittedSignal& signal, double count, double freedom) {
-  const double independent = signal.independent * count / static_cast<double>(signal.rows.end - signal.rows.begin);
+  const double independent = signal.independent * count / static_cast<double>(signal.rows.size());
   return std::max(1.0, independent - (count - freedom));
 }
 
 SignalVariance plain_variance(const FitEnd& end, const FittedSignal& signal) {
   const SignalRows& rows = signal.rows;
-  const Eigen::Index size = rows.end - rows.begin;
-  const double count = end.problem.counted().segment(rows.begin, size).sum();
+  const Eigen::Index size = rows.size();
+  const double count = end.problem.count(rows);
   const double freedom = std::max(signal.freedom, least_freedom);
   const double own =
       end.unbounded.segment(rows.begin, size).cwiseProduct(end.misses.segment(rows.begin, size)).squaredNorm() /
@@ -42,7 +42,7 @@ SignalVariance plain_variance(const FitEnd& end, const FittedSignal& signal) {
 
 SignalVariance robust_variance(const FitEnd& end, const FittedSignal& signal) {
   const SignalRows& rows = signal.rows;
-  const double weight = end.unbounded.segment(rows.begin, rows.end - rows.begin).maxCoeff();
+  const double weight = end.unbounded.segment(rows.begin, rows.size()).maxCoeff();
   const Eigen::VectorXd residuals = weight * end.problem.counted(end.misses, rows);
   const auto count = static_cast<double>(residuals.size());
   const double freedom = std::max(signal.freedom, least_freedom);
@@ -70,8 +70,7 @@ SignalVariance robust_variance(const FitEnd& end, const FittedSignal& signal) {
 }  // namespace
 
 SignalVariance signal_variance(const FitEnd& end, const FittedSignal& signal) {
-  const Eigen::Index size = signal.rows.end - signal.rows.begin;
-  const bool counts = end.problem.counted().segment(signal.rows.begin, size).sum() > 0.0;
+  const bool counts = end.problem.count(signal.rows) > 0.0;
   return end.robust && counts ? robust_variance(end, signal) : plain_variance(end, signal);
 }
 

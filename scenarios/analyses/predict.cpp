@@ -181,7 +181,7 @@ std::vector<double> errors_of(const identify::Fit& fit, std::size_t experiments)
   std::vector<double> squares(experiments);
   std::vector<double> counts(experiments);
   for (const identify::FittedSignal& signal : fit.signals) {
-    const auto size = static_cast<double>(signal.rows.end - signal.rows.begin);
+    const auto size = static_cast<double>(signal.rows.size());
     squares[signal.rows.experiment] += size * std::pow(signal.rms / signal.range, 2);
     counts[signal.rows.experiment] += size;
   }
@@ -224,7 +224,7 @@ std::string driven_record(const identify::Fit& held, const identify::Experiments
   };
   for (const identify::FittedSignal& fitted : held.signals) {
     const identify::Experiment& experiment = *data[fitted.rows.experiment];
-    const Eigen::Index quarter = (fitted.rows.end - fitted.rows.begin) / 4;
+    const Eigen::Index quarter = fitted.rows.size() / 4;
     if (experiment.kind != identify::ExperimentKind::history || quarter < 2) continue;
     const std::vector<double>& values = experiment.signals[fitted.rows.signal].measured;
     const Eigen::Map<const Eigen::VectorXd> measured(values.data(), static_cast<Eigen::Index>(values.size()));
