@@ -64,9 +64,8 @@ std::vector<RecordParameter> sought_of_record(const Experiment& experiment, bool
   return sought;
 }
 
-std::vector<std::unique_ptr<Experiment>> experiments_of(const Record& record, const ExperimentOptions& options,
-                                                        std::string& fault) {
-  std::vector<std::unique_ptr<Experiment>> found;
+Experiments experiments_of(const Record& record, const ExperimentOptions& options, std::string& fault) {
+  Experiments found;
   const auto add = [&](const std::string& part, const auto& make) {
     std::string reason;
     std::unique_ptr<Experiment> made = make(reason);

@@ -124,6 +124,8 @@ class Experiment {
   Experiment(const Experiment&) = default;  ///< for parts of a record
 };
 
+using Experiments = std::vector<std::unique_ptr<Experiment>>;
+
 /// A parameter of a single record. `is_alone`: there is one record only, so the name needs no number.
 [[nodiscard]] FitParameter parameter_of_record(const Experiment& experiment, std::size_t index,
                                                RecordParameter which, bool is_alone);
@@ -146,9 +148,8 @@ struct ExperimentOptions {
 
 /// One experiment for the pairs or the decay of a record, or one for each history. `fault`: why parts of the record
 /// have none, each with the name of its history; empty if all have one.
-[[nodiscard]] std::vector<std::unique_ptr<Experiment>> experiments_of(const Record& record,
-                                                                      const ExperimentOptions& options,
-                                                                      std::string& fault);
+[[nodiscard]] Experiments experiments_of(const Record& record, const ExperimentOptions& options,
+                                         std::string& fault);
 
 /// One experiment from a part of a record. Null, with a fault, if the part cannot be used.
 [[nodiscard]] std::unique_ptr<Experiment> steady_states(const PairRecord& record, const ExperimentOptions& options,

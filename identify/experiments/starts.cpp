@@ -150,7 +150,7 @@ double crossing_frequency(const Signal& signal) {
   return crossing_frequency(signal.measured, signal.at.back() - signal.at.front());
 }
 
-DataScale scale_of(const Rig& rig, const std::vector<std::unique_ptr<Experiment>>& experiments) {
+DataScale scale_of(const Rig& rig, const Experiments& experiments) {
   double length = 0.0;
   double speed = 0.0;
   double acceleration = 0.0;

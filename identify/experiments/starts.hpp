@@ -40,7 +40,7 @@ struct DataScale {
 [[nodiscard]] double crossing_frequency(const std::vector<double>& samples, double duration);
 [[nodiscard]] double crossing_frequency(const Signal& signal);
 
-[[nodiscard]] DataScale scale_of(const Rig& rig, const std::vector<std::unique_ptr<Experiment>>& experiments);
+[[nodiscard]] DataScale scale_of(const Rig& rig, const Experiments& experiments);
 
 /// Size of a parameter, > 0, in its unit. For a stated value that is not zero: its absolute value.
 [[nodiscard]] double size_of(const FitParameter& parameter, const DataScale& scale);

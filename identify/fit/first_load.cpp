@@ -7,9 +7,9 @@
 #include "core/constants.hpp"
 #include "core/numbers.hpp"
 #include "identify/fit/steps.hpp"
-#include "identify/fit/uncertainty.hpp"
 #include "identify/statistics/decompositions.hpp"
 #include "identify/statistics/distributions.hpp"
+#include "identify/statistics/residual_covariance.hpp"
 #include "sim/parallel.hpp"
 
 namespace dualdamp::identify {
@@ -24,7 +24,7 @@ constexpr auto travel_of_record = static_cast<std::size_t>(RecordParameter::trav
 bool may_be_loaded(const FitTask& task, const Eigen::VectorXd& values, std::size_t index) {
   const Experiment& experiment = *task.experiments[index];
   if (experiment.kind == ExperimentKind::steady_states || experiment.knows_load) return false;
-  if (task.begins[index][travel_of_record] != 0.0) return false;
+  if (task.problem.known()[index][travel_of_record] != 0.0) return false;
   const bool is_sought = std::ranges::any_of(task.parameters, [index](const FitParameter& parameter) {
     return parameter.owner == Owner::record && parameter.index == index &&
            parameter.record_parameter == RecordParameter::travel;
@@ -69,10 +69,10 @@ class LoadSearch {
 
   [[nodiscard]] std::unique_ptr<FitTask> task_with(std::vector<FitParameter> parameters, std::vector<double> sizes,
                                                    double travel) const {
-    std::vector<RecordValues> begins = before_.begins;
-    begins[index_][travel_of_record] = travel;
+    std::vector<RecordValues> known = before_.problem.known();
+    known[index_][travel_of_record] = travel;
     auto task = std::make_unique<FitTask>(before_.rig, before_.experiments, std::move(parameters), std::move(sizes),
-                                          std::move(begins));
+                                          std::move(known));
     task->problem.limit(most_work_);
     task->problem.set_stepped(before_.problem.stepped());
     return task;

@@ -20,6 +20,7 @@
 #include "identify/fit/steps.hpp"
 #include "identify/fit/uncertainty.hpp"
 #include "identify/statistics/huber.hpp"
+#include "identify/statistics/residual_covariance.hpp"
 
 namespace dualdamp::identify {
 
@@ -243,10 +244,7 @@ Fit fit_rig(const Rig& rig, std::vector<FitParameter> parameters, const Experime
   const DataScale scale = scale_of(rig, experiments);
   std::vector<double> sizes;
   for (const FitParameter& parameter : parameters) sizes.push_back(size_of(parameter, scale));
-  std::vector<RecordValues> known = options.known;
-  if (known.empty())
-    for (const auto& experiment : experiments) known.push_back(experiment->record_start);
-  auto task = std::make_unique<FitTask>(rig, experiments, parameters, sizes, std::move(known));
+  auto task = std::make_unique<FitTask>(rig, experiments, parameters, sizes, options.known);
   const FitProblem& problem = task->problem;
   const auto readings = static_cast<Eigen::Index>(problem.counted().sum());
   if (readings <= static_cast<Eigen::Index>(parameters.size())) {

@@ -23,7 +23,6 @@
 /// times two for each parameter and step.
 
 #include <Eigen/Core>
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -102,8 +101,6 @@ struct Fit {
   Eigen::MatrixXd slopes;  ///< d(outputs)/d(values)
   std::vector<std::string> warnings;
 };
-
-using Experiments = std::vector<std::unique_ptr<Experiment>>;
 
 /// Fits these parameters of the rig; those of the single records are among them.
 [[nodiscard]] Fit fit_rig(const Rig& rig, std::vector<FitParameter> parameters, const Experiments& experiments,

@@ -215,7 +215,7 @@ std::optional<sim::Model> FitProblem::model_at(const Eigen::VectorXd& values) co
   return model_of(std::move(*rig));
 }
 
-bool FitProblem::predict_each(const Eigen::VectorXd& q, Eigen::VectorXd& result, const Prediction& predict) const {
+bool FitProblem::predict_each(const Eigen::VectorXd& q, Eigen::VectorXd& result, const Predictor& predict) const {
   if (is_exhausted()) return false;
   const Eigen::VectorXd p = values(q);
   return guarded([&] {

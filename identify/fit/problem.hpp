@@ -54,10 +54,8 @@ class Trail {
 
 class FitProblem {
  public:
-  using Experiments = std::vector<std::unique_ptr<Experiment>>;
-
   /// `sizes`: of each parameter, > 0, in its unit. `known`: values of the records' own parameters that are not
-  /// sought, in place of those of the experiments. The other arguments must outlive this.
+  /// sought; empty: those of the experiments, `record_start`. The other arguments must outlive this.
   FitProblem(const Rig& rig, const std::vector<FitParameter>& parameters, const Experiments& experiments,
              const std::vector<double>& sizes, std::vector<RecordValues> known = {});
 
@@ -86,6 +84,8 @@ class FitProblem {
   [[nodiscard]] bool has_loops_only() const;
 
   [[nodiscard]] Eigen::Index rows() const { return rows_; }
+  /// Of each experiment, the values of its own parameters that are not sought.
+  [[nodiscard]] const std::vector<RecordValues>& known() const { return known_; }
   [[nodiscard]] const std::vector<SignalRows>& signals() const { return signals_; }
   [[nodiscard]] const std::vector<SearchCoordinate>& coordinates() const { return coordinates_; }
   [[nodiscard]] const Signal& signal(const SignalRows& rows) const;
@@ -134,11 +134,11 @@ class FitProblem {
   [[nodiscard]] std::optional<All> neighbours(const Eigen::VectorXd& q, const Trail* trail,
                                               Eigen::VectorXd& result) const;
   /// Predicts the outputs of one experiment; false if the model has no such motion.
-  using Prediction = std::function<bool(std::size_t experiment, const sim::Model& model,
+  using Predictor = std::function<bool(std::size_t experiment, const sim::Model& model,
                                         const RecordValues& of_record, Eigen::VectorXd& part)>;
   /// The outputs of all experiments at `q`, side by side. False if one has none.
   [[nodiscard]] bool predict_each(const Eigen::VectorXd& q, Eigen::VectorXd& result,
-                                  const Prediction& predict) const;
+                                  const Predictor& predict) const;
   [[nodiscard]] static const Neighbours* leader(const Trail* trail, std::size_t experiment);
   void mend_jumps(const Eigen::VectorXd& below, const Eigen::VectorXd& above, Eigen::VectorXd& slope) const;
   [[nodiscard]] std::optional<sim::Model> model_at(const Eigen::VectorXd& values) const;
@@ -168,16 +168,14 @@ class FitProblem {
 
 /// A problem with all that it refers to.
 struct FitTask {
-  /// `known`: values of the records' own parameters that are not sought. The rig and the experiments must outlive
-  /// this.
-  FitTask(const Rig& of_rig, const FitProblem::Experiments& records, std::vector<FitParameter> sought,
+  /// `known`: as in `FitProblem`. The rig and the experiments must outlive this.
+  FitTask(const Rig& of_rig, const Experiments& records, std::vector<FitParameter> sought,
           std::vector<double> sizes_of_sought, std::vector<RecordValues> known)
       : rig(of_rig),
         experiments(records),
         parameters(std::move(sought)),
         sizes(std::move(sizes_of_sought)),
-        begins(std::move(known)),
-        problem(rig, parameters, experiments, sizes, begins) {}
+        problem(rig, parameters, experiments, sizes, std::move(known)) {}
   FitTask(const FitTask&) = delete;
   FitTask& operator=(const FitTask&) = delete;
   FitTask(FitTask&&) = delete;
@@ -185,10 +183,9 @@ struct FitTask {
   ~FitTask() = default;
 
   const Rig& rig;
-  const FitProblem::Experiments& experiments;
+  const Experiments& experiments;
   std::vector<FitParameter> parameters;
   std::vector<double> sizes;
-  std::vector<RecordValues> begins;
   FitProblem problem;
 };
 

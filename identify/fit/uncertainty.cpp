@@ -415,13 +415,6 @@ class Uncertainty {
 
 }  // namespace
 
-double independent_samples(const Eigen::VectorXd& residuals, bool is_sampled) {
-  const std::vector<double> rho = autocorrelation(residuals, is_sampled);
-  double inflation = 1.0;
-  for (std::size_t l = 1; l < rho.size(); ++l) inflation += 2.0 * bartlett(l, rho.size()) * rho[l];
-  return static_cast<double>(residuals.size()) / std::max(1.0, inflation);
-}
-
 std::optional<Eigen::VectorXd> add_uncertainty(const FitEnd& end, Fit& fit) {
   Uncertainty uncertainty(end, fit);
   uncertainty.run();

@@ -21,9 +21,6 @@ struct FitEnd {
   bool robust = false;
 };
 
-/// Number of samples that count as independent: N/(1 + 2 sum of the autocorrelation with Bartlett's weights).
-[[nodiscard]] double independent_samples(const Eigen::VectorXd& residuals, bool is_sampled);
-
 /// Sets standard deviations, intervals, bounds, trade-offs, covariance, undetermined directions and slopes of
 /// `fit`. Returns coordinates with a smaller sum of squares if a profile found any; the search must then continue
 /// from there.

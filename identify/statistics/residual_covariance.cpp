@@ -22,6 +22,13 @@ std::vector<double> autocorrelation(const Eigen::VectorXd& residuals, bool is_sa
   return rho;
 }
 
+double independent_samples(const Eigen::VectorXd& residuals, bool is_sampled) {
+  const std::vector<double> rho = autocorrelation(residuals, is_sampled);
+  double inflation = 1.0;
+  for (std::size_t l = 1; l < rho.size(); ++l) inflation += 2.0 * bartlett(l, rho.size()) * rho[l];
+  return static_cast<double>(residuals.size()) / std::max(1.0, inflation);
+}
+
 Eigen::MatrixXd score_covariance(const Eigen::MatrixXd& rows, const Eigen::VectorXd& residuals, double variance,
                                  bool is_sampled) {
   const std::vector<double> rho = autocorrelation(residuals, is_sampled);

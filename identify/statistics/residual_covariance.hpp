@@ -20,6 +20,9 @@ namespace dualdamp::identify {
   return 1.0 - static_cast<double>(lag) / static_cast<double>(count);
 }
 
+/// Number of samples that count as independent: N/(1 + 2 sum of the autocorrelation with Bartlett's weights).
+[[nodiscard]] double independent_samples(const Eigen::VectorXd& residuals, bool is_sampled);
+
 /// The bracket for one signal. `rows`: of J; `residuals`: over their deviation; `variance`: of these.
 [[nodiscard]] Eigen::MatrixXd score_covariance(const Eigen::MatrixXd& rows, const Eigen::VectorXd& residuals,
                                                double variance, bool is_sampled);
