@@ -7,7 +7,6 @@
 #include "core/numbers.hpp"
 #include "identify/fit/freedom.hpp"
 #include "identify/fit/residual_test.hpp"
-#include "identify/fit/uncertainty.hpp"
 #include "identify/statistics/huber.hpp"
 
 namespace dualdamp::identify {

@@ -21,19 +21,14 @@ namespace {
 
 using core::infinity;
 
-double size_of_stated(const FitParameter& parameter) {
-  const double size = std::abs(parameter.stated);
-  return size > 0.0 && std::isfinite(size) ? size : 1.0;
-}
-
 class Compromiser {
  public:
   /// `in_values`: the deviations from A's estimate are those of the values, not of the coordinates.
   Compromiser(const KnownRig& known, const Experiments& second, const Fit& held, const Fit& alone, bool in_values)
       : in_values_(in_values),
         is_open_(known.uncertainty.undetermined.cols() > 0),
-        parameters_(all_of(known, held)),
-        sizes_(sizes_of(parameters_)),
+        parameters_(with_own_parameters(known.parameters, held)),
+        sizes_(sizes_of_stated(parameters_)),
         alone_(alone),
         problem_(known.rig, parameters_, second, sizes_, held.of_records) {
     Eigen::VectorXd at_held(size());
@@ -59,21 +54,6 @@ class Compromiser {
   [[nodiscard]] double chance_of(double statistic) const {
     const auto freedom = static_cast<double>(whitening_.rows());
     return f_test_p_value(std::max(statistic, 0.0) / freedom, freedom, denominator_);
-  }
-
-  static std::vector<FitParameter> all_of(const KnownRig& known, const Fit& held) {
-    std::vector<FitParameter> all = known.parameters;
-    for (const FittedParameter& fitted : held.parameters) {
-      all.push_back(fitted.parameter);
-      all.back().stated = fitted.value;
-    }
-    return all;
-  }
-
-  static std::vector<double> sizes_of(const std::vector<FitParameter>& parameters) {
-    std::vector<double> sizes;
-    for (const FitParameter& parameter : parameters) sizes.push_back(size_of_stated(parameter));
-    return sizes;
   }
 
   [[nodiscard]] Eigen::Index size() const { return static_cast<Eigen::Index>(parameters_.size()); }
@@ -230,6 +210,14 @@ class Compromiser {
 };
 
 }  // namespace
+
+std::vector<FitParameter> with_own_parameters(std::vector<FitParameter> shared, const Fit& held) {
+  for (const FittedParameter& fitted : held.parameters) {
+    shared.push_back(fitted.parameter);
+    shared.back().stated = fitted.value;
+  }
+  return shared;
+}
 
 Compromise compromise_of(const KnownRig& known, const Experiments& second, const Fit& held, const Fit& alone) {
   if (alone.parameters.size() != known.parameters.size() + held.parameters.size()) return {};

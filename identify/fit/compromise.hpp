@@ -38,6 +38,9 @@ struct Compromise {
   double p_value = unknown;
 };
 
+/// Parameters of the rig, and then those of the records themselves, each stated as the fit `held` has it.
+[[nodiscard]] std::vector<FitParameter> with_own_parameters(std::vector<FitParameter> shared, const Fit& held);
+
 /// `held`: fit of B with the rig held fixed. `alone`: fit of B with the parameters of the rig and those of B
 /// itself.
 [[nodiscard]] Compromise compromise_of(const KnownRig& known, const Experiments& second, const Fit& held,

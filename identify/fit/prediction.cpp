@@ -1,6 +1,6 @@
 #include "identify/fit/prediction.hpp"
 
-#include <Eigen/QR>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -25,49 +25,32 @@ bool shows_undetermined(const Eigen::MatrixXd& by_rig, const Eigen::MatrixXd& un
   return (by_rig * undetermined).colwise().norm().maxCoeff() > least * readings;
 }
 
-/// rms error of the outputs from the uncertainty of the rig's parameters, relative to the signals.
-double uncertainty_of(const Fit& held, const Rig& rig, const std::vector<FitParameter>& parameters,
+/// rms error of the outputs from the uncertainty of the rig's parameters, relative to the signals. `shared`: these
+/// parameters, each stated as the rig has it.
+double uncertainty_of(const Fit& held, const Rig& rig, const std::vector<FitParameter>& shared,
                       const SharedUncertainty& known, const Experiments& experiments) {
-  std::vector<FitParameter> all;
-  for (const FitParameter& parameter : parameters)
-    if (parameter.owner != Owner::record) all.push_back(parameter);
-  const auto shared = static_cast<Eigen::Index>(all.size());
-  if (shared == 0) return 0.0;
-  if (known.covariance.rows() != shared) return unknown;
-  Eigen::VectorXd values(shared);
-  std::vector<double> sizes;
-  const std::vector<FitParameter> now = parameters_of(rig);
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    std::string fault;
-    const std::vector<FitParameter> found = named(now, all[i].name, fault);
-    all[i].stated = found.empty() ? all[i].stated : found.front().stated;
-    values[static_cast<Eigen::Index>(i)] = all[i].stated;
-    sizes.push_back(all[i].stated == 0.0 ? 1.0 : std::abs(all[i].stated));
-  }
-  for (const FittedParameter& fitted : held.parameters) {
-    all.push_back(fitted.parameter);
-    values.conservativeResize(values.size() + 1);
-    values[values.size() - 1] = fitted.value;
-    sizes.push_back(fitted.value == 0.0 ? 1.0 : std::abs(fitted.value));
-  }
-  const FitProblem problem(rig, all, experiments, sizes, held.of_records);
+  const auto count = static_cast<Eigen::Index>(shared.size());
+  if (count == 0) return 0.0;
+  if (known.covariance.rows() != count) return unknown;
+  const std::vector<FitParameter> all = with_own_parameters(shared, held);
+  Eigen::VectorXd values(static_cast<Eigen::Index>(all.size()));
+  for (std::size_t i = 0; i < all.size(); ++i) values[static_cast<Eigen::Index>(i)] = all[i].stated;
+  const FitProblem problem(rig, all, experiments, sizes_of_stated(all), held.of_records);
   const Eigen::VectorXd q = problem.coordinates(values);
   Eigen::VectorXd outputs;
   Eigen::MatrixXd jacobian;
   if (!problem.derivatives(q, outputs, jacobian)) return unknown;
   jacobian = (jacobian * inverse_of(problem.slope(q))).eval();
-  // The record's own parameters are fitted, so the changes that they can compensate are no error.
-  Eigen::MatrixXd by_rig = jacobian.leftCols(shared);
-  const Eigen::MatrixXd by_own = jacobian.rightCols(jacobian.cols() - shared);
-  double sum = 0.0;
-  for (const FittedSignal& signal : held.signals) {
-    by_rig.middleRows(signal.rows.begin, signal.rows.size()) /= signal.range;
-  }
-  Eigen::MatrixXd own = by_own;
   for (const FittedSignal& signal : held.signals)
-    own.middleRows(signal.rows.begin, signal.rows.size()) /= signal.range;
-  if (own.cols() > 0) by_rig -= own * own.colPivHouseholderQr().solve(by_rig);
+    jacobian.middleRows(signal.rows.begin, signal.rows.size()) /= signal.range;
+  Eigen::MatrixXd by_rig = jacobian.leftCols(count);
+  // The record's own parameters are fitted, so the changes that they can compensate are no error.
+  if (const Eigen::MatrixXd own = jacobian.rightCols(jacobian.cols() - count); own.cols() > 0) {
+    const Eigen::MatrixXd basis = orthonormal_basis(own);
+    by_rig -= basis * (basis.transpose() * by_rig);
+  }
   if (shows_undetermined(by_rig, known.undetermined)) return unknown;
+  double sum = 0.0;
   for (Eigen::Index i = 0; i < by_rig.rows(); ++i)
     sum += by_rig.row(i) * known.covariance * by_rig.row(i).transpose();
   return std::sqrt(std::max(sum, 0.0) / static_cast<double>(by_rig.rows()));
@@ -223,12 +206,13 @@ std::vector<FitParameter> at_values_of(const Rig& rig, const std::vector<FitPara
   return list;
 }
 
-void describe_held(const Rig& rig, const std::vector<FitParameter>& parameters, const SharedUncertainty& known,
+/// `shared`: those of `uncertainty_of`.
+void describe_held(const Rig& rig, const std::vector<FitParameter>& shared, const SharedUncertainty& known,
                    const Experiments& experiments, Prediction& found) {
   found.error = relative_error(found.fit);
   found.noise_units = found.fit.noise_units;
   found.bands = bands_of(found.fit, experiments);
-  found.uncertainty = uncertainty_of(found.fit, rig, parameters, known, experiments);
+  found.uncertainty = uncertainty_of(found.fit, rig, shared, known, experiments);
 }
 
 /// The prediction with these zeros of the records among their own parameters.
@@ -254,8 +238,8 @@ Prediction predicted_with(const std::vector<RecordZero>& zeros, const Rig& rig,
     found.text = found.outcome.reason;
     return found;
   }
-  describe_held(rig, parameters, known, experiments, found);
   const std::vector<FitParameter> shared = at_values_of(rig, parameters);
+  describe_held(rig, shared, known, experiments, found);
   std::vector<FitParameter> all = shared;
   std::ranges::move(parameters_of_records(rig, experiments, zeros), std::back_inserter(all));
   Fit attainable = fit_rig(rig, all, experiments, quick);
@@ -275,7 +259,7 @@ Prediction predicted_with(const std::vector<RecordZero>& zeros, const Rig& rig,
     if (held.outcome.ok() && alone.outcome.ok()) {
       found.fit = std::move(held);
       attainable = std::move(alone);
-      describe_held(rig, parameters, known, experiments, found);
+      describe_held(rig, shared, known, experiments, found);
     }
   }
   // If the search ended at a worse place than the prediction, the prediction itself is the best fit.

@@ -45,6 +45,15 @@ bool guarded(const Work& work) {
 
 }  // namespace
 
+std::vector<double> sizes_of_stated(const std::vector<FitParameter>& parameters) {
+  std::vector<double> sizes;
+  for (const FitParameter& parameter : parameters) {
+    const double size = std::abs(parameter.stated);
+    sizes.push_back(size > 0.0 && std::isfinite(size) ? size : 1.0);
+  }
+  return sizes;
+}
+
 FitProblem::FitProblem(const Rig& rig, const std::vector<FitParameter>& parameters, const Experiments& experiments,
                        const std::vector<double>& sizes, std::vector<RecordValues> known)
     : rig_(rig), holds_mass_(holds_mass(rig, parameters)), parameters_(parameters), known_(std::move(known)) {

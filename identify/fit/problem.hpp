@@ -52,6 +52,9 @@ class Trail {
   std::vector<std::unique_ptr<Neighbours>> neighbours_;  ///< of each experiment; empty: there was no point yet
 };
 
+/// Of each parameter, the absolute value that is stated; 1 if that is zero or unknown.
+[[nodiscard]] std::vector<double> sizes_of_stated(const std::vector<FitParameter>& parameters);
+
 class FitProblem {
  public:
   /// `sizes`: of each parameter, > 0, in its unit. `known`: values of the records' own parameters that are not
