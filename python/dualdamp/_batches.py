@@ -137,9 +137,9 @@ def steady_state(
     >>> round(dd.steady_state(mass=1, stiffness=100, zeta=0.2, F0=2, Y=0.1).amplitude, 4)
     0.1861
     """
+    given = dict(mass=mass, stiffness=stiffness, damping=damping, zeta=zeta, F0=F0, static=static, Y=Y, force=force, omega=omega)
     if system is not None:
-        numbers = dict(mass=mass, stiffness=stiffness, damping=damping, zeta=zeta, F0=F0, static=static, Y=Y, force=force, omega=omega)
-        for name, value in {**numbers, "damper_to": damper_to}.items():
+        for name, value in {**given, "damper_to": damper_to}.items():
             if value is not None:
                 raise TypeError(f"steady_state takes a system or {name}, not both")
         return function("steady_state")(system, excitation, threads=threads, progress=progress, **keys)
@@ -155,7 +155,6 @@ def steady_state(
         raise TypeError("steady_state takes one of Y and force")
     if (damping is None) == (zeta is None):
         raise TypeError("steady_state takes one of damping and zeta")
-    given = dict(mass=mass, stiffness=stiffness, damping=damping, zeta=zeta, F0=F0, static=static, Y=Y, force=force, omega=omega)
     for name, value in given.items():
         if value.__class__ is not float and value is not None:
             given[name] = _numbers(name, value)
