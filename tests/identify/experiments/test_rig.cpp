@@ -4,7 +4,6 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
-#include <stdexcept>
 
 #include "core/random.hpp"
 #include "friction_models/laws/dahl.hpp"
@@ -16,12 +15,6 @@
 using namespace dualdamp;
 
 namespace {
-
-const identify::FittedParameter& found_in(const identify::Fit& fit, const std::string& name) {
-  for (const identify::FittedParameter& fitted : fit.parameters)
-    if (fitted.parameter.name == name) return fitted;
-  throw std::invalid_argument("there is no parameter " + name);
-}
 
 /// What a record of a loop of m = 2 kg, k = 300 N/m, c = 4 N.s/m and 1.2 N of friction holds: force, and some of
 /// the signals of two sines at 2 and 5.4 Hz.
@@ -115,17 +108,17 @@ TEST_CASE("loop: a loop without a measured acceleration gives mass and stiffness
   for (const double rate : {100.0, 250.0})
     for (const bool has_v : {true, false}) {
       const identify::Fit fit = fit_of_loop({.rate = rate, .v = has_v}, 7);
-      CAPTURE(rate, has_v, found_in(fit, "mass").value, found_in(fit, "stiffness").value);
-      CHECK(std::abs(found_in(fit, "mass").value - 2.0) < 4.0 * found_in(fit, "mass").std);
-      CHECK(std::abs(found_in(fit, "stiffness").value - 300.0) < 4.0 * found_in(fit, "stiffness").std);
-      CHECK(found_in(fit, "mass").std < 2e-3);
+      CAPTURE(rate, has_v, test::fitted(fit, "mass").value, test::fitted(fit, "stiffness").value);
+      CHECK(std::abs(test::fitted(fit, "mass").value - 2.0) < 4.0 * test::fitted(fit, "mass").std);
+      CHECK(std::abs(test::fitted(fit, "stiffness").value - 300.0) < 4.0 * test::fitted(fit, "stiffness").std);
+      CHECK(test::fitted(fit, "mass").std < 2e-3);
     }
 }
 
 TEST_CASE("loop: noise of a velocity that is differentiated is filtered, and told", "[identify][fit]") {
   // 0.5 % of v. Of the difference of neighbours alone, the mass is 1.966 kg, ten standard errors off.
   const identify::Fit fit = fit_of_loop({.rate = 1000.0, .noise_v = 6.5e-4}, 8);
-  CHECK(std::abs(found_in(fit, "mass").value - 2.0) < 4.0 * found_in(fit, "mass").std);
+  CHECK(std::abs(test::fitted(fit, "mass").value - 2.0) < 4.0 * test::fitted(fit, "mass").std);
   CHECK(fit.signals.front().noise_units > 5.0);
   REQUIRE(fit.warnings.size() == 1);
   CHECK_THAT(fit.warnings.front(), Catch::Contains("though they look like noise"));
@@ -135,7 +128,7 @@ TEST_CASE("loop: noise of a velocity that is differentiated is filtered, and tol
   REQUIRE_FALSE(by_x.warnings.empty());
   CHECK_THAT(by_x.warnings.front(), Catch::Contains("measure v and a rather than x"));
   // Noise of x alone, differentiated twice, makes the mass too small by 0.8 %.
-  CHECK(found_in(by_x, "mass").value == Approx(2.0).epsilon(0.02));
+  CHECK(test::fitted(by_x, "mass").value == Approx(2.0).epsilon(0.02));
 }
 
 TEST_CASE("loop: the filter of a loop without a velocity is no fault of the law", "[identify][fit]") {
@@ -154,10 +147,10 @@ TEST_CASE("loop: the filter of a loop without a velocity is no fault of the law"
 TEST_CASE("loop: a loop of a velocity alone seeks its first position if there is a spring", "[identify][fit]") {
   // From zero, the stiffness is 288 N/m.
   const identify::Fit fit = fit_of_loop({.rate = 100.0, .x = false}, 9);
-  CHECK(std::abs(found_in(fit, "mass").value - 2.0) < 4.0 * found_in(fit, "mass").std);
-  CHECK(std::abs(found_in(fit, "stiffness").value - 300.0) < 4.0 * found_in(fit, "stiffness").std);
+  CHECK(std::abs(test::fitted(fit, "mass").value - 2.0) < 4.0 * test::fitted(fit, "mass").std);
+  CHECK(std::abs(test::fitted(fit, "stiffness").value - 300.0) < 4.0 * test::fitted(fit, "stiffness").std);
   const double first = 10e-3 * std::sin(0.1) + 4e-3 * std::sin(0.3);
-  CHECK(found_in(fit, "offset").value == Approx(-first).epsilon(0.01));
+  CHECK(test::fitted(fit, "offset").value == Approx(-first).epsilon(0.01));
   // Friction feels ways only, a stop the position itself.
   const identify::Rig free = test::loop_alone(test::rig_with(test::law_case_of("contact_compliance")));
   CHECK(!identify::feels_place(free, {}));
@@ -211,11 +204,11 @@ TEST_CASE("loop: mass and spring of one sine are not told apart, and the search 
   std::vector<std::string> faults;
   const identify::Fit fit =
       fit_of_one_sine(rig, loop_of_one_sine(false, 2.0, 100.0), identify::unstated_parameters(rig, faults));
-  CHECK(found_in(fit, "kinetic").value == Approx(2.0).epsilon(0.01));
+  CHECK(test::fitted(fit, "kinetic").value == Approx(2.0).epsilon(0.01));
   for (const char* name : {"mass", "stiffness"}) {
     CAPTURE(name);
-    CHECK(std::isnan(found_in(fit, name).std));
-    CHECK(std::isnan(found_in(fit, name).interval95[0]));
+    CHECK(std::isnan(test::fitted(fit, name).std));
+    CHECK(std::isnan(test::fitted(fit, name).interval95[0]));
     CHECK(std::ranges::count(fit.not_identifiable.at(0).parameters, name) == 1);
   }
 }
@@ -227,8 +220,8 @@ TEST_CASE("loop: a spring that is nearly zero leaves the mass of one sine open",
   rig.known.excitation = {};
   const identify::Fit fit =
       fit_of_one_sine(rig, loop_of_one_sine(true, 2.0, 1e-3), test::sought_in(rig, {"mass", "stiffness"}, 1.0));
-  CHECK(std::isnan(found_in(fit, "mass").std));
-  CHECK(std::isnan(found_in(fit, "stiffness").std));
+  CHECK(std::isnan(test::fitted(fit, "mass").std));
+  CHECK(std::isnan(test::fitted(fit, "stiffness").std));
 }
 
 TEST_CASE("loop: bristles follow the motion between the samples", "[identify][fit]") {

@@ -390,4 +390,10 @@ const identify::FittedParameter* find_fitted(const identify::Fit& fit, const std
   return found == fit.parameters.end() ? nullptr : &*found;
 }
 
+const identify::FittedParameter& fitted(const identify::Fit& fit, const std::string& name) {
+  const identify::FittedParameter* found = find_fitted(fit, name);
+  if (found == nullptr) throw std::invalid_argument("there is no parameter " + name);
+  return *found;
+}
+
 }  // namespace dualdamp::test

@@ -106,5 +106,7 @@ struct SmallRecord {
 
 /// The parameter of a fit with this name; nullptr: there is none.
 [[nodiscard]] const identify::FittedParameter* find_fitted(const identify::Fit& fit, const std::string& name);
+/// The same, where there must be one. Errors: `std::invalid_argument`.
+[[nodiscard]] const identify::FittedParameter& fitted(const identify::Fit& fit, const std::string& name);
 
 }  // namespace dualdamp::test

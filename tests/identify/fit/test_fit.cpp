@@ -17,12 +17,6 @@ using identify::Record;
 
 namespace {
 
-const FittedParameter& named(const Fit& fit, const std::string& name) {
-  for (const FittedParameter& fitted : fit.parameters)
-    if (fitted.parameter.name == name) return fitted;
-  throw std::invalid_argument("there is no parameter " + name);
-}
-
 /// A fit of several records at once.
 Fit fit_records(identify::Rig rig, const std::vector<std::string>& names, const std::vector<Record>& records,
                 double factor = 1.2) {
@@ -55,7 +49,7 @@ TEST_CASE("fit: a history without noise gives the law's numbers back", "[identif
     REQUIRE(fit.outcome.ok());
     const identify::Rig rig = test::rig_with(test::law_case_of(law));
     for (const std::string& name : test::law_case_of(law).sought)
-      CHECK(named(fit, name).value == Approx(test::truth_of(rig, name)).epsilon(1e-4));
+      CHECK(test::fitted(fit, name).value == Approx(test::truth_of(rig, name)).epsilon(1e-4));
   }
 }
 
@@ -98,8 +92,8 @@ TEST_CASE("fit: a free vibration to its rest gives friction and damping, whichev
         parameters.push_back(identify::parameter_of_record(*experiments[0], 0, each, true));
       const Fit fit = identify::fit_rig(sought, std::move(parameters), experiments, {.profile = false});
       REQUIRE(fit.outcome.ok());
-      CHECK(named(fit, "damping").value == Approx(damping).epsilon(1e-5));
-      CHECK(named(fit, "kinetic").value == Approx(kinetic).epsilon(1e-5));
+      CHECK(test::fitted(fit, "damping").value == Approx(damping).epsilon(1e-5));
+      CHECK(test::fitted(fit, "kinetic").value == Approx(kinetic).epsilon(1e-5));
     }
 }
 
@@ -136,7 +130,7 @@ TEST_CASE("fit: intervals of few readings of two signals cover the truth", "[ide
     for (std::uint64_t seed = 1; seed <= 60; ++seed) {
       const Fit fit = test::fit_of(plan, seed);
       REQUIRE(fit.outcome.ok());
-      const FittedParameter& kinetic = named(fit, "kinetic");
+      const FittedParameter& kinetic = test::fitted(fit, "kinetic");
       const double truth = test::truth_of(rig, "kinetic");
       covered += kinetic.interval95[0] <= truth && truth <= kinetic.interval95[1] ? 1 : 0;
     }
@@ -155,8 +149,8 @@ TEST_CASE("fit: each signal has degrees of freedom of its own", "[identify][fit]
   // Four extremes determine four parameters, nearly: nothing shows their noise.
   const Fit fewer = test::fit_of(test::SmallRecord{.readings = 4}, 1);
   REQUIRE(fewer.outcome.ok());
-  CHECK(std::isnan(named(fewer, "kinetic").std));
-  CHECK_THAT(named(fewer, "kinetic").reason, Catch::Contains("its noise is not stated"));
+  CHECK(std::isnan(test::fitted(fewer, "kinetic").std));
+  CHECK_THAT(test::fitted(fewer, "kinetic").reason, Catch::Contains("its noise is not stated"));
 }
 
 TEST_CASE("fit: the interval of a static level ends at the kinetic one", "[identify][fit]") {
@@ -165,8 +159,8 @@ TEST_CASE("fit: the interval of a static level ends at the kinetic one", "[ident
   rig.known.excitation.frequency *= 0.5;
   const Fit fit = fit_records(rig, {"kinetic", "static"}, {test::history_of(rig, {.noise_x = 1e-4}, 5)});
   REQUIRE(fit.outcome.ok());
-  const FittedParameter& kinetic = named(fit, "kinetic");
-  const FittedParameter& level = named(fit, "static");
+  const FittedParameter& kinetic = test::fitted(fit, "kinetic");
+  const FittedParameter& level = test::fitted(fit, "static");
   CAPTURE(kinetic.value, kinetic.interval95[0], level.value, level.interval95[1], level.reason);
   CHECK(level.interval95[0] > 0.9 * kinetic.interval95[0]);
   CHECK(level.interval95[0] <= level.value);
@@ -184,7 +178,7 @@ TEST_CASE("fit: a static level of a mass that never sticks is alone in what the 
   REQUIRE(fit.not_identifiable.size() == 1);
   CHECK(fit.not_identifiable.front().parameters == std::vector<std::string>{"static"});
   CHECK(fit.not_identifiable.front().text == "the data do not show static at all");
-  CHECK(named(fit, "kinetic").std < 0.01);
+  CHECK(test::fitted(fit, "kinetic").std < 0.01);
 }
 
 TEST_CASE("fit: residuals of the right law are noise", "[identify][fit]") {
@@ -214,7 +208,7 @@ TEST_CASE("fit: what the data do not tell apart is named", "[identify][fit]") {
   REQUIRE(!fit.not_identifiable.empty());
   CHECK_THAT(fit.not_identifiable.front().text, Catch::Contains("trade off one to one"));
   CHECK(fit.not_identifiable.front().parameters.size() == 2);
-  CHECK(named(fit, "damping").value + named(fit, "coefficient").value == Approx(4.0).epsilon(0.01));
+  CHECK(test::fitted(fit, "damping").value + test::fitted(fit, "coefficient").value == Approx(4.0).epsilon(0.01));
 }
 
 TEST_CASE("fit: a small part of one number that makes up for all of another is named with it", "[identify][fit]") {
@@ -256,7 +250,7 @@ TEST_CASE("fit: a cubic spring that the scenario leaves at zero is found with th
     const Fit fit = identify::fit_rig(sought, std::move(parameters), experiments, {.profile = false});
     REQUIRE(fit.outcome.ok());
     CHECK(fit.warnings.empty());
-    CHECK(named(fit, "cubic_stiffness").value == Approx(2e6).epsilon(1e-3));
+    CHECK(test::fitted(fit, "cubic_stiffness").value == Approx(2e6).epsilon(1e-3));
   }
 }
 
@@ -274,7 +268,7 @@ TEST_CASE("fit: of an acceleration alone intervals hold the truth, also of a rel
                                                                 {"kinetic", test::truth_of(rig.truth, "kinetic")},
                                                                 {"velocity", 0.0}};
     for (const auto& [name, truth] : truths) {
-      const FittedParameter& fitted = named(fit, name);
+      const FittedParameter& fitted = test::fitted(fit, name);
       CAPTURE(seed, name, truth, fitted.value, fitted.std);
       if (std::isnan(fitted.interval95[0])) continue;
       CHECK(std::abs(fitted.value - truth) < 5.0 * fitted.std);
@@ -296,7 +290,7 @@ TEST_CASE("fit: intervals follow a bent valley of the sum of squares", "[identif
     const test::KnownFit known = laboratory.fit(seed);
     REQUIRE(known.fit.outcome.ok());
     CHECK(!known.leaves_more_than_the_truth);
-    const FittedParameter& stiffness = named(known.fit, "friction.stiffness");
+    const FittedParameter& stiffness = test::fitted(known.fit, "friction.stiffness");
     CAPTURE(stiffness.value, stiffness.std, stiffness.reason);
     CHECK(stiffness.interval95[0] < 2000.0);
     CHECK(stiffness.interval95[1] > 2000.0);
@@ -316,12 +310,15 @@ TEST_CASE("fit: a decay and a frequency response together are better than each a
   REQUIRE(of_response.outcome.ok());
   REQUIRE(joint.outcome.ok());
   for (const std::string& name : names) {
-    CAPTURE(name, named(of_decay, name).std, named(of_response, name).std, named(joint, name).std);
-    CHECK(named(joint, name).std < 1.05 * std::min(named(of_decay, name).std, named(of_response, name).std));
-    CHECK(std::abs(named(joint, name).value - test::truth_of(rig, name)) < 4.0 * named(joint, name).std);
+    CAPTURE(name, test::fitted(of_decay, name).std, test::fitted(of_response, name).std,
+            test::fitted(joint, name).std);
+    CHECK(test::fitted(joint, name).std <
+          1.05 * std::min(test::fitted(of_decay, name).std, test::fitted(of_response, name).std));
+    CHECK(std::abs(test::fitted(joint, name).value - test::truth_of(rig, name)) <
+          4.0 * test::fitted(joint, name).std);
   }
-  CHECK(named(joint, "damping").std <
-        0.95 * std::min(named(of_decay, "damping").std, named(of_response, "damping").std));
+  CHECK(test::fitted(joint, "damping").std <
+        0.95 * std::min(test::fitted(of_decay, "damping").std, test::fitted(of_response, "damping").std));
 }
 
 TEST_CASE("fit: a friction loop shows the law alone", "[identify][fit]") {
@@ -355,8 +352,8 @@ TEST_CASE("fit: a friction loop shows the law alone", "[identify][fit]") {
   REQUIRE(fault.empty());
   const Fit fit = identify::fit_rig(rig, test::sought_in(rig, {"kinetic", "sigma0"}, 1.5), experiments);
   REQUIRE(fit.outcome.ok());
-  CHECK(named(fit, "kinetic").value == Approx(limit).epsilon(2e-3));
-  CHECK(named(fit, "sigma0").value == Approx(stiffness).epsilon(5e-3));
+  CHECK(test::fitted(fit, "kinetic").value == Approx(limit).epsilon(2e-3));
+  CHECK(test::fitted(fit, "sigma0").value == Approx(stiffness).epsilon(5e-3));
 }
 
 TEST_CASE("fit: Huber's weights bound what spikes do", "[identify][fit]") {

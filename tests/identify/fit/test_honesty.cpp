@@ -17,12 +17,6 @@ using identify::FittedParameter;
 
 namespace {
 
-const FittedParameter& estimate_in(const Fit& fit, const std::string& name) {
-  for (const FittedParameter& fitted : fit.parameters)
-    if (fitted.parameter.name == name) return fitted;
-  throw std::invalid_argument("there is no parameter " + name);
-}
-
 struct RestingLoop {
   bool x = true;
   bool v = true;
@@ -90,10 +84,10 @@ TEST_CASE("loop: a mass at rest says nothing about rigid friction", "[identify][
       CAPTURE(plan.x, plan.v, plan.noise_v, robust);
       for (const auto& [name, truth] :
            {std::pair{"mass", 1.0}, {"stiffness", 300.0}, {"damping", 2.0}, {"kinetic", 2.0}}) {
-        CAPTURE(name, estimate_in(fit, name).value, estimate_in(fit, name).std);
-        CHECK(std::abs(estimate_in(fit, name).value - truth) < 4.0 * estimate_in(fit, name).std);
+        CAPTURE(name, test::fitted(fit, name).value, test::fitted(fit, name).std);
+        CHECK(std::abs(test::fitted(fit, name).value - truth) < 4.0 * test::fitted(fit, name).std);
       }
-      CHECK(estimate_in(fit, "mass").std < 4e-3);
+      CHECK(test::fitted(fit, "mass").std < 4e-3);
       CHECK(fit.signals.front().freedom < 0.8 * static_cast<double>(fit.signals.front().rows.end));
     }
 }
@@ -147,7 +141,7 @@ TEST_CASE("fit: intervals beside a parameter at its bound hold what trades with 
                                          {"kinetic_backward", 1.0},
                                          {"static_backward", 1.2},
                                          {"position", 2e-3}}) {
-    const FittedParameter& fitted = estimate_in(fit, name);
+    const FittedParameter& fitted = test::fitted(fit, name);
     CAPTURE(name, fitted.value, fitted.interval95[0], fitted.interval95[1], fitted.reason);
     CHECK((std::isnan(fitted.interval95[0]) || fitted.interval95[0] <= true_value));
     CHECK((std::isnan(fitted.interval95[1]) || fitted.interval95[1] >= true_value));

@@ -66,12 +66,11 @@ TEST_CASE("fit: pairs of a contact that yields little end at the best fit", "[id
   const identify::Experiments experiments = states_of(truth, from, to, with_phases, 1);
   const identify::Fit fit = fit_of(truth, experiments);
   REQUIRE(fit.outcome.ok());
-  CAPTURE(from, with_phases, test::find_fitted(fit, "kinetic")->value,
-          test::find_fitted(fit, "contact_stiffness")->value);
+  CAPTURE(from, with_phases, test::fitted(fit, "kinetic").value, test::fitted(fit, "contact_stiffness").value);
   CHECK(fit.signals.front().rms < 1.6e-4);
   if (with_phases) CHECK(fit.signals.back().rms < 3.2e-3);
-  CHECK(test::find_fitted(fit, "kinetic")->value == Approx(2.0).epsilon(0.05));
-  CHECK(test::find_fitted(fit, "damping")->value == Approx(1.2).epsilon(0.01));
+  CHECK(test::fitted(fit, "kinetic").value == Approx(2.0).epsilon(0.05));
+  CHECK(test::fitted(fit, "damping").value == Approx(1.2).epsilon(0.01));
 }
 
 TEST_CASE("fit: the phase of a mass goes on smoothly where it comes to rest", "[identify][fit][pairs]") {

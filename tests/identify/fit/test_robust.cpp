@@ -49,7 +49,7 @@ double coverage(const FewExtremes& plan) {
   for (std::uint64_t seed = 1; seed <= records; ++seed) {
     const Fit fit = fit_of_few(plan, seed);
     for (const char* name : {"kinetic", "damping"}) {
-      const identify::FittedParameter& fitted = *test::find_fitted(fit, name);
+      const identify::FittedParameter& fitted = test::fitted(fit, name);
       const double truth = test::truth_of(rig, name);
       const identify::Interval& interval = plan.profile ? fitted.profile95 : fitted.interval95;
       held += interval[0] <= truth && truth <= interval[1] ? 0.5 : 0.0;
@@ -58,7 +58,7 @@ double coverage(const FewExtremes& plan) {
   return held / static_cast<double>(records);
 }
 
-double std_of(const Fit& fit) { return test::find_fitted(fit, "kinetic")->std; }
+double std_of(const Fit& fit) { return test::fitted(fit, "kinetic").std; }
 
 /// Fits of normal readings by the first two and by all four of four orthogonal columns.
 std::vector<Fit> nested_fits(Eigen::Index count, double effect, bool has_outlier, std::uint64_t seed) {

@@ -109,14 +109,14 @@ TEST_CASE("search: sizes of a loop come from its motion", "[identify][fit]") {
   std::vector<identify::FitParameter> parameters = identify::unstated_parameters(fretting, faults);
   std::erase_if(parameters, [](const auto& parameter) { return parameter.owner != identify::Owner::law; });
   const identify::Fit contact = fit_of_record(fretting, record, parameters, true, false);
-  CHECK(test::find_fitted(contact, "kinetic")->value == Approx(100.0).epsilon(1e-3));
-  CHECK(test::find_fitted(contact, "contact_stiffness")->value == Approx(5e7).epsilon(1e-3));
+  CHECK(test::fitted(contact, "kinetic").value == Approx(100.0).epsilon(1e-3));
+  CHECK(test::fitted(contact, "contact_stiffness").value == Approx(5e7).epsilon(1e-3));
 
   const identify::Rig rig = rig_of_loop();
   const identify::Fit spring = fit_of_record(rig, stiff_loop(), identify::unstated_parameters(rig, faults), true);
-  CHECK(test::find_fitted(spring, "mass")->value == Approx(2.0).epsilon(0.01));
-  CHECK(test::find_fitted(spring, "stiffness")->value == Approx(5e4).epsilon(1e-3));
-  CHECK(test::find_fitted(spring, "kinetic")->value == Approx(5.0).epsilon(0.01));
+  CHECK(test::fitted(spring, "mass").value == Approx(2.0).epsilon(0.01));
+  CHECK(test::fitted(spring, "stiffness").value == Approx(5e4).epsilon(1e-3));
+  CHECK(test::fitted(spring, "kinetic").value == Approx(5.0).epsilon(0.01));
 }
 
 TEST_CASE("search: bounds take the place of the range that the search has without them", "[identify][fit]") {
@@ -128,16 +128,16 @@ TEST_CASE("search: bounds take the place of the range that the search has withou
   std::vector<identify::FitParameter> parameters = identify::unstated_parameters(rig, faults);
   parameters.push_back(identify::named(identify::parameters_of(rig), "stiffness", fault).at(0));
   const identify::Fit without = fit_of_record(rig, stiff_loop(), parameters, true);
-  CHECK(test::find_fitted(without, "stiffness")->value == Approx(1e4));
+  CHECK(test::fitted(without, "stiffness").value == Approx(1e4));
   CHECK(std::ranges::any_of(without.warnings, [](const std::string& warning) {
     return warning.starts_with("stiffness reached the limit of the search");
   }));
   parameters.back().range = {.low = 0.1, .high = 1e8};
-  CHECK(test::find_fitted(fit_of_record(rig, stiff_loop(), parameters, true), "stiffness")->value ==
+  CHECK(test::fitted(fit_of_record(rig, stiff_loop(), parameters, true), "stiffness").value ==
         Approx(5e4).epsilon(1e-3));
   // Bounds that the size lies far out of.
   parameters.back().range = {.low = 2e4, .high = core::infinity};
-  CHECK(test::find_fitted(fit_of_record(rig, stiff_loop(), parameters, true), "stiffness")->value ==
+  CHECK(test::fitted(fit_of_record(rig, stiff_loop(), parameters, true), "stiffness").value ==
         Approx(5e4).epsilon(1e-3));
 }
 
@@ -147,13 +147,11 @@ TEST_CASE("fit: a parameter at a bound that the readings feel widens the interva
   const identify::Rig rig = rig_of_loop();
   std::vector<std::string> faults;
   std::vector<identify::FitParameter> parameters = identify::unstated_parameters(rig, faults);
-  const auto mass_of = [](const identify::Fit& fit) {
-    return *std::ranges::find(fit.parameters, "mass", [](const auto& fitted) { return fitted.parameter.name; });
-  };
+  const auto mass_of = [](const identify::Fit& fit) { return test::fitted(fit, "mass"); };
   const double free = mass_of(fit_of_record(rig, stiff_loop(), parameters, true)).std;
   std::ranges::find(parameters, "stiffness", &identify::FitParameter::name)->range.high = 5e4 - 1.0;
   const identify::Fit bound = fit_of_record(rig, stiff_loop(), parameters, true);
-  CHECK(test::find_fitted(bound, "stiffness")->value == Approx(5e4 - 1.0));
+  CHECK(test::fitted(bound, "stiffness").value == Approx(5e4 - 1.0));
   CHECK(mass_of(bound).std > 0.9 * free);
 }
 

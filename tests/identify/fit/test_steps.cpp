@@ -42,8 +42,8 @@ TEST_CASE("steps: a play without a stated value is found in a loop, with an inte
   CHECK(fit.noise_units == Approx(1.0).margin(0.1));
   CHECK(fit.parameters.size() == 2);
   CHECK(fit.not_identifiable.empty());
-  CHECK(test::find_fitted(fit, "kinetic")->value == Approx(3.0).epsilon(2e-3));
-  const identify::FittedParameter& found = *test::find_fitted(fit, "play");
+  CHECK(test::fitted(fit, "kinetic").value == Approx(3.0).epsilon(2e-3));
+  const identify::FittedParameter& found = test::fitted(fit, "play");
   CHECK(std::isnan(found.std));
   CHECK(found.interval95[0] < play);
   CHECK(found.interval95[1] > play);
@@ -56,6 +56,6 @@ TEST_CASE("steps: a loop that was cut out of a test has the same play, and a loa
   const identify::Fit fit = fit_to_loop(play, loop_part(play, 200, 600));
   REQUIRE(fit.outcome.ok());
   CHECK(fit.noise_units == Approx(1.0).margin(0.1));
-  CHECK(test::find_fitted(fit, "play")->value == Approx(play).epsilon(0.02));
+  CHECK(test::fitted(fit, "play").value == Approx(play).epsilon(0.02));
   CHECK(fit.warnings.size() == 1);
 }

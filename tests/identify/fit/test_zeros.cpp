@@ -15,12 +15,6 @@ using identify::Record;
 
 namespace {
 
-const FittedParameter& parameter_of(const Fit& fit, const std::string& name) {
-  for (const FittedParameter& fitted : fit.parameters)
-    if (fitted.parameter.name == name) return fitted;
-  throw std::invalid_argument("there is no parameter " + name);
-}
-
 /// A decay of ten swings, sampled 60 times in each: `signals` of x, v and a, with noise of 0.5 % of the first swing
 /// and with these zeros of v and a, in parts of the largest v and a.
 Record decay_with_zeros(const identify::Rig& rig, const std::string& signals, double of_v, double of_a) {
@@ -84,10 +78,10 @@ TEST_CASE("fit: a zero of a or v that would carry the mass away is sought", "[id
       const Fit fit = fit_of_zeros(truth, decay_with_zeros(truth, signals, zero, zero));
       REQUIRE(fit.outcome.ok());
       CHECK(fit.noise_units < 1.1);
-      CHECK(parameter_of(fit, "damping").value == Approx(damping).margin(4.0 * parameter_of(fit, "damping").std));
-      CHECK(parameter_of(fit, "kinetic").value ==
-            Approx(test::truth_of(truth, "kinetic")).margin(4.0 * parameter_of(fit, "kinetic").std));
-      const FittedParameter& found = parameter_of(fit, signals == "v" ? "offset_v" : "offset_a");
+      CHECK(test::fitted(fit, "damping").value == Approx(damping).margin(4.0 * test::fitted(fit, "damping").std));
+      CHECK(test::fitted(fit, "kinetic").value ==
+            Approx(test::truth_of(truth, "kinetic")).margin(4.0 * test::fitted(fit, "kinetic").std));
+      const FittedParameter& found = test::fitted(fit, signals == "v" ? "offset_v" : "offset_a");
       const double omega = std::sqrt(truth.known.oscillator.stiffness / truth.known.oscillator.mass);
       const double largest = 0.026 * omega * (signals == "v" ? 1.0 : omega);
       CHECK(found.value == Approx(zero * largest).margin(5.0 * found.std));
@@ -118,6 +112,6 @@ TEST_CASE("fit: a small zero of a or v is told, and sought if it is free", "[ide
       fit_of_zeros(truth, decay_with_zeros(truth, "a", 0.0, 0.003), identify::RecordParameter::offset_a);
   CHECK(found.warnings.empty());
   const double stiffness_by_mass = truth.known.oscillator.stiffness / truth.known.oscillator.mass;
-  CHECK(parameter_of(found, "offset_a").value ==
-        Approx(0.003 * 0.026 * stiffness_by_mass).margin(4.0 * parameter_of(found, "offset_a").std));
+  CHECK(test::fitted(found, "offset_a").value ==
+        Approx(0.003 * 0.026 * stiffness_by_mass).margin(4.0 * test::fitted(found, "offset_a").std));
 }

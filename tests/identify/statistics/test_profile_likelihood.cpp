@@ -10,6 +10,7 @@
 #include "identify/statistics/distributions.hpp"
 #include "identify/statistics/statistics.hpp"
 #include "sim/analytic/den_hartog.hpp"
+#include "tests/identify/estimates.hpp"
 #include "tests/identify/methods/histories/bearing.hpp"
 #include "tests/identify/records.hpp"
 
@@ -29,12 +30,6 @@ std::vector<std::pair<double, double>> noisy_line(double sigma) {
   return list;
 }
 
-const FurtherParameter& named(const Estimate& estimate, const std::string& name) {
-  const auto found = std::ranges::find(estimate.others, name, &FurtherParameter::name);
-  REQUIRE(found != estimate.others.end());
-  return *found;
-}
-
 }  // namespace
 
 TEST_CASE("The likelihood interval of zeta is Student's interval of the slope") {
@@ -52,7 +47,7 @@ TEST_CASE("The likelihood interval of zeta is Student's interval of the slope") 
     for (const auto& [Y, x] : list) mean += Y / 8.0;
     for (const auto& [Y, x] : list) S_YY += (Y - mean) * (Y - mean);
     const double reach = quantile95(6.0) * e.line->residual_deviation / std::sqrt(S_YY);
-    const auto& [low, high] = *named(e, "profile_zeta").interval95;
+    const auto& [low, high] = *further(e, "profile_zeta").interval95;
     CHECK(low == Approx(0.5 / (e.line->slope + reach)).epsilon(1e-6));
     CHECK(high == Approx(0.5 / (e.line->slope - reach)).epsilon(1e-6));
     const bool told = std::ranges::any_of(
@@ -77,7 +72,7 @@ TEST_CASE("At the ends of the likelihood interval of F0 the best fit is worse by
   };
   const double least = sum(e.value.zeta, e.value.F0);
   const double t = quantile95(6.0);
-  for (const double end : *named(e, "profile_F0").interval95) {
+  for (const double end : *further(e, "profile_F0").interval95) {
     double best = std::numeric_limits<double>::infinity();  // by brute force, in steps of 1e-5 of zeta
     for (int i = -60000; i <= 60000; ++i) best = std::min(best, sum(e.value.zeta * (1.0 + 1e-5 * i), end));
     CHECK((best - least) / (least / 6.0) == Approx(t * t).epsilon(1e-5));
@@ -103,7 +98,7 @@ TEST_CASE("Deming's profile follows its own weights") {
   options.sigma_x = 2e-5;
   options.sigma_Y = 5e-6;
   const Estimate e = resonance_deming(pairs(noisy_line(0.02e-3)), at_resonance, options);
-  const auto& [low, high] = *named(e, "profile_zeta").interval95;
+  const auto& [low, high] = *further(e, "profile_zeta").interval95;
   const double half_width = 0.5 * (e.interval95->zeta[1] - e.interval95->zeta[0]);
   CHECK(low == Approx(e.value.zeta - half_width).margin(0.05 * e.std->zeta));
   CHECK(high == Approx(e.value.zeta + half_width).margin(0.05 * e.std->zeta));
@@ -121,6 +116,6 @@ TEST_CASE("A likelihood that levels off has no end") {
   add_profiles(e, level, 2.0, at_resonance);
   REQUIRE(e.warnings.size() == 1);
   CHECK(e.warnings[0].find("no upper end") != std::string::npos);
-  CHECK_FALSE(named(e, "profile_zeta").interval95.has_value());
-  CHECK(named(e, "profile_F0").interval95.has_value());
+  CHECK_FALSE(further(e, "profile_zeta").interval95.has_value());
+  CHECK(further(e, "profile_F0").interval95.has_value());
 }
