@@ -45,16 +45,12 @@ std::unique_ptr<Neighbours> Experiment::neighbours(const sim::Model& model, cons
 
 FitParameter parameter_of_record(const Experiment& experiment, std::size_t index, RecordParameter which,
                                  bool is_alone) {
-  static constexpr std::array<const char*, record_parameter_count> units = {"m",   "m/s",   "m", "s",
-                                                                            "m/s", "m/s^2", "m"};
-  const auto at = static_cast<std::size_t>(which);
-  return {.name = std::string(record_parameter_names[at]) +
-                  (is_alone ? std::string() : "[" + std::to_string(index) + "]"),
-          .unit = units[at],
+  return {.name = name_of(which) + (is_alone ? std::string() : "[" + std::to_string(index) + "]"),
+          .unit = unit_of(which),
           .owner = Owner::record,
           .index = index,
           .record_parameter = which,
-          .stated = experiment.record_start[at]};
+          .stated = experiment.record_start[which]};
 }
 
 std::vector<RecordParameter> sought_of_record(const Experiment& experiment, bool feels_place) {

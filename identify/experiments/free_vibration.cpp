@@ -26,15 +26,15 @@ class FreeVibration final : public Experiment {
     // The mean of the last three extremes, with weights 1 2 1, is roughly the offset.
     const std::size_t n = record.extremes.size();
     const double offset = 0.25 * (record.extremes[n - 3] + 2.0 * record.extremes[n - 2] + record.extremes[n - 1]);
-    record_start[static_cast<std::size_t>(RecordParameter::position)] = record.extremes.front() - offset;
-    record_start[static_cast<std::size_t>(RecordParameter::offset)] = offset;
+    record_start[RecordParameter::position] = record.extremes.front() - offset;
+    record_start[RecordParameter::offset] = offset;
     record_free = {RecordParameter::position, RecordParameter::offset};
     record_others = {RecordParameter::travel};
     signals.push_back(std::move(x));
     if (!timed) return;
     Signal t{.name = "t", .unit = "s", .measured = record.times, .at_name = "number"};
     for (std::size_t i = 0; i < n; ++i) t.at.push_back(static_cast<double>(i));
-    record_start[static_cast<std::size_t>(RecordParameter::release)] = record.times.front();
+    record_start[RecordParameter::release] = record.times.front();
     record_free.push_back(RecordParameter::release);
     signals.push_back(std::move(t));
   }
@@ -43,23 +43,22 @@ class FreeVibration final : public Experiment {
                              Eigen::VectorXd& outputs) const override {
     sim::Model free = model;
     free.excitation = {};
-    free.initial = {of_record[static_cast<std::size_t>(RecordParameter::position)], 0.0};
-    if (!sim::load_contacts(free, of_record[static_cast<std::size_t>(RecordParameter::travel)])) return false;
+    free.initial = {of_record[RecordParameter::position], 0.0};
+    if (!sim::load_contacts(free, of_record[RecordParameter::travel])) return false;
     const std::size_t wanted = signals.front().measured.size();
     const sim::FreeDecay decay = sim::free_decay(free, static_cast<int>(wanted));
     *work += decay.work;
     if (!decay.outcome.ok()) return false;
     outputs.resize(size());
     const double swing = std::numbers::pi / sim::natural_frequency(model.oscillator);
-    const double offset = of_record[static_cast<std::size_t>(RecordParameter::offset)];
+    const double offset = of_record[RecordParameter::offset];
     sim::Extreme last{0.0, free.initial.position};
     for (std::size_t i = 0; i < wanted; ++i) {
       // After the last stop, the position is repeated at each half swing, so that the prediction is continuous.
       last = i < decay.extremes.size() ? decay.extremes[i] : sim::Extreme{last.t + swing, last.x};
       outputs[static_cast<Eigen::Index>(i)] = last.x + offset;
       if (signals.size() > 1)
-        outputs[static_cast<Eigen::Index>(wanted + i)] =
-            last.t + of_record[static_cast<std::size_t>(RecordParameter::release)];
+        outputs[static_cast<Eigen::Index>(wanted + i)] = last.t + of_record[RecordParameter::release];
     }
     return true;
   }

@@ -6,10 +6,10 @@
 
 #include "core/numbers.hpp"
 #include "identify/experiments/experiment.hpp"
-#include "identify/experiments/starts.hpp"
 #include "identify/records/held_path.hpp"
 #include "identify/records/rest_samples.hpp"
 #include "identify/records/signals.hpp"
+#include "identify/records/swings.hpp"
 #include "identify/statistics/noise_level.hpp"
 #include "sim/law_host/law_host.hpp"
 #include "sim/law_host/loaded_contacts.hpp"
@@ -76,13 +76,13 @@ class FrictionLoop final : public Experiment {
   [[nodiscard]] bool predict(const sim::Model& model, const RecordValues& of_record,
                              Eigen::VectorXd& outputs) const override {
     const sim::Oscillator& o = model.oscillator;
-    const double offset = of_record[static_cast<std::size_t>(RecordParameter::offset)];
+    const double offset = of_record[RecordParameter::offset];
     std::vector<double> force(x_.size());
     const bool holds = std::ranges::any_of(model.friction, &friction::Law::holds_mass);
     constexpr long samples_of_unit = 8;
     *work += static_cast<long>(x_.size()) / samples_of_unit;
     for (const friction::Law& law : model.friction)
-      if (!add(law, offset, of_record[static_cast<std::size_t>(RecordParameter::travel)], force)) return false;
+      if (!add(law, offset, of_record[RecordParameter::travel], force)) return false;
     bridge(force);
     for (std::size_t i = 0; i < force.size(); ++i) {
       if (o.mass > 0.0) force[i] += o.mass * a_[i];
@@ -103,7 +103,7 @@ class FrictionLoop final : public Experiment {
     if (!std::ranges::any_of(model.friction, &friction::Law::holds_mass) ||
         std::ranges::any_of(model.friction, depends_on_past))
       return {};
-    const double offset = of_record[static_cast<std::size_t>(RecordParameter::offset)];
+    const double offset = of_record[RecordParameter::offset];
     constexpr double rare = 4.0;
     double most = 0.0;
     double bound = 0.0;

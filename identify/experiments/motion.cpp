@@ -9,6 +9,7 @@
 #include "identify/experiments/starts.hpp"
 #include "identify/experiments/tie.hpp"
 #include "identify/records/signals.hpp"
+#include "identify/records/swings.hpp"
 #include "identify/statistics/decompositions.hpp"
 #include "identify/statistics/median.hpp"
 #include "identify/statistics/noise_level.hpp"
@@ -43,12 +44,6 @@ std::vector<double> integral_of(const std::vector<double>& of_rate, double rate)
   trend.col(1) = Eigen::VectorXd::LinSpaced(sum.size(), -1.0, 1.0);
   Eigen::Map<Eigen::VectorXd>(integral.data(), sum.size()) = sum - trend * pivoted_least_squares(trend, sum);
   return integral;
-}
-
-/// Swings of a signal about its mean.
-double swings_of(const std::vector<double>& signal) {
-  constexpr double of_crossing = 1.0 / core::two_pi;
-  return of_crossing * crossing_frequency(signal, 1.0);
 }
 
 /// Position and velocity at the first sample, if only the acceleration was measured. x = -a/w^2 holds without
@@ -160,9 +155,8 @@ class MeasuredMotion final : public Experiment {
   [[nodiscard]] bool predict(const sim::Model& model, const RecordValues& of_record,
                              Eigen::VectorXd& outputs) const override {
     sim::Model there = model;
-    there.initial = {of_record[static_cast<std::size_t>(RecordParameter::position)],
-                     of_record[static_cast<std::size_t>(RecordParameter::velocity)]};
-    if (!sim::load_contacts(there, of_record[static_cast<std::size_t>(RecordParameter::travel)])) return false;
+    there.initial = {of_record[RecordParameter::position], of_record[RecordParameter::velocity]};
+    if (!sim::load_contacts(there, of_record[RecordParameter::travel])) return false;
     const double end = static_cast<double>(samples_ - 1) / rate_;
     there.excitation = drive ? *drive : drive_from(model.excitation, start_, end);
     if (tie_) {
@@ -244,8 +238,8 @@ class MeasuredMotion final : public Experiment {
   }
 
   void begin(const History& history) {
-    double& position = record_start[static_cast<std::size_t>(RecordParameter::position)];
-    double& velocity = record_start[static_cast<std::size_t>(RecordParameter::velocity)];
+    double& position = record_start[RecordParameter::position];
+    double& velocity = record_start[RecordParameter::velocity];
     if (!history.x.empty()) std::tie(position, velocity) = begin_of(history.x, rate_);
     if (!history.v.empty()) velocity = begin_of(history.v, rate_).first;
     if (!history.x.empty()) return;
@@ -275,9 +269,9 @@ class MeasuredMotion final : public Experiment {
              Eigen::VectorXd& outputs) const {
     for (std::size_t s = 0; s < signals.size(); ++s)
       outputs[static_cast<Eigen::Index>(s * samples_ + i)] =
-          signals[s].name == "x"   ? sample.x + of_record[static_cast<std::size_t>(RecordParameter::offset)]
-          : signals[s].name == "v" ? sample.v + of_record[static_cast<std::size_t>(RecordParameter::offset_v)]
-                                   : sample.a + of_record[static_cast<std::size_t>(RecordParameter::offset_a)];
+          signals[s].name == "x"   ? sample.x + of_record[RecordParameter::offset]
+          : signals[s].name == "v" ? sample.v + of_record[RecordParameter::offset_v]
+                                   : sample.a + of_record[RecordParameter::offset_a];
   }
 
   double start_;

@@ -17,6 +17,25 @@ using friction::Parameter;
 using friction::ParameterKind;
 using friction::ParameterValues;
 
+struct RecordParameterEntry {
+  RecordParameter which;
+  std::string_view name;
+  std::string_view unit;  ///< SI
+};
+
+constexpr std::array<RecordParameterEntry, record_parameter_count> record_parameters = {
+    {{RecordParameter::position, "position", "m"},
+     {RecordParameter::velocity, "velocity", "m/s"},
+     {RecordParameter::offset, "offset", "m"},
+     {RecordParameter::release, "release", "s"},
+     {RecordParameter::offset_v, "offset_v", "m/s"},
+     {RecordParameter::offset_a, "offset_a", "m/s^2"},
+     {RecordParameter::travel, "travel", "m"}}};
+
+const RecordParameterEntry& entry_of(RecordParameter which) {
+  return *std::ranges::find(record_parameters, which, &RecordParameterEntry::which);
+}
+
 /// The number at `path` of the values. A missing number on the last level is created; nullptr if a record or an
 /// item on the way is missing.
 double* number_at(ParameterValues& values, std::string_view path) {
@@ -193,6 +212,15 @@ bool complete_shares(ParameterValues& values) {
 
 }  // namespace
 
+std::string name_of(RecordParameter which) { return std::string(entry_of(which).name); }
+
+std::string unit_of(RecordParameter which) { return std::string(entry_of(which).unit); }
+
+std::optional<RecordParameter> find_record_parameter(std::string_view name) {
+  const auto* const found = std::ranges::find(record_parameters, name, &RecordParameterEntry::name);
+  return found == record_parameters.end() ? std::nullopt : std::optional(found->which);
+}
+
 std::vector<FitParameter> parameters_of(const Rig& rig) {
   std::vector<FitParameter> all;
   for (const auto& [name, unit, owner, range] : system_numbers()) {
@@ -262,9 +290,7 @@ void arrange(const Rig& rig, std::vector<FitParameter>& parameters) {
     if (parameter.owner == Owner::record) continue;
     const auto same = std::ranges::count(all, parameter.name, &FitParameter::name);
     const std::string_view head = std::string_view(parameter.name).substr(0, parameter.name.find_first_of(".["));
-    const bool is_like_one_of_a_record =
-        parameter.owner == Owner::law &&
-        std::ranges::find(record_parameter_names, head) != record_parameter_names.end();
+    const bool is_like_one_of_a_record = parameter.owner == Owner::law && find_record_parameter(head);
     if (same > 1 || is_like_one_of_a_record) parameter.name = qualified(parameter, rig.laws.size());
     if (parameter.at_least.empty()) continue;
     for (std::size_t j = 0; j < parameters.size(); ++j)

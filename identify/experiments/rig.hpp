@@ -31,13 +31,23 @@ struct RigLaw {
   friction::ParameterValues values;  ///< those that are stated
 };
 
-/// The parameters of a single record, in this order.
+/// The parameters of a single record.
 enum class RecordParameter { position, velocity, offset, release, offset_v, offset_a, travel };
 inline constexpr std::size_t record_parameter_count = 7;
-inline constexpr std::array<std::string_view, record_parameter_count> record_parameter_names = {
-    "position", "velocity", "offset", "release", "offset_v", "offset_a", "travel"};
-/// m, m/s, m, s, m/s, m/s^2, m
-using RecordValues = std::array<double, record_parameter_count>;
+[[nodiscard]] std::string name_of(RecordParameter which);
+[[nodiscard]] std::string unit_of(RecordParameter which);  ///< SI
+/// The parameter with this name; nothing if no record has such a parameter.
+[[nodiscard]] std::optional<RecordParameter> find_record_parameter(std::string_view name);
+
+/// A value of each parameter of a single record [SI]; zero until it is set.
+class RecordValues {
+ public:
+  [[nodiscard]] double& operator[](RecordParameter which) { return values_[static_cast<std::size_t>(which)]; }
+  [[nodiscard]] double operator[](RecordParameter which) const { return values_[static_cast<std::size_t>(which)]; }
+
+ private:
+  std::array<double, record_parameter_count> values_{};
+};
 
 /// What a parameter belongs to.
 enum class Owner {

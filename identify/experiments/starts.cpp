@@ -6,6 +6,8 @@
 #include <map>
 #include <numbers>
 
+#include "identify/records/swings.hpp"
+
 namespace dualdamp::identify {
 
 namespace {
@@ -123,28 +125,6 @@ void add_energy(const Experiment& experiment, DataScale& scale) {
 }
 
 }  // namespace
-
-double largest_swing(const std::vector<double>& values) {
-  double mean = 0.0;
-  for (const double value : values) mean += value / static_cast<double>(values.size());
-  double result = 0.0;
-  for (const double value : values) result = std::max(result, std::abs(value - mean));
-  return result;
-}
-
-double crossing_frequency(const std::vector<double>& samples, double duration) {
-  double mean = 0.0;
-  for (const double value : samples) mean += value / static_cast<double>(samples.size());
-  const double margin = 0.1 * largest_swing(samples);
-  int crossings = 0;
-  int side = 0;
-  for (const double value : samples) {
-    const int now = value > mean + margin ? 1 : value < mean - margin ? -1 : side;
-    if (side != 0 && now != side) ++crossings;
-    side = now;
-  }
-  return std::numbers::pi * std::max(crossings, 1) / duration;
-}
 
 double crossing_frequency(const Signal& signal) {
   return crossing_frequency(signal.measured, signal.at.back() - signal.at.front());

@@ -33,11 +33,7 @@ struct DataScale {
   double damping = 0.0;
 };
 
-/// Largest distance of a value from the mean.
-[[nodiscard]] double largest_swing(const std::vector<double>& values);
-
-/// Angular frequency of samples over a duration [s], from the crossings of their mean [rad/s].
-[[nodiscard]] double crossing_frequency(const std::vector<double>& samples, double duration);
+/// Angular frequency of samples, from the crossings of their mean (`swings.hpp`) [rad/s].
 [[nodiscard]] double crossing_frequency(const Signal& signal);
 
 [[nodiscard]] DataScale scale_of(const Rig& rig, const Experiments& experiments);

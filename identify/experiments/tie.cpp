@@ -66,10 +66,10 @@ std::optional<sim::Model> Tie::tied(const sim::Model& model, const RecordValues&
   const sim::Oscillator& o = model.oscillator;
   const double spring = follows_x_ ? strength_ * o.stiffness : 0.0;
   const double damper = 2.0 * std::sqrt(strength_ * o.mass * o.stiffness);
-  const double offset = of_record[static_cast<std::size_t>(RecordParameter::offset)];
-  const double begin = begins_with_v_ ? of_record[static_cast<std::size_t>(RecordParameter::velocity)]
-                                      : -of_record[static_cast<std::size_t>(RecordParameter::offset_v)];
-  const double drift = begins_with_v_ ? of_record[static_cast<std::size_t>(RecordParameter::offset_a)] : 0.0;
+  const double offset = of_record[RecordParameter::offset];
+  const double begin =
+      begins_with_v_ ? of_record[RecordParameter::velocity] : -of_record[RecordParameter::offset_v];
+  const double drift = begins_with_v_ ? of_record[RecordParameter::offset_a] : 0.0;
   std::vector<double> force = drive_force(model, times_);
   for (std::size_t i = 0; i < times_.size(); ++i)
     force[i] += spring * (x_[i] - offset) + damper * (v_[i] + begin - drift * times_[i]);

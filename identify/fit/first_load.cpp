@@ -18,13 +18,11 @@ namespace {
 
 using core::infinity;
 
-constexpr auto travel_of_record = static_cast<std::size_t>(RecordParameter::travel);
-
 /// Whether the load of the contacts of a record is open.
 bool may_be_loaded(const FitTask& task, const Eigen::VectorXd& values, std::size_t index) {
   const Experiment& experiment = *task.experiments[index];
   if (experiment.kind == ExperimentKind::steady_states || experiment.knows_load) return false;
-  if (task.problem.known()[index][travel_of_record] != 0.0) return false;
+  if (task.problem.known()[index][RecordParameter::travel] != 0.0) return false;
   const bool is_sought = std::ranges::any_of(task.parameters, [index](const FitParameter& parameter) {
     return parameter.owner == Owner::record && parameter.index == index &&
            parameter.record_parameter == RecordParameter::travel;
@@ -70,7 +68,7 @@ class LoadSearch {
   [[nodiscard]] std::unique_ptr<FitTask> task_with(std::vector<FitParameter> parameters, std::vector<double> sizes,
                                                    double travel) const {
     std::vector<RecordValues> known = before_.problem.known();
-    known[index_][travel_of_record] = travel;
+    known[index_][RecordParameter::travel] = travel;
     auto task = std::make_unique<FitTask>(before_.rig, before_.experiments, std::move(parameters), std::move(sizes),
                                           std::move(known));
     task->problem.limit(most_work_);

@@ -150,7 +150,7 @@ struct Load {
 };
 
 Load load_of(const Fit& fit, std::size_t record) {
-  Load load{.travel = fit.of_records[record][static_cast<std::size_t>(RecordParameter::travel)]};
+  Load load{.travel = fit.of_records[record][RecordParameter::travel]};
   for (const FittedParameter& fitted : fit.parameters) {
     const FitParameter& parameter = fitted.parameter;
     if (parameter.owner != Owner::record || parameter.index != record ||
@@ -187,7 +187,7 @@ Loads loads_of_both(const Fit& held, const Fit& alone, const Experiments& experi
     if (load.sought)
       loads.sought.push_back(*load.sought);
     else
-      loads.known.back()[static_cast<std::size_t>(RecordParameter::travel)] = load.travel;
+      loads.known.back()[RecordParameter::travel] = load.travel;
   }
   return loads;
 }

@@ -211,8 +211,7 @@ std::vector<RecordValues> FitProblem::of_records(const Eigen::VectorXd& values) 
   std::vector<RecordValues> result = known_;
   for (std::size_t i = 0; i < parameters_.size(); ++i)
     if (parameters_[i].owner == Owner::record)
-      result[parameters_[i].index][static_cast<std::size_t>(parameters_[i].record_parameter)] =
-          values[static_cast<Eigen::Index>(i)];
+      result[parameters_[i].index][parameters_[i].record_parameter] = values[static_cast<Eigen::Index>(i)];
   return result;
 }
 

@@ -138,7 +138,7 @@ class FitProblem {
                                               Eigen::VectorXd& result) const;
   /// Predicts the outputs of one experiment; false if the model has no such motion.
   using Predictor = std::function<bool(std::size_t experiment, const sim::Model& model,
-                                        const RecordValues& of_record, Eigen::VectorXd& part)>;
+                                       const RecordValues& of_record, Eigen::VectorXd& part)>;
   /// The outputs of all experiments at `q`, side by side. False if one has none.
   [[nodiscard]] bool predict_each(const Eigen::VectorXd& q, Eigen::VectorXd& result,
                                   const Predictor& predict) const;

@@ -219,15 +219,14 @@ std::string zero_warning(const FittedSignal& fitted, RecordParameter zero, doubl
                     " % of their sum of squares at once") +
          ": the zero of the sensor is off, or the law differs between the directions. Seek the zero: "
          "'free' with " +
-         std::string(record_parameter_names[static_cast<std::size_t>(zero)]);
+         name_of(zero);
 }
 
 /// The zero among the possible causes; empty if it is sought.
 std::string open_zero_cause(const Experiments& experiments, const FittedSignal& fitted, const Fit& fit) {
   const std::optional<RecordParameter> zero = open_zero(experiments, fitted, fit);
   if (!zero) return {};
-  return "the zero of the sensor is off ('free' with " +
-         std::string(record_parameter_names[static_cast<std::size_t>(*zero)]) + " seeks it), ";
+  return "the zero of the sensor is off ('free' with " + name_of(*zero) + " seeks it), ";
 }
 
 }  // namespace

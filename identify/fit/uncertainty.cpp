@@ -162,11 +162,10 @@ class Uncertainty {
     for (std::size_t s = 0; s < variances_.size(); ++s) {
       const SignalRows& rows = end_.problem.signals()[s];
       const Eigen::MatrixXd part = scaled.middleRows(rows.begin, rows.size());
-      parts_.push_back(
-          matrix_among_all(bread *
-                           score_covariance(part, residuals_.segment(rows.begin, rows.size()),
-                                            variances_[s], end_.problem.signal(rows).is_sampled) *
-                           bread));
+      parts_.push_back(matrix_among_all(bread *
+                                        score_covariance(part, residuals_.segment(rows.begin, rows.size()),
+                                                         variances_[s], end_.problem.signal(rows).is_sampled) *
+                                        bread));
       scaled_covariance_ += parts_.back();
       plain += variances_[s] * (part.transpose() * part);
     }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <optional>
 #include <utility>
 
 #include "core/constants.hpp"
@@ -80,16 +81,14 @@ std::vector<identify::FitParameter> fitted_parameters(const identify::Rig& rig, 
 std::vector<identify::FitParameter> fitted_zeros(const Json& analysis, std::vector<SetupFault>& faults) {
   std::vector<identify::FitParameter> zeros;
   for (const Json& name : analysis.value("zeros", Json::array())) {
-    const auto& names = identify::record_parameter_names;
-    const auto found = std::ranges::find(names, name.get<std::string>());
-    if (found == names.end() || !found->starts_with("offset"))
+    const std::optional<identify::RecordParameter> found = identify::find_record_parameter(name.get<std::string>());
+    if (!found || !identify::name_of(*found).starts_with("offset"))
       faults.push_back({"zeros", "'" + name.get<std::string>() +
                                      "' in 'analysis.zeros' is no zero: offset, offset_v "
                                      "and offset_a are those of x, v and a"});
     else
-      zeros.push_back({.name = std::string(*found),
-                       .owner = identify::Owner::record,
-                       .record_parameter = static_cast<identify::RecordParameter>(found - names.begin())});
+      zeros.push_back(
+          {.name = identify::name_of(*found), .owner = identify::Owner::record, .record_parameter = *found});
   }
   return zeros;
 }

@@ -104,7 +104,7 @@ void begin_at(const sim::Excitation& drive, double start, double duration, Json&
 
 /// Contacts that were loaded at the first sample.
 void state_load(const identify::RecordValues& of_record, Json& scenario) {
-  const double travel = of_record[static_cast<std::size_t>(RecordParameter::travel)];
+  const double travel = of_record[RecordParameter::travel];
   if (travel != 0.0) scenario["initial"]["travel"] = travel;
 }
 
@@ -115,8 +115,8 @@ void ask_for_motion(const identify::Fit& fit, const identify::Experiment& experi
   const double rate = static_cast<double>(t.size() - 1) / (t.back() - t.front());
   if (scenario.contains("excitation") && !experiment.drive)
     begin_at(fit.rig.known.excitation, t.front(), t.back() - t.front(), scenario["excitation"]);
-  scenario["initial"] = {{"position", of_record[static_cast<std::size_t>(RecordParameter::position)]},
-                         {"velocity", of_record[static_cast<std::size_t>(RecordParameter::velocity)]}};
+  scenario["initial"] = {{"position", of_record[RecordParameter::position]},
+                         {"velocity", of_record[RecordParameter::velocity]}};
   state_load(of_record, scenario);
   scenario["analysis"] = {{"type", "simulate"}, {"duration", t.back() - t.front()}, {"sample_rate", rate}};
 }
@@ -225,8 +225,7 @@ std::string scenario_text(const identify::Fit& fit, const identify::Experiments&
       break;
     case ExperimentKind::decay:
       scenario.erase("excitation");
-      scenario["initial"] = {{"position", of_record[static_cast<std::size_t>(RecordParameter::position)]},
-                             {"velocity", 0.0}};
+      scenario["initial"] = {{"position", of_record[RecordParameter::position]}, {"velocity", 0.0}};
       state_load(of_record, scenario);
       scenario["analysis"] = {{"type", "free_decay"}, {"peaks", experiment.signals.front().measured.size()}};
       break;

@@ -13,8 +13,7 @@ namespace {
 
 /// Whether a name, such as `offset[2]`, is that of a parameter of one record.
 bool is_of_one_record(const std::string& name) {
-  return std::ranges::find(identify::record_parameter_names, name.substr(0, name.find('['))) !=
-         identify::record_parameter_names.end();
+  return identify::find_record_parameter(name.substr(0, name.find('['))).has_value();
 }
 
 /// The zeros of sensors among the parameters, each once.

@@ -322,9 +322,9 @@ identify::Experiments experiments_from(const std::vector<DataItem>& items, const
         faults.push_back({place, items[i].file + ": a history under a harmonic drive needs 'excitation.amplitude'; "
                                                  "'drive: none' beside 'file' in a scenario, if nothing drove it"});
       if (sought.initial_is_known && experiment->kind == identify::ExperimentKind::history) {
-        experiment->record_start[static_cast<std::size_t>(RecordParameter::position)] = model.initial.position;
-        experiment->record_start[static_cast<std::size_t>(RecordParameter::velocity)] = model.initial.velocity;
-        experiment->record_start[static_cast<std::size_t>(RecordParameter::travel)] = model.initial.travel;
+        experiment->record_start[RecordParameter::position] = model.initial.position;
+        experiment->record_start[RecordParameter::velocity] = model.initial.velocity;
+        experiment->record_start[RecordParameter::travel] = model.initial.travel;
         experiment->knows_load = true;
       }
       all.push_back(std::move(experiment));

@@ -86,7 +86,7 @@ TEST_CASE("fit: a contact that had yielded at the first sample is known, not sou
   REQUIRE(fit.outcome.ok());
   CHECK(fit.noise_units < 1.1);
   CHECK(test::find_fitted(fit, "travel") == nullptr);
-  CHECK(fit.of_records.front()[static_cast<std::size_t>(identify::RecordParameter::travel)] > 1e-3);
+  CHECK(fit.of_records.front()[identify::RecordParameter::travel] > 1e-3);
   CHECK(fit.not_identifiable.empty());
   for (const char* name : {"kinetic", "contact_stiffness"}) check_value(fit, name, test::truth_of(truth, name));
 }
