@@ -4,6 +4,7 @@
 #include <span>
 
 #include "identify/statistics/noise_level.hpp"
+#include "scenarios/analyses/shared/motion_chart.hpp"
 #include "scenarios/format/common_keys.hpp"
 #include "scenarios/format/excitations.hpp"
 #include "scenarios/format/limits.hpp"
@@ -160,13 +161,7 @@ const Analysis& simulate_analysis() {
                                     .needs = {{"", excitations().names(), {"amplitude", "frequency"}, true, ""}},
                                     .results = simulate_fields(),
                                     .main = {"final.x", "final.v", "energy.friction"},
-                                    .chart = {.table = "history",
-                                              .list = "",
-                                              .x = "t",
-                                              .y = "x",
-                                              .x_label = "time t",
-                                              .y_label = "displacement",
-                                              .further = "y"},
+                                    .chart = motion_chart("history"),
                                     .verifiable = true,
                                     .check = check_simulate,
                                     .ask = ask_simulate};

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scenarios/analyses/shared/motion_chart.hpp"
 #include "scenarios/results/motion.hpp"
 #include "sim/engine/engine.hpp"
 #include "sim/motion/simulate.hpp"
@@ -115,13 +116,7 @@ const Analysis& steady_state_analysis() {
                                     .needs = needs_of_steady_states({"amplitude", "frequency"}),
                                     .results = steady_state_fields(),
                                     .main = {"amplitude", "phase", "max_speed"},
-                                    .chart = {.table = "orbit",
-                                              .list = "",
-                                              .x = "t",
-                                              .y = "x",
-                                              .x_label = "time t",
-                                              .y_label = "displacement",
-                                              .further = "y"},
+                                    .chart = motion_chart("orbit"),
                                     .steady_vibrations = true,
                                     .verifiable = true,
                                     .ask = ask_steady_state};
