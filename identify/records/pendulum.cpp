@@ -35,7 +35,7 @@ void linearise(DecayRecord& decay, double share) {
   for (std::size_t i = 1; i < times.size(); ++i) {
     const double amplitude =
         0.5 * (std::abs(decay.extremes[i - 1] - middle) + std::abs(decay.extremes[i] - middle));
-    decay.times[i] = decay.times[i - 1] + (times[i] - times[i - 1]) / period_ratio(amplitude, share);
+    decay.times[i] = decay.times[i - 1] + (times[i] - times[i - 1]) / relative_period(amplitude, share);
   }
   for (double& extreme : decay.extremes) extreme = middle + linear_extreme(extreme - middle, share);
 }
@@ -44,7 +44,7 @@ void linearise(DecayRecord& decay, double share) {
 
 double linear_extreme(double angle, double share) { return (1.0 - share) * angle + share * sine_integral(angle); }
 
-double period_ratio(double angle, double share) {
+double relative_period(double angle, double share) {
   constexpr int nodes = 64;  // of the midpoint rule, which converges fast for this periodic integrand
   constexpr double pi = std::numbers::pi;
   if (!(std::abs(angle) > 1e-8) || !(std::abs(angle) < pi)) return 1.0;

@@ -26,6 +26,6 @@ void linearise_pendulum(Record& record, double stiffness, double gravity_stiffne
 
 /// xi(A), and T(A)/T(0). `angle`: A [rad]; `share`: G/k.
 [[nodiscard]] double linear_extreme(double angle, double share);
-[[nodiscard]] double period_ratio(double angle, double share);
+[[nodiscard]] double relative_period(double angle, double share);
 
 }  // namespace dualdamp::identify

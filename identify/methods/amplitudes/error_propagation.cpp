@@ -16,14 +16,6 @@ double ResonanceG::derivative(double zeta) const {
   return approximate ? analytic::approximate_G_derivative(zeta) : analytic::den_hartog(zeta, r).dG_dzeta;
 }
 
-namespace {
-
-double sum_of_products(const PairChanges& a, const PairChanges& b) {
-  return a.x1 * b.x1 + a.x2 * b.x2 + a.Y1 * b.Y1 + a.Y2 * b.Y2;
-}
-
-}  // namespace
-
 TwoPointSensitivity two_point_sensitivity(const AmplitudePair& first, const AmplitudePair& second,
                                           const ResonanceG& G) {
   const double dx = second.x - first.x;
@@ -45,10 +37,6 @@ TwoPointSensitivity two_point_sensitivity(const AmplitudePair& first, const Ampl
   s.of_x_f = {s.A + s.E * s.of_zeta.x1, s.B + s.E * s.of_zeta.x2, s.C + s.E * s.of_zeta.Y1,
               s.D + s.E * s.of_zeta.Y2};
   return s;
-}
-
-FrictionError propagate(const TwoPointSensitivity& sensitivity, const PairChanges& errors) {
-  return {sum_of_products(sensitivity.of_zeta, errors), sum_of_products(sensitivity.of_x_f, errors)};
 }
 
 }  // namespace dualdamp::identify

@@ -47,11 +47,4 @@ struct ResonanceG {
 [[nodiscard]] TwoPointSensitivity two_point_sensitivity(const AmplitudePair& first, const AmplitudePair& second,
                                                         const ResonanceG& G);
 
-/// First-order errors of zeta [-] and x_f [m] from errors of the amplitudes [m].
-struct FrictionError {
-  double zeta = 0.0;
-  double x_f = 0.0;
-};
-[[nodiscard]] FrictionError propagate(const TwoPointSensitivity& sensitivity, const PairChanges& errors);
-
 }  // namespace dualdamp::identify
