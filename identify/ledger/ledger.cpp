@@ -89,6 +89,33 @@ class Writer {
       if (entry.standing == Standing::untested) explain(ledger, entry);
   }
 
+  /// States for each assumption that holds how large a departure must be to be seen. A test that
+  /// would see only huge departures does not count as a test.
+  void add_sight(Ledger& ledger) const {
+    constexpr double most = 0.3;
+    for (LedgerEntry& entry : ledger.entries) {
+      const double blind = blind_[static_cast<std::size_t>(entry.assumption)];
+      if (entry.standing != Standing::holds || !entry.reason.empty() || !std::isfinite(blind)) continue;
+      const std::string size = "a departure that moves zeta or F0 by " + in_percent(blind) + " would be seen";
+      if (blind > most)
+        entry = {.assumption = entry.assumption,
+                 .reason = "only " + size + would_show(entry.assumption, ledger.recorded)};
+      else
+        entry.reason = size, entry.sight = blind;
+    }
+  }
+
+  /// Where the model misses the record, no assumption is known to hold.
+  void withdraw(const Misfit& misfit, Ledger& ledger) const {
+    for (LedgerEntry& entry : ledger.entries) {
+      if (entry.standing != Standing::holds) continue;
+      entry = {.assumption = entry.assumption,
+               .reason = "the joint model misses these data by " + rounded(misfit.times) +
+                         " times their noise, so this record cannot show it" +
+                         would_show(entry.assumption, ledger.recorded)};
+    }
+  }
+
  private:
   [[nodiscard]] Assumption assumption_of(const RelaxationTest& test) const {
     return model_.relaxations[test.index].assumption;
@@ -124,7 +151,7 @@ class Writer {
     std::vector<Assumption> named;
     const std::vector<ChangedConstant> of_joint = changed_constants(departure.explanations.front());
     for (const RelaxationTest& test : departure.explanations) {
-      LedgerEntry& entry = ledger.entries[static_cast<std::size_t>(assumption_of(test))];
+      LedgerEntry& entry = ledger.entry(assumption_of(test));
       if (entry.standing == Standing::violated) continue;
       set(test, entry);
       entry.standing = harms ? Standing::violated : Standing::holds;
@@ -199,7 +226,7 @@ class Writer {
   /// mode.
   void join_constants(const FoundDeparture& seen, Ledger& ledger) const {
     const RelaxationTest& inertia = seen.explanations.front();
-    LedgerEntry& own = ledger.entries[static_cast<std::size_t>(Assumption::one_mode)];
+    LedgerEntry& own = ledger.entry(Assumption::one_mode);
     const LedgerEntry& constants = ledger.entry(Assumption::constants);
     const bool grows = assumption_of(inertia) == Assumption::one_mode && inertia.coefficient > 0.0;
     if (!grows || own.standing != Standing::holds || constants.standing != Standing::violated) return;
@@ -221,7 +248,7 @@ class Writer {
     own.reason =
         "even with another constant the data show inertia that grows with frequency, as a second mode causes. The fitted "
         "mass may include that mode. Wrong constants explain the data equally well";
-    LedgerEntry& other = ledger.entries[static_cast<std::size_t>(Assumption::constants)];
+    LedgerEntry& other = ledger.entry(Assumption::constants);
     other.reason = "these data fit " + other.wanted + "; explained as well by: one_mode";
   }
 
@@ -265,7 +292,7 @@ class Writer {
 
   /// The entry of an assumption shows that of its relaxations which has the least p-value.
   void hold(const RelaxationTest& test, Ledger& ledger) {
-    LedgerEntry& entry = ledger.entries[static_cast<std::size_t>(assumption_of(test))];
+    LedgerEntry& entry = ledger.entry(assumption_of(test));
     const bool charged = entry.standing != Standing::untested && !entry.reason.empty();
     const bool weaker = entry.p_value && *entry.p_value <= test.p_value;
     if (charged || entry.standing == Standing::violated || weaker) return;
@@ -273,7 +300,7 @@ class Writer {
     const double blind = std::max(scale_.zeta(test.zeta_blind), scale_.F0(test.F0_blind));
     blind_[static_cast<std::size_t>(entry.assumption)] = blind;
     entry.standing = Standing::holds;
-    ledger.entries[static_cast<std::size_t>(entry.assumption)].reason.clear();
+    entry.reason.clear();
   }
 
   /// Why there is nothing to test of the drive; nothing if its history would show it.
@@ -309,35 +336,6 @@ class Writer {
       entry.reason += would_show(entry.assumption, ledger.recorded);
   }
 
- public:
-  /// States for each assumption that holds how large a departure must be to be seen. A test that
-  /// would see only huge departures does not count as a test.
-  void add_sight(Ledger& ledger) const {
-    constexpr double most = 0.3;
-    for (LedgerEntry& entry : ledger.entries) {
-      const double blind = blind_[static_cast<std::size_t>(entry.assumption)];
-      if (entry.standing != Standing::holds || !entry.reason.empty() || !std::isfinite(blind)) continue;
-      const std::string size = "a departure that moves zeta or F0 by " + in_percent(blind) + " would be seen";
-      if (blind > most)
-        entry = {.assumption = entry.assumption,
-                 .reason = "only " + size + would_show(entry.assumption, ledger.recorded)};
-      else
-        entry.reason = size, entry.sight = blind;
-    }
-  }
-
-  /// Where the model misses the record, no assumption is known to hold.
-  void withdraw(const Misfit& misfit, Ledger& ledger) const {
-    for (LedgerEntry& entry : ledger.entries) {
-      if (entry.standing != Standing::holds) continue;
-      entry = {.assumption = entry.assumption,
-               .reason = "the joint model misses these data by " + rounded(misfit.times) +
-                         " times their noise, so this record cannot show it" +
-                         would_show(entry.assumption, ledger.recorded)};
-    }
-  }
-
- private:
   const JointModel& model_;
   const RelaxationTests& tests_;
   const KnownConstants& stated_;
@@ -352,7 +350,7 @@ class Writer {
 
 void note_nearly_seen(const JointModel& model, const RelaxationTests& tests, Ledger& ledger) {
   for (const RelaxationTest& test : tests.tests) {
-    LedgerEntry& entry = ledger.entries[static_cast<std::size_t>(model.relaxations[test.index].assumption)];
+    LedgerEntry& entry = ledger.entry(model.relaxations[test.index].assumption);
     constexpr std::string_view note =
         "; a departure is nearly significant, and the intervals of joint_fit include its effect";
     const bool noted = entry.reason.ends_with(note);

@@ -112,6 +112,7 @@ struct Ledger {
   [[nodiscard]] const LedgerEntry& entry(Assumption assumption) const {
     return entries[static_cast<std::size_t>(assumption)];
   }
+  [[nodiscard]] LedgerEntry& entry(Assumption assumption) { return entries[static_cast<std::size_t>(assumption)]; }
   [[nodiscard]] bool is_violated(Assumption assumption) const {
     return entry(assumption).standing == Standing::violated;
   }

@@ -117,7 +117,7 @@ TEST_CASE("A range over laws holds the estimate with the departure of friction r
   ranges.laws = std::make_shared<const LawIntervals>();
   Ledger drag = ledger({Assumption::friction_velocity});
   drag.plain = {0.062, 6.2, 0.0007, 0.7};
-  LedgerEntry& entry = drag.entries[static_cast<std::size_t>(Assumption::friction_velocity)];
+  LedgerEntry& entry = drag.entry(Assumption::friction_velocity);
   entry.zeta_change = -0.5;
   entry.F0_change = 0.1;
   entry.p_value = 0.0026997960632601866;  // three standard errors
@@ -234,7 +234,7 @@ TEST_CASE("An estimate that the joint fit of all data excludes cannot be used, a
 TEST_CASE("A departure that is seen and does no harm stands in the verdict") {
   Ledger seen = ledger({});
   for (const Assumption assumption : {Assumption::sensors, Assumption::symmetry}) {
-    LedgerEntry& entry = seen.entries[static_cast<std::size_t>(assumption)];
+    LedgerEntry& entry = seen.entry(assumption);
     entry.test = assumption == Assumption::sensors ? "zero of x free" : "friction force of its own";
     entry.p_value = 1e-20;
   }

@@ -29,7 +29,7 @@ inline Ledger ledger(const std::vector<Assumption>& violated) {
     entry.standing = Standing::holds;
   }
   for (const Assumption assumption : violated) {
-    LedgerEntry& entry = ledger.entries[static_cast<std::size_t>(assumption)];
+    LedgerEntry& entry = ledger.entry(assumption);
     entry.standing = Standing::violated;
     entry.test = "something free";
     entry.p_value = 0.003;

@@ -64,7 +64,7 @@ TEST_CASE("What a method found stands where a departure was seen that the stated
   tested.tests_histories = true;
   tested.joint = estimate("joint_fit", 0.1, 4.0, 0.1);
   CHECK(concluded({contradicted}, tested).estimates[0].usable);
-  LedgerEntry& constants = tested.entries[static_cast<std::size_t>(Assumption::constants)];
+  LedgerEntry& constants = tested.entry(Assumption::constants);
   constants.p_value = 1e-9;
   constants.zeta_change = -0.01;
   CHECK(concluded({contradicted}, tested).estimates[0].usable);
@@ -81,7 +81,7 @@ TEST_CASE("What a method found stands where a departure was seen that the stated
 
 TEST_CASE("An answer with a constant free says which constant it refers to") {
   Ledger tested = ledger({Assumption::constants});
-  tested.entries[static_cast<std::size_t>(Assumption::constants)].fitted = "a mass of 0.8091 kg";
+  tested.entry(Assumption::constants).fitted = "a mass of 0.8091 kg";
   tested.joint = estimate("joint_fit", 0.1, 4.0, 0.1);
   const Identification found = concluded({estimate("receptance", 0.2, 4.0, 0.1), *tested.joint}, tested);
   CHECK(mentions(found.verdict, "zeta and F0 are those of a mass of 0.8091 kg."));
