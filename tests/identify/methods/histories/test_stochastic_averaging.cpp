@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "tests/identify/estimates.hpp"
 #include "tests/identify/random_response.hpp"
 
 using namespace dualdamp;
@@ -33,9 +34,7 @@ TEST_CASE("The distribution of the amplitude gives friction and damping within i
     CHECK(std::abs(e.value.F0 - F0) < 0.08 * F0 + 4.0 * e.std->F0);
     CHECK(std::abs(e.value.c - c) < 0.15 * c + 4.0 * e.std->c);
     CHECK(e.std->F0 < 0.15 * F0);
-    for (const FurtherParameter& parameter : e.others) {
-      if (parameter.name == "intensity") CHECK(parameter.value == Approx(D).epsilon(0.03));
-    }
+    CHECK(further(e, "intensity").value == Approx(D).epsilon(0.03));
   }
 }
 
