@@ -201,14 +201,12 @@ Clipping noisy_clipping_of(std::span<const double> signal) {
   constexpr std::size_t fewest_samples = 64;
   if (signal.size() < fewest_samples) return {};
   const auto [low, high] = std::ranges::minmax(signal);
-  RobustNoiseLevel noise;
-  noise.add({signal.begin(), signal.end()});
   constexpr double deviations = 8.0;
   constexpr double steps = 2.0;
   constexpr double widest = 0.015;
   constexpr double bands = 3.0;
   const double range = high - low;
-  const double band = std::max(deviations * noise.deviation(), steps * resolution_of(signal, range));
+  const double band = std::max(deviations * robust_noise_level(signal), steps * resolution_of(signal, range));
   if (!(band <= widest * range)) return {};
   return both_ends(signal, range, {.band = band, .fewest = 4, .least = least_height * range + bands * band});
 }

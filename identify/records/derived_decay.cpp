@@ -79,11 +79,7 @@ class DecayReader {
     std::vector<std::size_t> turns = read_turns(noise_level(x_, 2));
     // If a period has few samples, differences of second order take the motion for noise.
     constexpr double many = 32.0;
-    if (half_period_ < many) {
-      RobustNoiseLevel noise;
-      noise.add(history_.x);
-      turns = read_turns(noise.deviation());
-    }
+    if (half_period_ < many) turns = read_turns(robust_noise_level(history_.x));
     if (turns.size() < 3) return refused(no_turns());
     if (half_period_ < fewest_in_half_period) {
       DerivedDecay slow = refused(too_slow());

@@ -8,11 +8,7 @@
 
 namespace dualdamp::identify {
 
-double noise_of_speed(const std::vector<double>& v) {
-  RobustNoiseLevel level;
-  level.add(v);
-  return level.deviation();
-}
+double noise_of_speed(const std::vector<double>& v) { return robust_noise_level(v); }
 
 double noise_of_speed(const std::vector<double>& x, double rate, const std::optional<ZeroPhaseFilter>& filter) {
   // White noise behind linear operations: the root of the sum of squares of their answer to one sample of 1.
@@ -22,7 +18,7 @@ double noise_of_speed(const std::vector<double>& x, double rate, const std::opti
   if (filter) answer = (*filter)(answer);
   double square = 0.0;
   for (const double value : sharp_difference(answer, rate)) square += value * value;
-  return noise_of_speed(x) * std::sqrt(square);
+  return robust_noise_level(x) * std::sqrt(square);
 }
 
 namespace {

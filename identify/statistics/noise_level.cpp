@@ -50,7 +50,7 @@ double converter_step(std::vector<double> signal, std::size_t fewest) {
   return levels < fewest || 2 * levels > signal.size() ? 0.0 : step;
 }
 
-void RobustNoiseLevel::add(const std::vector<double>& signal) {
+void RobustNoiseLevel::add(std::span<const double> signal) {
   for (std::size_t i = 0; i + 4 < signal.size(); ++i)
     differences_.push_back(std::abs(fourth_difference(signal, i)) / std::sqrt(fourth_gain));
 }
@@ -67,6 +67,12 @@ double RobustNoiseLevel::deviation() const {
     count += 1.0;
   }
   return std::sqrt(sum / count);
+}
+
+double robust_noise_level(std::span<const double> signal) {
+  RobustNoiseLevel level;
+  level.add(signal);
+  return level.deviation();
 }
 
 }  // namespace dualdamp::identify

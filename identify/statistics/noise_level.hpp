@@ -21,7 +21,7 @@ namespace dualdamp::identify {
 /// order, without those that are too large for noise.
 class RobustNoiseLevel {
  public:
-  void add(const std::vector<double>& signal);
+  void add(std::span<const double> signal);
 
   /// 0 where nothing was added.
   [[nodiscard]] double deviation() const;
@@ -29,5 +29,8 @@ class RobustNoiseLevel {
  private:
   std::vector<double> differences_;  ///< magnitudes, each in units of the noise
 };
+
+/// The same of one signal. Cost: linear.
+[[nodiscard]] double robust_noise_level(std::span<const double> signal);
 
 }  // namespace dualdamp::identify
