@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <cassert>
 #include <cmath>
 #include <iterator>
 #include <string_view>
@@ -107,6 +108,11 @@ const std::vector<departures::Departure>& all_laws() {
   static const std::vector<departures::Departure> list = [] {
     std::vector<departures::Departure> all = departures::departures();
     all.insert(all.end(), further_laws().begin(), further_laws().end());
+    [[maybe_unused]] const auto is_known = [&](std::string_view name) {
+      return std::ranges::find(all, name, &departures::Departure::name) != all.end();
+    };
+    assert(std::ranges::all_of(two_sided, is_known) && std::ranges::all_of(no_laws, is_known) &&
+           std::ranges::all_of(twins, is_known));
     std::erase_if(all, [](const departures::Departure& departure) {
       return names(no_laws, departure.name) || names(twins, departure.name) || departure.mislead != nullptr;
     });
