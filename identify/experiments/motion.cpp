@@ -42,7 +42,7 @@ std::vector<double> integral_of(const std::vector<double>& of_rate, double rate)
   const Eigen::Map<Eigen::VectorXd> sum(integral.data(), static_cast<Eigen::Index>(integral.size()));
   Eigen::MatrixXd trend = Eigen::MatrixXd::Ones(sum.size(), 2);
   trend.col(1) = Eigen::VectorXd::LinSpaced(sum.size(), -1.0, 1.0);
-  Eigen::Map<Eigen::VectorXd>(integral.data(), sum.size()) = sum - trend * pivoted_least_squares(trend, sum);
+  Eigen::Map<Eigen::VectorXd>(integral.data(), sum.size()) = left_beside(trend, sum);
   return integral;
 }
 
@@ -61,7 +61,7 @@ std::pair<double, double> begin_of_acceleration(const std::vector<double>& a, do
   columns.col(3) = measured;
   const auto rest_without = [&](Eigen::Index first) {
     const Eigen::MatrixXd trend = columns.leftCols(first);
-    return (measured - trend * pivoted_least_squares(trend, measured)).squaredNorm();
+    return left_beside(trend, measured).squaredNorm();
   };
   if (rest_without(3) < 0.5 * rest_without(2)) columns.col(2).setZero();
   const Eigen::VectorXd target = -Eigen::Map<const Eigen::VectorXd>(path.data(), count);

@@ -238,7 +238,7 @@ double scale_of(const SteadyStates& states, const Eigen::VectorXd& residuals, Ei
     curve.row(row++) = Eigen::Map<const Eigen::RowVectorXd>(powers.data(), curve.cols());
   }
   const Eigen::VectorXd own = residuals.segment(first, count);
-  const Eigen::VectorXd left = own - curve * pivoted_least_squares(curve, own);
+  const Eigen::VectorXd left = left_beside(curve, own);
   const double freedom = std::max(1.0, static_cast<double>(count - curve.cols()));
   return std::sqrt(std::max(left.squaredNorm() / freedom, 1e-28));
 }
@@ -280,8 +280,7 @@ AmplitudeFit fit_with(SteadyStates states, const SteadyParameters& begin, const 
   std::iota(all.begin(), all.end(), 0);
   fit.rows = states.linearise(fit.at, fit.deviations, all);
   const Eigen::MatrixXd columns = free_columns(fit.rows.base, fit.rows.relaxed, taken);
-  const double left =
-      (fit.rows.residuals - columns * pivoted_least_squares(columns, fit.rows.residuals)).squaredNorm();
+  const double left = left_beside(columns, fit.rows.residuals).squaredNorm();
   fit.deviance = left + 2.0 * fit.rows.log_variances;
   return fit;
 }
@@ -416,7 +415,7 @@ std::variant<JointModel, std::string> amplitude_model(const Record& record, cons
     if (drop_sticking(points, fit.at.friction, left_out)) continue;
     const double freedom = static_cast<double>(states.amplitudes() - states.smooth_columns());
     if (is_stated(stated)) ratio = fit.scatter;
-    const ScatterBesideStated scatter = scatter_of(ratio, is_stated(known) ? freedom : 0.0);
+    const ScatterBesideStated scatter = readings_scatter(ratio, is_stated(known) ? freedom : 0.0);
     if (scatter == ScatterBesideStated::more && is_stated(stated)) {
       stated = {};
       continue;

@@ -54,8 +54,8 @@ Deviations largest_deviations(const std::vector<SteadyPoint>& points) {
   }
   const Eigen::VectorXd real = drive.real();
   const Eigen::VectorXd imaginary = drive.imag();
-  const Eigen::VectorXd left_real = real - columns * pivoted_least_squares(columns, real);
-  const Eigen::VectorXd left_imaginary = imaginary - columns * pivoted_least_squares(columns, imaginary);
+  const Eigen::VectorXd left_real = left_beside(columns, real);
+  const Eigen::VectorXd left_imaginary = left_beside(columns, imaginary);
   Deviations squares{0.0, 0.0, 0.0};
   for (Eigen::Index i = 0; i < drive.size(); ++i) {
     const SteadyPoint& point = with_phase[static_cast<std::size_t>(i)];

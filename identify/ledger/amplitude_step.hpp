@@ -2,10 +2,9 @@
 /// The parameters of the joint model of steady states, and the steps of its fit.
 
 #include <Eigen/Core>
-#include <cstddef>
-#include <vector>
 
 #include "identify/ledger/amplitude_terms.hpp"
+#include "identify/ledger/joint_model.hpp"
 
 namespace dualdamp::identify {
 
@@ -14,9 +13,6 @@ struct SteadyParameters {
   PlainFriction friction;
   Eigen::VectorXd g;
 };
-
-/// Relaxations that are fitted beside the friction, by their numbers.
-using Taken = std::vector<std::size_t>;
 
 /// One Gauss-Newton step, limited in length. `step`: of zeta, x_f and the coefficients taken.
 void take_step(const Eigen::VectorXd& step, const Taken& taken, SteadyParameters& at);

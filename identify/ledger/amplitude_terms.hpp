@@ -65,6 +65,7 @@ struct AmplitudeTerm {
 [[nodiscard]] std::span<const AmplitudeTerm> amplitude_terms();
 
 /// Leaves out the states that stick at this friction, each with a sentence. Returns whether there are any.
-bool drop_sticking(std::vector<SteadyPoint>& points, const PlainFriction& friction, std::vector<std::string>& left_out);
+bool drop_sticking(std::vector<SteadyPoint>& points, const PlainFriction& friction,
+                   std::vector<std::string>& left_out);
 
 }  // namespace dualdamp::identify

@@ -150,7 +150,7 @@ ChannelScale scale_channel(JointModel& model, Eigen::Index first, Eigen::Index c
   const bool wide = count > 2 * own(columns);
   const Eigen::MatrixXd used = wide ? columns : Eigen::MatrixXd(model.base.middleRows(first, count));
   const Eigen::VectorXd target = model.residuals.segment(first, count);
-  const Eigen::VectorXd left = target - used * pivoted_least_squares(used, target);
+  const Eigen::VectorXd left = left_beside(used, target);
   const double freedom = std::max(1.0, static_cast<double>(count - own(used)));
   constexpr double rounding = 1e-9;
   const double scale = known > 0.0 ? known : std::max(std::sqrt(left.squaredNorm() / freedom), rounding);
@@ -221,7 +221,7 @@ JointModel linearised(const Setting& setting, const Eigen::VectorXd& measured, c
 }
 
 /// Moves by a step of the base parameters and of the terms taken. A step of the stiffness keeps F0.
-void move(const Setting& setting, const Eigen::VectorXd& step, const std::vector<std::size_t>& taken, Decay& at) {
+void move(const Setting& setting, const Eigen::VectorXd& step, const Taken& taken, Decay& at) {
   const Eigen::Index base = setting.timed ? 6 : 4;
   at.zeta = std::clamp(at.zeta + step[0], 0.1 * at.zeta, 0.9);
   at.x_f += step[1];
@@ -239,8 +239,7 @@ void move(const Setting& setting, const Eigen::VectorXd& step, const std::vector
 }
 
 /// The model linearised where the terms taken are fitted beside plain friction.
-JointModel fitted(const Setting& setting, const Eigen::VectorXd& measured, const Decay& start,
-                  const std::vector<std::size_t>& taken) {
+JointModel fitted(const Setting& setting, const Eigen::VectorXd& measured, const Decay& start, const Taken& taken) {
   Decay at = start;
   JointModel model = linearised(setting, measured, at);
   constexpr int steps = 6;
@@ -254,7 +253,7 @@ JointModel fitted(const Setting& setting, const Eigen::VectorXd& measured, const
     model = linearised(setting, measured, at);
   }
   const Eigen::MatrixXd columns = free_columns(model.base, model.relaxed, taken);
-  model.deviance += (model.residuals - columns * pivoted_least_squares(columns, model.residuals)).squaredNorm();
+  model.deviance += left_beside(columns, model.residuals).squaredNorm();
   model.constants = setting.constants;
   for (std::size_t j = 0; j < setting.terms.size(); ++j) {
     const double longer = 1.0 + at.g[static_cast<Eigen::Index>(j)];
@@ -270,7 +269,7 @@ JointModel fitted(const Setting& setting, const Eigen::VectorXd& measured, const
 void compare_with_stated(Setting& setting, const Eigen::VectorXd& measured, const Decay& start, JointModel& model) {
   JointModel rescaled = model;
   const ChannelScale own = scale_channel(rescaled, 0, setting.count);
-  const ScatterBesideStated scatter = scatter_of(own.deviation, own.freedom);
+  const ScatterBesideStated scatter = readings_scatter(own.deviation, own.freedom);
   if (scatter == ScatterBesideStated::more) {
     setting.known = 0.0;
     model = fitted(setting, measured, start, {});
@@ -311,9 +310,7 @@ std::variant<JointModel, std::string> decay_model(const Record& record, const Kn
   setting.known = sigma_x / setting.unit;
   JointModel model = fitted(setting, measured, start, {});
   if (sigma_x > 0.0) compare_with_stated(setting, measured, start, model);
-  model.refit = [setting, measured, start](const std::vector<std::size_t>& taken) {
-    return fitted(setting, measured, start, taken);
-  };
+  model.refit = [setting, measured, start](const Taken& taken) { return fitted(setting, measured, start, taken); };
   model.data = std::to_string(count) + " extremes" + (timed ? " with times" : "");
   for (const Exclusion& exclusion : fit.excluded)
     model.left_out.push_back("extreme " + std::to_string(exclusion.number) + ": " + exclusion.reason);

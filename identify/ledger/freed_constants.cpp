@@ -17,7 +17,7 @@ double share_missed(ForwardFit& fit) {
   for (const ForwardTest& test : fit.tests()) {
     const std::vector<double>& measured = test.history->x;
     const Eigen::Map<const Eigen::ArrayXd> x(measured.data(), static_cast<Eigen::Index>(measured.size()));
-    const double deviation = noise_of(measured);
+    const double deviation = sensor_noise_of(measured);
     moved += (x - x.mean()).square().sum();
     noise += deviation * deviation * static_cast<double>(x.size());
   }

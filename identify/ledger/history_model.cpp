@@ -23,7 +23,6 @@ namespace dualdamp::identify {
 namespace {
 
 using By = SampledOscillator::By;
-using Numbers = std::vector<std::size_t>;
 
 /// Whether the rows of a channel are made white. Only the joint model needs that.
 enum class Whitening { off, on };
@@ -59,8 +58,8 @@ class Histories {
   [[nodiscard]] ForwardFit& fit() { return fit_; }
 
   /// The model linearised where the relaxations taken are fitted beside the parameters.
-  [[nodiscard]] JointModel fitted(const Numbers& taken) {
-    Numbers all(list_.relaxations.size());
+  [[nodiscard]] JointModel fitted(const Taken& taken) {
+    Taken all(list_.relaxations.size());
     std::iota(all.begin(), all.end(), std::size_t{0});
     Fitted best{start_, linearised(start_, taken, Whitening::off)};
     const bool of_constants = std::ranges::any_of(taken, [this](auto each) { return is_constant(each); });
@@ -110,7 +109,7 @@ class Histories {
   }
 
   /// Steps of Gauss and Newton, as long as they bring the motion nearer.
-  void descend(const Numbers& taken, Fitted& fitted) {
+  void descend(const Taken& taken, Fitted& fitted) {
     auto& [at, here] = fitted;
     constexpr int most_steps = 8;
     for (int i = 0; here && i < most_steps; ++i) {
@@ -136,11 +135,11 @@ class Histories {
   /// A fit out of step with the motion is at a minimum of its own, which no step leaves, whatever is relaxed. If
   /// another constant comes much nearer, a fit with that constant free as well keeps in step, and from there the
   /// constant is set back.
-  [[nodiscard]] Fitted through_constant(const Numbers& taken) {
+  [[nodiscard]] Fitted through_constant(const Taken& taken) {
     const FreedFit* near = freed_.much_nearer();
     for (std::size_t j = 0; near != nullptr && j < list_.parts.size(); ++j) {
       if (!is_constant(j) || freed_.with(list_.parts[j].by) != near) continue;
-      Numbers both = taken;
+      Taken both = taken;
       both.push_back(j);
       Fitted through{*freed(j), {}};
       through.here = linearised(through.at, both, Whitening::off);
@@ -155,13 +154,14 @@ class Histories {
     return {start_, std::nullopt};
   }
 
-  [[nodiscard]] JointModel joint(const Place& at, const Numbers& taken, const Numbers& all) {
+  [[nodiscard]] JointModel joint(const Place& at, const Taken& taken, const Taken& all) {
     JointModel model;
     model.relaxations = list_.relaxations;
     if (std::optional<Linearised> found =
             taken.empty() ? seen_from_afar(at, all) : linearised(at, all, Whitening::on)) {
       model.deviance =
-          found->log_variances + squares_beside(found->residuals, free_columns(found->base, found->relaxed, taken));
+          found->log_variances +
+          left_beside(free_columns(found->base, found->relaxed, taken), found->residuals).squaredNorm();
       model.residuals = std::move(found->residuals);
       model.base = std::move(found->base);
       model.relaxed = std::move(found->relaxed);
@@ -194,7 +194,7 @@ class Histories {
   /// Far from the right constants the fit misses most of the motion. What it leaves is then a swing, and no noise:
   /// an autoregression would take it for errors that last. If another constant brings the fit much nearer, errors
   /// are those of the nearer fit, and the column of a constant leads straight to the fit with it free.
-  [[nodiscard]] std::optional<Linearised> seen_from_afar(const Place& at, const Numbers& all) {
+  [[nodiscard]] std::optional<Linearised> seen_from_afar(const Place& at, const Taken& all) {
     const FreedFit* near = freed_.much_nearer();
     std::optional<Linearised> nearer;
     for (std::size_t j = 0; near != nullptr && !nearer && j < list_.parts.size(); ++j)
@@ -237,7 +237,7 @@ class Histories {
   }
 
   /// The step of the first parameter is taken in zeta, so that a step of the mass does not change zeta.
-  [[nodiscard]] Place stepped(Place at, const Eigen::VectorXd& step, const Numbers& taken) const {
+  [[nodiscard]] Place stepped(Place at, const Eigen::VectorXd& step, const Taken& taken) const {
     const double scale = fit_.layout().shared()[0].scale;
     const ForceParameters before = force_at(at);
     const double zeta = (before.c + step[0] * scale) / critical_damping(before.m, before.k);
@@ -253,7 +253,7 @@ class Histories {
   }
 
   /// Rows of every channel. They are whitened by `errors`, else by their own residuals, and then have `shaken`.
-  [[nodiscard]] std::optional<Linearised> linearised(const Place& at, const Numbers& wanted, Whitening whitening,
+  [[nodiscard]] std::optional<Linearised> linearised(const Place& at, const Taken& wanted, Whitening whitening,
                                                      const std::vector<Autoregression>& errors = {}) {
     const ForceParameters force = force_at(at);
     if (!(force.m > 0.0) || !(force.k > 0.0)) return std::nullopt;
@@ -288,7 +288,7 @@ class Histories {
   }
 
   /// The motion of a test and its derivatives by base parameters and relaxations, in the order of the columns.
-  bool add_test(std::size_t t, const Place& at, const Numbers& wanted, bool shake, Channel& in_x, Channel& in_v,
+  bool add_test(std::size_t t, const Place& at, const Taken& wanted, bool shake, Channel& in_x, Channel& in_v,
                 Channel& in_a) {
     ForwardTest& test = fit_.tests()[t];
     const ForwardLayout& layout = fit_.layout();
@@ -345,7 +345,7 @@ class Histories {
     SampledOscillator::Derivatives derivatives{.with_steps = true};
   };
 
-  [[nodiscard]] SensorRows rows_of(std::size_t t, const Place& at, const Numbers& wanted, const Motion& motion) {
+  [[nodiscard]] SensorRows rows_of(std::size_t t, const Place& at, const Taken& wanted, const Motion& motion) {
     const History& history = *fit_.tests()[t].history;
     const double rate = history.sample_rate;
     const ForceParameters force = force_at(at);
@@ -367,7 +367,7 @@ class Histories {
 
   /// Base columns, then those of the relaxations wanted, from the derivatives of one test; zero for those of
   /// sensors. Columns of mass and stiffness are at constant zeta.
-  [[nodiscard]] Eigen::MatrixXd arranged(std::size_t t, const Numbers& wanted, const ForceParameters& force,
+  [[nodiscard]] Eigen::MatrixXd arranged(std::size_t t, const Taken& wanted, const ForceParameters& force,
                                          const Eigen::MatrixXd& derivatives) {
     const ForwardLayout& layout = fit_.layout();
     const Eigen::Index base = count_of_base();
@@ -429,7 +429,7 @@ std::variant<JointModel, std::string> history_model(const Record& record, const 
   JointModel model = histories->fitted({});
   const double ratio = histories->scatter();
   const auto freedom = static_cast<double>(sigma_x > 0.0 ? model.residuals.size() : 0);
-  const ScatterBesideStated scatter = scatter_of(ratio, freedom);
+  const ScatterBesideStated scatter = readings_scatter(ratio, freedom);
   if (scatter == ScatterBesideStated::more) {
     histories->forget_stated();
     model = histories->fitted({});
@@ -437,7 +437,7 @@ std::variant<JointModel, std::string> history_model(const Record& record, const 
   note_contradiction(scatter, ratio, "samples of x", model);
   if (model.residuals.size() == 0 || !model.residuals.allFinite() || !model.base.allFinite())
     return "the simulated motion, fitted with the mass and the stiffness as stated, grows beyond all numbers";
-  model.refit = [histories](const Numbers& numbers) { return histories->fitted(numbers); };
+  model.refit = [histories](const Taken& numbers) { return histories->fitted(numbers); };
   model.of_histories = true;
   model.step_interval = step_interval_of(fit.tests());
   model.data = std::to_string(fit.residuals().count()) + " samples of " + std::to_string(fit.tests().size()) +

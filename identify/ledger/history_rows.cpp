@@ -56,7 +56,7 @@ WhiteRows made_white(const Channel& channel, Eigen::Index count_of_columns, cons
     return {whitened(channel.rows, channel.blocks, *known), twice * std::log(known->deviation), *known};
   const Eigen::MatrixXd columns = channel.rows.middleCols(1, count_of_columns);
   const Eigen::VectorXd target = channel.rows.col(0);
-  const Eigen::VectorXd left = target - columns * pivoted_least_squares(columns, target);
+  const Eigen::VectorXd left = left_beside(columns, target);
   const auto count = static_cast<double>(left.size());
   const int most = std::clamp(static_cast<int>(count / 20.0), 0, channel.most_lags);
   const Eigen::VectorXd covariances = error_covariances(columns, left, channel.blocks, most);
@@ -93,10 +93,11 @@ Eigen::MatrixXd stacked(const std::vector<Eigen::MatrixXd>& parts) {
 }
 
 History with_noisier_drive(History history) {
+  // A fixed seed, so that a record has the same ledger each time; not the one that draws p-values.
   constexpr core::RandomStream stream{20261125, 1};
   std::uint64_t drawn = 0;
   for (std::vector<double>* signal : {&history.y, &history.force}) {
-    const double deviation = signal->empty() ? 0.0 : noise_of(*signal);
+    const double deviation = signal->empty() ? 0.0 : sensor_noise_of(*signal);
     for (double& value : *signal) value += deviation * stream.normal(drawn++);
   }
   return history;
@@ -145,20 +146,18 @@ Eigen::Index moving_rows(const History& history, const Eigen::VectorXd& x, doubl
   return crossings < fewest ? x.size() : last;
 }
 
-double noise_of(const std::vector<double>& signal) {
-  RobustNoiseLevel level;
-  level.add(signal);
+double sensor_noise_of(const std::vector<double>& signal) {
   // If a converter's step is larger than the noise, most differences are zero.
-  return std::max(level.deviation(), converter_step(signal) / std::sqrt(12.0));
+  return std::max(robust_noise_level(signal), converter_step(signal) / std::sqrt(12.0));
 }
 
 ReadingNoise noise_levels(const History& history, double k, const MotionScale& scale, double sigma_x) {
   // Readings without noise are still rounded.
   constexpr double rounding = 1e-9;
-  return {std::hypot(k * noise_of(history.y), noise_of(history.force)),
-          sigma_x > 0.0 ? sigma_x : std::max(noise_of(history.x), rounding * scale.length),
-          std::max(noise_of(history.v), rounding * scale.speed),
-          std::max(noise_of(history.a), rounding * scale.speed * scale.speed / scale.length)};
+  return {std::hypot(k * sensor_noise_of(history.y), sensor_noise_of(history.force)),
+          sigma_x > 0.0 ? sigma_x : std::max(sensor_noise_of(history.x), rounding * scale.length),
+          std::max(sensor_noise_of(history.v), rounding * scale.speed),
+          std::max(sensor_noise_of(history.a), rounding * scale.speed * scale.speed / scale.length)};
 }
 
 bool noise_grows(const ForceParameters& force, const Record& record) {
@@ -166,10 +165,6 @@ bool noise_grows(const ForceParameters& force, const Record& record) {
   return std::ranges::any_of(record.histories, [rate](const History& history) {
     return rate * static_cast<double>(history.x.size()) > history.sample_rate;
   });
-}
-
-double squares_beside(const Eigen::VectorXd& residuals, const Eigen::MatrixXd& columns) {
-  return (residuals - columns * pivoted_least_squares(columns, residuals)).squaredNorm();
 }
 
 std::string fault_of_histories(const Record& record) {

@@ -88,7 +88,7 @@ void leave_out_reversals(const Eigen::VectorXd& v, Eigen::MatrixXd& rows);
 [[nodiscard]] Eigen::Index moving_rows(const History& history, const Eigen::VectorXd& x, double x_f);
 
 /// Standard deviation of the noise of a signal, its rounding to the steps of a converter included.
-[[nodiscard]] double noise_of(const std::vector<double>& signal);
+[[nodiscard]] double sensor_noise_of(const std::vector<double>& signal);
 
 /// Noise of the drive k y + f, and of readings. `sigma_x`: stated for x; 0: none.
 [[nodiscard]] ReadingNoise noise_levels(const History& history, double k, const MotionScale& scale,
@@ -97,9 +97,6 @@ void leave_out_reversals(const Eigen::VectorXd& v, Eigen::MatrixXd& rows);
 /// With negative damping the noise of the drive grows in the motion: within one of the histories by the factor e or
 /// more. The residuals then do not show the noise level.
 [[nodiscard]] bool noise_grows(const ForceParameters& force, const Record& record);
-
-/// Sum of squares that columns leave.
-[[nodiscard]] double squares_beside(const Eigen::VectorXd& residuals, const Eigen::MatrixXd& columns);
 
 /// Why the motion of the histories cannot be simulated; empty when it can.
 [[nodiscard]] std::string fault_of_histories(const Record& record);

@@ -7,6 +7,7 @@
 /// (zeta and F0 first). C: a column for each relaxation, one way in which an assumption may fail.
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <functional>
 #include <limits>
 #include <string>
@@ -45,6 +46,9 @@ struct KnownNoise {
   double freedom = 0.0;  ///< degrees of freedom behind it
 };
 
+/// Relaxations that are free beside the base parameters, by their numbers in the model.
+using Taken = std::vector<std::size_t>;
+
 struct JointModel {
   std::string data;           ///< "24 steady states"
   bool of_histories = false;  ///< the motion itself is simulated
@@ -80,7 +84,7 @@ struct JointModel {
   ParameterSet value;        ///< of the fit
   KnownConstants constants;  ///< as stated, or as fitted
   /// The model fitted again with these relaxations free, and linearised there; empty: no such fit is needed.
-  std::function<JointModel(const std::vector<std::size_t>& taken)> refit;
+  std::function<JointModel(const Taken& taken)> refit;
   std::vector<std::string> warnings;  ///< about the readings and what is stated of them, each a sentence
   std::vector<std::string>
       left_out;  ///< parts of the record that are outside the tests' conditions, each a sentence
@@ -88,6 +92,6 @@ struct JointModel {
 
 /// The columns of the base parameters and of the relaxations taken, these last.
 [[nodiscard]] Eigen::MatrixXd free_columns(const Eigen::MatrixXd& base, const Eigen::MatrixXd& relaxed,
-                                           const std::vector<std::size_t>& taken);
+                                           const Taken& taken);
 
 }  // namespace dualdamp::identify

@@ -31,8 +31,6 @@ std::string_view name_of(Standing standing) {
 namespace {
 
 using MaybeModel = std::variant<JointModel, std::string>;
-/// Places of relaxations in the model.
-using Numbers = std::vector<std::size_t>;
 
 std::string rounded(double value) {
   constexpr int digits = 2;
@@ -62,7 +60,7 @@ class Scale {
       : zeta_(std::abs(model.value.zeta)), F0_(std::abs(model.value.F0)) {
     const std::optional<Eigen::MatrixXd> covariance = unit_covariance(model.base);
     if (!covariance || !(freedom > 0.0)) return;
-    const Eigen::VectorXd left = model.residuals - model.base * pivoted_least_squares(model.base, model.residuals);
+    const Eigen::VectorXd left = left_beside(model.base, model.residuals);
     const double deviation = model.is_stated ? 1.0 : std::sqrt(left.squaredNorm() / std::max(1.0, freedom));
     zeta_ = std::max(zeta_, deviation * std::sqrt((*covariance)(0, 0)));
     F0_ = std::max(F0_, deviation * std::sqrt((*covariance)(1, 1)));
@@ -431,7 +429,7 @@ Estimate joint_fit(const Record& record, const KnownConstants& constants, const 
     return none;
   }
   const auto& model = std::get<JointModel>(found);
-  Numbers numbers;
+  Taken numbers;
   for (const std::string& test : relaxed) {
     const auto at = std::ranges::find(model.relaxations, test, &Relaxation::test);
     if (at == model.relaxations.end()) {

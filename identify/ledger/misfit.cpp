@@ -28,12 +28,11 @@ double largest_change(const JointModel& model, const Eigen::MatrixXd& columns, d
 
 }  // namespace
 
-std::optional<Misfit> misfit_of(const JointModel& model, const std::vector<std::size_t>& taken,
-                                double least_change) {
+std::optional<Misfit> misfit_of(const JointModel& model, const Taken& taken, double least_change) {
   const Eigen::MatrixXd columns = free_columns(model.base, model.relaxed, taken);
   const double freedom = static_cast<double>(columns.rows() - columns.cols()) - model.spent;
   if (model.known_noise.empty() || freedom < 1.0) return std::nullopt;
-  const Eigen::VectorXd left = model.residuals - columns * pivoted_least_squares(columns, model.residuals);
+  const Eigen::VectorXd left = left_beside(columns, model.residuals);
   // Each channel is tested against its own noise: of few states the noise is known to a factor only, which one sum
   // over both would have for the better known.
   Misfit misfit{1.0, 0.0};

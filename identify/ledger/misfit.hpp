@@ -22,8 +22,7 @@ namespace dualdamp::identify {
 inline constexpr double misfit_share = 0.1;
 
 /// The misfit of a model with these relaxations taken; nothing if it is not significant or does not matter.
-[[nodiscard]] std::optional<Misfit> misfit_of(const JointModel& model, const std::vector<std::size_t>& taken,
-                                              double least_change);
+[[nodiscard]] std::optional<Misfit> misfit_of(const JointModel& model, const Taken& taken, double least_change);
 
 /// "the joint model misses these data by 12 times their noise (p = 1e-9)"
 [[nodiscard]] std::string misfit_size(const Misfit& misfit);

@@ -72,7 +72,7 @@ std::optional<std::vector<Distance>> distances(Record& measured, Record& moved, 
   const auto found = readings_model(moved, constants);
   if (std::holds_alternative<std::string>(found)) return std::nullopt;
   const auto& model = std::get<JointModel>(found);
-  const Eigen::VectorXd left = model.residuals - model.base * pivoted_least_squares(model.base, model.residuals);
+  const Eigen::VectorXd left = left_beside(model.base, model.residuals);
   std::vector<Distance> list;
   for (const ReadingKind kind : kinds) {
     const std::size_t first = list.size();

@@ -58,7 +58,7 @@ Eigen::VectorXd lengths_beside(const Eigen::MatrixXd& base, const Eigen::MatrixX
   return (columns - base * (scale.cwiseInverse().asDiagonal() * qr.solve(columns))).colwise().norm();
 }
 
-Projection project(const JointModel& model, const std::vector<std::size_t>& taken) {
+Projection project(const JointModel& model, const Taken& taken) {
   const Eigen::Index own = model.base.cols();
   const Eigen::MatrixXd base = free_columns(model.base, model.relaxed, taken);
   const Eigen::VectorXd scale = base.colwise().norm().cwiseMax(1e-300);
@@ -173,6 +173,7 @@ std::vector<double> largest_scores(const JointModel& model, const Projection& pr
   const Eigen::MatrixXd basis = whole.leftCols(rank);
   const Eigen::MatrixXd directions = projection.unit.transpose() * basis;
   const double beside = std::max(0.0, projection.scale_freedom - static_cast<double>(rank));
+  // A fixed seed, so that a record has the same p-values each time.
   constexpr core::RandomStream stream{20261122, 1};
   std::uint64_t drawn = 0;
   std::vector<double> largest;
@@ -288,8 +289,7 @@ std::vector<RelaxationTest> candidates(const JointModel& model, std::vector<Rela
 
 /// What these relaxations change zeta and F0 by. A fit that could not move from where it began leaves the whole
 /// effect to the step of its linear model, and else would show none.
-Eigen::Vector2d change_between(const JointModel& before, const JointModel& after,
-                               const std::vector<std::size_t>& taken) {
+Eigen::Vector2d change_between(const JointModel& before, const JointModel& after, const Taken& taken) {
   Eigen::Vector2d change(after.value.zeta - before.value.zeta, after.value.F0 - before.value.F0);
   if (!change.isZero(0.0)) return change;
   const Eigen::VectorXd step =
@@ -312,7 +312,7 @@ struct Rest {
   KnownConstants constants;
 };
 
-Rest rest_of(const JointModel& model, std::vector<std::size_t> taken, std::size_t candidate, double least_change) {
+Rest rest_of(const JointModel& model, Taken taken, std::size_t candidate, double least_change) {
   taken.push_back(candidate);
   const JointModel fitted = model.refit(taken);
   Rest rest;
@@ -335,7 +335,7 @@ Rest rest_of(const JointModel& model, std::vector<std::size_t> taken, std::size_
 /// The departure that the tests show: the relaxation that explains it best, and those that explain it as well. Far
 /// from the fit a linearised model ranks them wrongly. Where the model can be fitted again, candidates are
 /// therefore judged by the misfit that they leave. `missed`: the model misses the whole record.
-FoundDeparture departure_shown(const JointModel& model, const std::vector<std::size_t>& taken,
+FoundDeparture departure_shown(const JointModel& model, const Taken& taken,
                                const std::vector<RelaxationTest>& tests, double least_change, bool missed) {
   std::vector<RelaxationTest> list = candidates(model, tests, missed);
   if (!model.refit || list.size() <= 1) return {list};
@@ -368,8 +368,7 @@ FoundDeparture departure_shown(const JointModel& model, const std::vector<std::s
 }
 
 /// Does a relaxed model explain what the one before missed as a whole: far better, with nothing left beside it?
-bool explains(const JointModel& relaxed, const std::vector<std::size_t>& taken, double deviance_before,
-              double least_change) {
+bool explains(const JointModel& relaxed, const Taken& taken, double deviance_before, double least_change) {
   if (!(relaxed.deviance < deviance_before - far_better) || misfit_of(relaxed, taken, least_change)) return false;
   const std::vector<RelaxationTest> tests = tests_beside(relaxed, project(relaxed, taken), least_change);
   return std::ranges::all_of(tests, [](const RelaxationTest& test) { return test.p_value >= family_level; });
@@ -377,13 +376,12 @@ bool explains(const JointModel& relaxed, const std::vector<std::size_t>& taken, 
 
 /// Adds to each departure the relaxations that are like the one taken for it and explain it as well beside the
 /// others: when the first departure was charged, what the others add decided between relaxations nearly the same.
-void name_alike(const JointModel& model, const std::vector<std::size_t>& taken,
-                const std::vector<std::size_t>& alike, double least_change,
-                std::vector<FoundDeparture>& departures) {
+void name_alike(const JointModel& model, const Taken& taken, const std::vector<std::size_t>& alike,
+                double least_change, std::vector<FoundDeparture>& departures) {
   if (!model.refit || departures.size() < 2) return;
   for (std::size_t d = 0; d < departures.size(); ++d) {
     std::vector<RelaxationTest>& explanations = departures[d].explanations;
-    std::vector<std::size_t> others = taken;
+    Taken others = taken;
     others.erase(others.begin() + static_cast<std::ptrdiff_t>(d));
     std::optional<Rest> own;
     const std::vector<std::size_t> like_this = project(model, {taken[d]}).alike;
@@ -405,7 +403,7 @@ void name_alike(const JointModel& model, const std::vector<std::size_t>& taken,
 
 RelaxationTests test_relaxations(const JointModel& model, double least_change) {
   RelaxationTests result;
-  std::vector<std::size_t> taken;
+  Taken taken;
   constexpr std::size_t most_departures = 4;
   Projection projection = project(model, taken);
   for (std::size_t j = 0; j < model.relaxations.size(); ++j)
@@ -424,7 +422,7 @@ RelaxationTests test_relaxations(const JointModel& model, double least_change) {
     FoundDeparture found = departure_shown(here, taken, result.tests, least_change, result.misfit.has_value());
     if (found.explanations.empty()) break;
     RelaxationTest& best = found.explanations.front();
-    std::vector<std::size_t> further = taken;
+    Taken further = taken;
     further.push_back(best.index);
     std::optional<JointModel> relaxed;
     if (model.refit) relaxed = model.refit(further);

@@ -19,7 +19,7 @@ void set_noise(Eigen::Index amplitudes, Eigen::Index phases, Eigen::Index smooth
 
 bool is_stated(const KnownDeviations& known) { return known.sigma_x > 0.0 || known.sigma_Y > 0.0; }
 
-ScatterBesideStated scatter_of(double ratio, double freedom) {
+ScatterBesideStated readings_scatter(double ratio, double freedom) {
   return freedom >= 1.0 ? scatter_beside_stated(ratio, stated_noise_p_value(ratio * ratio, freedom))
                         : ScatterBesideStated::as_stated;
 }

@@ -19,7 +19,7 @@ namespace dualdamp::identify {
 
 /// `scatter_beside_stated` for the deviation of readings over the stated one; as stated without a degree of
 /// freedom.
-[[nodiscard]] ScatterBesideStated scatter_of(double ratio, double freedom);
+[[nodiscard]] ScatterBesideStated readings_scatter(double ratio, double freedom);
 
 /// Notes in the model that its readings (the word for a message) contradict the statement; nothing if they do not.
 void note_contradiction(ScatterBesideStated scatter, double ratio, const std::string& readings, JointModel& model);

@@ -15,6 +15,10 @@ Eigen::VectorXd pivoted_least_squares(const Eigen::MatrixXd& columns, const Eige
   return Eigen::ColPivHouseholderQR<Eigen::MatrixXd>(columns).solve(values);
 }
 
+Eigen::VectorXd left_beside(const Eigen::MatrixXd& columns, const Eigen::VectorXd& values) {
+  return values - columns * pivoted_least_squares(columns, values);
+}
+
 Eigen::MatrixXd orthonormal_basis(const Eigen::MatrixXd& columns, std::optional<double> threshold) {
   Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(columns);
   if (threshold) qr.setThreshold(*threshold);

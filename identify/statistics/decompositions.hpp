@@ -13,6 +13,9 @@ namespace dualdamp::identify {
 /// The same for columns that may be nearly dependent, by column pivoting: dependent columns get 0.
 [[nodiscard]] Eigen::VectorXd pivoted_least_squares(const Eigen::MatrixXd& columns, const Eigen::VectorXd& values);
 
+/// What columns, which may be nearly dependent, leave of values: values - columns x with the x of least squares.
+[[nodiscard]] Eigen::VectorXd left_beside(const Eigen::MatrixXd& columns, const Eigen::VectorXd& values);
+
 /// An orthonormal basis of what the columns span, by QR with column pivoting: columns that are dependent to
 /// `threshold` of the largest, or to rounding, add nothing.
 [[nodiscard]] Eigen::MatrixXd orthonormal_basis(const Eigen::MatrixXd& columns,

@@ -17,17 +17,39 @@ namespace dualdamp::identify {
 
 namespace {
 
-/// Places of relaxations in the model.
-using Numbers = std::vector<std::size_t>;
-
-void widen(Interval& interval, const Interval& other) {
+void cover(Interval& interval, const Interval& other) {
   interval = {std::min(interval[0], other[0]), std::max(interval[1], other[1])};
 }
 
-void widen(Estimate& estimate, const Estimate& other) {
+void cover(Estimate& estimate, const Estimate& other) {
   if (!estimate.interval95 || !other.interval95) return;
   for (const ReportedParameter& parameter : reported_parameters)
-    widen((*estimate.interval95).*parameter.interval, (*other.interval95).*parameter.interval);
+    cover((*estimate.interval95).*parameter.interval, (*other.interval95).*parameter.interval);
+}
+
+/// A model with relaxations free, solved by least squares.
+struct Solution {
+  Eigen::MatrixXd covariance;  ///< of the parameters, for rows of unit variance
+  Eigen::VectorXd step;        ///< from the parameters of the model
+  double variance = 1.0;       ///< of the rows
+  double freedom = 0.0;        ///< degrees of freedom that the parameters leave
+};
+
+/// Nothing where a column is a combination of the others, or no degree of freedom is left.
+std::optional<Solution> solved(const JointModel& model, const Taken& taken) {
+  const Eigen::MatrixXd columns = free_columns(model.base, model.relaxed, taken);
+  std::optional<Eigen::MatrixXd> covariance = unit_covariance(columns);
+  const double freedom = static_cast<double>(columns.rows() - columns.cols()) - model.spent;
+  if (!covariance || freedom < 1.0) return std::nullopt;
+  Eigen::VectorXd step = *covariance * (columns.transpose() * model.residuals);
+  const double variance = model.is_stated ? 1.0 : (model.residuals - columns * step).squaredNorm() / freedom;
+  return Solution{std::move(*covariance), std::move(step), variance, freedom};
+}
+
+/// Quantile of an estimate whose model leaves `freedom`: the deviation of the rows has no more degrees of freedom
+/// than that of the readings that decide about friction, and one at least.
+double quantile_of(const JointModel& model, double freedom) {
+  return quantile95(std::max(1.0, std::min(model.is_stated ? known_freedom : freedom, model.scale_freedom)));
 }
 
 }  // namespace
@@ -42,28 +64,22 @@ bool is_nearly_seen(const JointModel& model, const RelaxationTest& test) {
   return is_of_friction(model.relaxations[test.index].assumption) && test.p_alone < level;
 }
 
-Estimate joint_estimate(const JointModel& model, const Numbers& relaxed, std::string basis) {
+Estimate joint_estimate(const JointModel& model, const Taken& relaxed, std::string basis) {
   Estimate estimate;
   estimate.method = "joint_fit";
-  const Eigen::MatrixXd columns = free_columns(model.base, model.relaxed, relaxed);
-  const std::optional<Eigen::MatrixXd> covariance = unit_covariance(columns);
-  const double freedom = static_cast<double>(columns.rows() - columns.cols()) - model.spent;
-  if (!covariance || freedom < 1.0) {
+  const std::optional<Solution> solution = solved(model, relaxed);
+  if (!solution) {
     refuse(estimate, "the record does not distinguish the parameters of the joint model");
     return estimate;
   }
-  const Eigen::VectorXd step = *covariance * (columns.transpose() * model.residuals);
-  const double variance = model.is_stated ? 1.0 : (model.residuals - columns * step).squaredNorm() / freedom;
+  const Eigen::VectorXd& step = solution->step;
   const KnownConstants& constants = model.constants;
   estimate.value =
       parameters(model.value.zeta + step[0], (model.value.F0 + step[1]) / constants.stiffness, constants);
-  Eigen::Matrix2d of_friction = variance * covariance->topLeftCorner<2, 2>();
+  Eigen::Matrix2d of_friction = solution->variance * solution->covariance.topLeftCorner<2, 2>();
   const Eigen::DiagonalMatrix<double, 2> to_length(1.0, 1.0 / constants.stiffness);
   of_friction = to_length * of_friction * to_length;
-  set_uncertainty(
-      estimate, of_friction,
-      quantile95(std::min(model.is_stated ? known_freedom : freedom, std::max(1.0, model.scale_freedom))),
-      constants);
+  set_uncertainty(estimate, of_friction, quantile_of(model, solution->freedom), constants);
   std::vector<std::string> faults;
   judge_signs(estimate, 0.0, faults);
   conclude(estimate, faults, std::move(basis));
@@ -73,27 +89,27 @@ Estimate joint_estimate(const JointModel& model, const Numbers& relaxed, std::st
 namespace {
 
 /// Extends the intervals to cover the estimates in which a nearly seen term of friction is free.
-void reach_over_nearly_seen(const JointModel& model, const RelaxationTests& tests, const Numbers& relaxed,
+void reach_over_nearly_seen(const JointModel& model, const RelaxationTests& tests, const Taken& relaxed,
                             Estimate& estimate) {
   const JointModel& here = tests.relaxed ? *tests.relaxed : model;
   for (const RelaxationTest& test : tests.tests) {
     if (!is_nearly_seen(model, test)) continue;
-    Numbers further = relaxed;
+    Taken further = relaxed;
     further.push_back(test.index);
-    widen(estimate, joint_estimate(here, further, {}));
+    cover(estimate, joint_estimate(here, further, {}));
   }
 }
 
 }  // namespace
 
 Estimate joint_estimate(const JointModel& model, const RelaxationTests& tests) {
-  Numbers best;
+  Taken best;
   std::string relaxed;
   for (const FoundDeparture& departure : tests.departures) {
     best.push_back(departure.explanations.front().index);
     relaxed += (relaxed.empty() ? "" : ", ") + model.relaxations[best.back()].test;
   }
-  const auto with = [&](const Numbers& numbers) {
+  const auto with = [&](const Taken& numbers) {
     return joint_estimate(
         model.refit && !numbers.empty() ? model.refit(numbers) : model, numbers,
         "all of " + model.data + " together" + (relaxed.empty() ? "" : "; free beside zeta and F0: " + relaxed));
@@ -101,9 +117,9 @@ Estimate joint_estimate(const JointModel& model, const RelaxationTests& tests) {
   Estimate estimate = with(best);
   for (std::size_t d = 0; d < tests.departures.size(); ++d) {
     for (const RelaxationTest& other : tests.departures[d].explanations | std::views::drop(1)) {
-      Numbers instead = best;
+      Taken instead = best;
       instead[d] = other.index;
-      widen(estimate, with(instead));
+      cover(estimate, with(instead));
     }
   }
   reach_over_nearly_seen(model, tests, best, estimate);
@@ -116,15 +132,12 @@ namespace {
 class FreedTerm {
  public:
   /// Nothing can be said where a column is a combination of the others.
-  FreedTerm(const JointModel& model, const Numbers& columns_free, double quantile, int sign) : quantile_(quantile) {
-    const Eigen::MatrixXd columns = free_columns(model.base, model.relaxed, columns_free);
-    const std::optional<Eigen::MatrixXd> covariance = unit_covariance(columns);
-    const double freedom = static_cast<double>(columns.rows() - columns.cols()) - model.spent;
-    if (!covariance || freedom < 1.0) return;
-    const Eigen::VectorXd step = *covariance * (columns.transpose() * model.residuals);
-    const double variance = model.is_stated ? 1.0 : (model.residuals - columns * step).squaredNorm() / freedom;
-    const Eigen::Index last = columns.cols() - 1;
-    const double of_term = (*covariance)(last, last);
+  FreedTerm(const JointModel& model, const Taken& taken, double quantile, int sign) : quantile_(quantile) {
+    const std::optional<Solution> solution = solved(model, taken);
+    if (!solution) return;
+    const auto& [covariance, step, variance, freedom] = *solution;
+    const Eigen::Index last = step.size() - 1;
+    const double of_term = covariance(last, last);
     const double reach = quantile * std::sqrt(variance * of_term);
     const double least = sign > 0 ? 0.0 : -std::numeric_limits<double>::infinity();
     const double most = sign < 0 ? 0.0 : std::numeric_limits<double>::infinity();
@@ -134,8 +147,8 @@ class FreedTerm {
                                         std::min(step[last] + reach, most) - best};
     for (Eigen::Index j = 0; j < 2; ++j) {
       const auto at = static_cast<std::size_t>(j);
-      slopes_[at] = (*covariance)(j, last) / of_term;
-      const double fixed = (*covariance)(j, j) - slopes_[at] * (*covariance)(j, last);
+      slopes_[at] = covariance(j, last) / of_term;
+      const double fixed = covariance(j, j) - slopes_[at] * covariance(j, last);
       errors_[at] = std::sqrt(variance * std::max(0.0, fixed));
       centres_[at] = step[j] + slopes_[at] * (best - step[last]);
     }
@@ -171,16 +184,15 @@ std::optional<UnseenRange> unseen_friction(const JointModel& model, const Relaxa
                                            const Estimate& estimate) {
   if (!estimate.outcome.ok() || !estimate.interval95) return std::nullopt;
   const JointModel& here = tests.relaxed ? *tests.relaxed : model;
-  Numbers taken;
+  Taken taken;
   for (const FoundDeparture& departure : tests.departures) taken.push_back(departure.explanations.front().index);
   UnseenRange range{.ends = *estimate.interval95};
   const double freedom = static_cast<double>(here.base.rows() - here.base.cols() - 1) - here.spent;
-  const double quantile =
-      quantile95(std::max(1.0, std::min(here.is_stated ? known_freedom : freedom, here.scale_freedom)));
+  const double quantile = quantile_of(here, freedom);
   for (const RelaxationTest& test : tests.tests) {
     const Relaxation& relaxation = here.relaxations[test.index];
     if (!is_of_friction(relaxation.assumption)) continue;
-    Numbers further = taken;
+    Taken further = taken;
     further.push_back(test.index);
     const FreedTerm freed(here, further, quantile, relaxation.sign);
     if (!freed.is_possible()) continue;

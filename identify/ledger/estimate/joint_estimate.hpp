@@ -28,8 +28,7 @@ namespace dualdamp::identify {
 [[nodiscard]] bool is_nearly_seen(const JointModel& model, const RelaxationTest& test);
 
 /// The fit of the joint model with these relaxations free beside the base parameters.
-[[nodiscard]] Estimate joint_estimate(const JointModel& model, const std::vector<std::size_t>& relaxed,
-                                      std::string basis);
+[[nodiscard]] Estimate joint_estimate(const JointModel& model, const Taken& relaxed, std::string basis);
 
 /// The estimate with the best explanation of each departure relaxed. If other relaxations explain a departure as
 /// well, or a term of friction is nearly seen, the intervals are extended to cover the estimates with those.

@@ -173,7 +173,7 @@ bool find_covariance(SeverityFit& fit) {
 }
 
 /// What the smooth curve leaves of the residuals of each channel, from residuals over `noise`.
-ChannelNoise noise_of(const ReadingModel& model, const ChannelNoise& noise, const VectorXd& residuals) {
+ChannelNoise channel_noise(const ReadingModel& model, const ChannelNoise& noise, const VectorXd& residuals) {
   ChannelNoise found = noise;
   found.freedom = std::numeric_limits<double>::infinity();
   double freedom = 0.0;
@@ -189,7 +189,7 @@ ChannelNoise noise_of(const ReadingModel& model, const ChannelNoise& noise, cons
     if (rows.empty()) continue;
     const MatrixXd curve = model.smooth_curve()(rows, Eigen::all);
     const VectorXd own = residuals(rows);
-    const VectorXd left = own - curve * pivoted_least_squares(curve, own);
+    const VectorXd left = left_beside(curve, own);
     Index rank = 0;
     for (Index j = 0; j < curve.cols(); ++j) rank += curve.col(j).isZero(0.0) ? 0 : 1;
     if (channel > 0 && own.size() <= rank) {
@@ -311,7 +311,7 @@ std::optional<PlainFit> plain_fit(const ReadingModel& model) {
     if (!fit) return std::nullopt;
     start.unknowns = fit->unknowns;
     plain.fit = *fit;
-    plain.noise = noise_of(model, plain.noise, fit->residuals.head(model.readings().size()));
+    plain.noise = channel_noise(model, plain.noise, fit->residuals.head(model.readings().size()));
   }
   const std::optional<SeverityFit> fit = fit_law(model, {}, plain.noise, start, *near);
   if (!fit) return std::nullopt;

@@ -207,12 +207,15 @@ TEST_CASE("Extremes with exact times show quadratic drag, and nothing where fric
   const RelaxationTests found = test_relaxations(joint);
   CHECK(found.departures.empty());
   // Noise of the extremes limits the test of friction over speed, however exact the times are.
+  int checked = 0;
   for (const RelaxationTest& test : found.tests) {
     if (joint.relaxations[test.index].assumption != Assumption::friction_velocity) continue;
     CAPTURE(joint.relaxations[test.index].test);
     CHECK(test.zeta_blind > 1e-3 * joint.value.zeta);
     CHECK(test.zeta_blind < 1.0 * joint.value.zeta);
+    ++checked;
   }
+  CHECK(checked >= 1);
 }
 
 TEST_CASE("Times of a coarse clock are no departure, and still tell a stiffness that is far off") {
@@ -231,8 +234,8 @@ TEST_CASE("The noise of a coarse converter is that of its steps, though most dif
     coarse.push_back(step * std::round(std::sin(2e-4 * std::numbers::pi * i) / step));
     drive.push_back(i / 1000 % 2 == 0 ? 1.0 : -1.0);
   }
-  CHECK(noise_of(coarse) == Approx(step / std::sqrt(12.0)).epsilon(1e-6));
-  CHECK(noise_of(drive) == 0.0);  // a drive that switches: its step is not that of a converter
+  CHECK(sensor_noise_of(coarse) == Approx(step / std::sqrt(12.0)).epsilon(1e-6));
+  CHECK(sensor_noise_of(drive) == 0.0);  // a drive that switches: its step is not that of a converter
 }
 
 TEST_CASE("Where a term of friction is nearly seen the intervals reach over the estimate with it free") {
