@@ -8,6 +8,9 @@
 ///
 /// with L twice the lag at which the correlation of the residuals has fallen to that of chance. The number of
 /// residuals that count as independent is N/(1 + 2 sum (1 - l/(L+1)) rho_l).
+///
+/// This one solves a regression whose rows are all samples. residual_covariance.hpp is for a fit that is solved
+/// elsewhere and reads several signals, each with a correlation of its own, or none.
 
 #include <Eigen/Core>
 #include <optional>

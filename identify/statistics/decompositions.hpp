@@ -1,5 +1,6 @@
 #pragma once
-/// Linear algebra by Eigen's decompositions, in one translation unit, because each takes seconds to compile.
+/// Linear algebra by Eigen's decompositions, in one translation unit, because each takes seconds to compile. A
+/// decomposition whose factors are used again, or whose right-hand side is a matrix, stands where it is used.
 
 #include <Eigen/Core>
 #include <optional>

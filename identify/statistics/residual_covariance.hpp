@@ -4,7 +4,8 @@
 ///   (J^T J)^-1 [ sum over signals, lags l of w_l c_l (J_t^T J_(t+l) + its transpose) ] (J^T J)^-1
 ///
 /// c_l: autocovariance of the signal's residuals, w_l: Bartlett's weights (newey1987). Readings that are not
-/// samples are taken as independent.
+/// samples are taken as independent. correlated_regression.hpp solves a regression of samples and gives its
+/// covariance at once, with the products of residuals and rows in place of c_l.
 
 #include <Eigen/Core>
 #include <vector>
