@@ -82,6 +82,8 @@ class OrbitFinder {
   [[nodiscard]] std::optional<SteadyState> mirror_image(const SteadyState& of, OrbitSolver& solver);
   void add_mirror_images(SteadyState& result);
   void warn_of_distance(const ForcingPeriod& period, SteadyState& result);
+  [[nodiscard]] double error_of_steps(const Orbit& orbit);
+  void warn_of_steps(const Orbit& orbit, SteadyState& result);
 
   const Model& model_;
   SteadyStateOptions options_;
@@ -233,21 +235,56 @@ void OrbitFinder::add_mirror_images(SteadyState& result) {
   searched_ += solver.count();
 }
 
+/// "3 %", for a distance relative to the size of the motion.
+std::string share_of_size(double distance) {
+  constexpr double all = 100.0;
+  return distance < 1.0 ? core::format_number(all * distance, 1) + " %" : "more than its size";
+}
+
+/// Relative error of a steady state above which a warning states it.
+constexpr double least_warned = 1e-4;
+
 /// Under weak damping a motion closes within the tolerance long before it has reached its orbit. What is left to
 /// it, and what errors of steps add up to, is measured by the monodromy matrix.
 void OrbitFinder::warn_of_distance(const ForcingPeriod& period, SteadyState& result) {
   constexpr double usual = 1e-9;
-  constexpr double least_warned = 1e-4;
   const double rest = 1.0 - period.radius();
   if (options_.tolerance <= usual || !(rest > neutral_margin)) return;
   double distance = std::max(correction_left(period, model_.excitation.frequency), map_.engine().accuracy() / rest);
   if (!(distance > least_warned)) return;
-  constexpr double all = 100.0;
   result.warnings.emplace_back(
-      "the steady state may be off by " +
-      (distance < 1.0 ? core::format_number(all * distance, 1) + " %" : std::string("more than its size")) +
+      "the steady state may be off by " + share_of_size(distance) +
       ": at this tolerance a motion counts as closed while it is still that far from it; a smaller "
       "'numerics.tolerance' finds it more exactly");
+}
+
+/// How far the period of the orbit moves if its steps are computed ten times as exactly, relative to its size. A
+/// creep may multiply an error of a step by 1e8, and a later stick erase it, so that the monodromy matrix of the
+/// whole period does not show it.
+double OrbitFinder::error_of_steps(const Orbit& orbit) {
+  constexpr double finer = 0.1;
+  Model model = model_;
+  model.solver.tolerance *= finer;
+  PeriodMap map(model, orbit.period_ratio);
+  map.limit(patience_with(map.engine().accuracy(), options_.most_work).work);
+  const ForcingPeriod again = map.from(orbit.period.begin, Monodromy::without);
+  searched_ += map.engine().count();
+  if (!map.outcome().ok()) return 0.0;  // the motion itself is known; it is this check that takes too long
+  const ForcingPeriod& period = orbit.period;
+  const double omega = model_.excitation.frequency;
+  return std::max({std::abs(again.peak - period.peak), std::abs(again.trough - period.trough),
+                   std::abs(again.end.x - period.end.x), std::abs(again.end.v - period.end.v) / omega}) /
+         period.size;
+}
+
+void OrbitFinder::warn_of_steps(const Orbit& orbit, SteadyState& result) {
+  const bool is_exact = map_.engine().accuracy() == 0.0;
+  if (is_exact || !orbit.period.moves || !(options_.full_account || orbit.period_ratio > 1)) return;
+  const double error = error_of_steps(orbit);
+  if (!(error > least_warned)) return;
+  result.warnings.emplace_back("the steady state may be off by " + share_of_size(error) +
+                               ": with a tenth of 'numerics.tolerance' its period differs by that, because errors "
+                               "of steps grow within it");
 }
 
 void OrbitFinder::find(SteadyState& result) {
@@ -278,6 +315,7 @@ void OrbitFinder::find(SteadyState& result) {
   if (has_past) return;
   result.multipliers = orbit->period.multipliers();
   warn_of_distance(orbit->period, result);
+  warn_of_steps(*orbit, result);
 }
 
 }  // namespace

@@ -26,7 +26,8 @@ const double natural = std::sqrt(stiffness / mass);
 
 /// Laws whose fits take most of the time. The tests that leave them out do not speak of them.
 const std::vector<std::string> slow_laws = {
-    "bouc_wen", "elasto_plastic", "friction_lag", "generalized_maxwell_slip", "lugre", "normal_vibration"};
+    "bouc_wen", "dahl",  "elasto_plastic",  "friction_lag", "generalized_maxwell_slip",
+    "iwan",     "lugre", "normal_vibration"};
 
 /// Eight amplitudes, without phases, of a rig with a compliant contact; at resonance, or spread over `spread` of
 /// the frequency about it. `noise`: over the amplitude in the middle.
@@ -101,7 +102,8 @@ TEST_CASE(
 
 TEST_CASE("design: no measurement is expected to widen the ranges, however different the laws fit the record") {
   // The paper's points: a film fits far better than the contacts that are allowed beside it.
-  const auto found = design_after(pairs(subset_trend), soft_spring, {}, {.largest_severity = 1.0});
+  const auto found =
+      design_after(pairs(subset_trend), soft_spring, {}, {.largest_severity = 1.0, .without = slow_laws});
   REQUIRE(std::holds_alternative<Design>(found));
   const Design& design = std::get<Design>(found);
   constexpr double rounding = 1.01;
