@@ -9,6 +9,7 @@
 #include "core/cancellation.hpp"
 #include "core/numbers.hpp"
 #include "sim/engine/exact_engine.hpp"
+#include "sim/engine/law_name.hpp"
 #include "sim/engine/smooth_engine.hpp"
 #include "sim/validate.hpp"
 #include "sim/work_limit.hpp"
@@ -241,18 +242,11 @@ EventKind Engine::act_on_schedule(double due) {
   return after_change();
 }
 
-std::string Engine::name_in_list(std::size_t law) const {
-  const std::string place =
-      model_.friction.size() == 1 ? "friction" : "item " + std::to_string(law + 1) + " of system.friction";
-  const std::string_view name = model_.friction[law].name();
-  return name.empty() ? place : place + " (law '" + std::string(name) + "' of a plugin)";
-}
-
 bool Engine::comes_to_an_end(bool takes_no_time) {
   repeats_ = takes_no_time ? repeats_ + 1 : 0;
   if (repeats_ <= max_repeats * std::max(1, static_cast<int>(model_.friction.size()))) return true;
   const std::string changes = changed_last_ < model_.friction.size()
-                                  ? "the mode changes of " + name_in_list(changed_last_)
+                                  ? "the mode changes of " + name_in_list(model_, changed_last_)
                                   : "a friction law's mode changes";
   outcome_ = {core::OutcomeKind::jump_cycle,
               changes + " did not come to an end at t = " + std::to_string(time()) + " s"};

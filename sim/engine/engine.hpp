@@ -15,12 +15,12 @@
 #include <limits>
 #include <memory>
 #include <string>
-#include <variant>
 #include <vector>
 
 #include "core/crossing/search_result.hpp"
 #include "core/outcome.hpp"
 #include "sim/engine/drive.hpp"
+#include "sim/engine/ending.hpp"
 #include "sim/engine/interval.hpp"
 #include "sim/engine/state.hpp"
 #include "sim/model.hpp"
@@ -83,24 +83,6 @@ class Engine {
   [[nodiscard]] virtual Eigen::MatrixXd sensitivity() const = 0;
 
  protected:
-  /// A slip ends: the velocity reaches zero.
-  struct SlipEnd {};
-  /// A stick ends: the pull exceeds the static limits in this direction.
-  struct StickEnd {
-    friction::Direction release = friction::Direction::forward;
-  };
-  /// A law changes its mode: one of its own guards reaches zero.
-  struct LawGuard {
-    std::size_t law = 0;
-    int guard = 0;  ///< index among the law's own guards
-  };
-  /// The event at which a guard ends the interval.
-  using Ending = std::variant<SlipEnd, StickEnd, LawGuard>;
-  template <class E>
-  [[nodiscard]] static bool is(const Ending& ending) {
-    return std::holds_alternative<E>(ending);
-  }
-
   /// One interval, at most `left` [s] long; `to_period_end`: `left` ends exactly at a period boundary.
   [[nodiscard]] virtual const Interval* step(double left, bool to_period_end) = 0;
   /// At the end of a slip: sets the direction to none (stick) or to that of the next slip.
@@ -125,8 +107,6 @@ class Engine {
   EventKind act_on_schedule(double due);
   EventKind after_change();
   [[nodiscard]] double next_schedule() const;
-  /// Words for a law: its place in system.friction, and its name if it is from a plugin.
-  [[nodiscard]] std::string name_in_list(std::size_t law) const;
   /// Counts events in a row that take no time. False, and an outcome is set, if they do not come to an end.
   [[nodiscard]] bool comes_to_an_end(bool takes_no_time);
   /// Whether the motion is so large that values within an interval may leave the range of double precision; sets an

@@ -38,6 +38,10 @@ class Flow final : public VectorField {
   /// Sets the sizes of x [m] and v [m/s]; increments of differences are small parts of them.
   void set_scales(double x, double v);
 
+  [[nodiscard]] friction::Direction direction() const { return direction_; }
+  /// The absolute time at the local time t [s].
+  [[nodiscard]] double time(double t) const { return offset_ + t; }
+
   [[nodiscard]] std::size_t size() const override { return size_; }
   void evaluate(std::span<const double> X, double t, std::span<double> rates) const override;
   void jacobian(std::span<const double> X, double t, std::span<double> columns) const override;

@@ -67,6 +67,7 @@ SmoothEngine::SmoothEngine(const Model& model)
     : Engine(model),
       flow_(model, drive_, past_),
       judge_(model, drive_, past_),
+      search_(model_, flow_),
       interval_(std::make_unique<StepInterval>(*this)) {
   for (const friction::Law& law : model_.friction) reach_ = std::max(reach_, law.delay());
   is_implicit_ = model.solver.kind == SolverKind::implicit_steps;
@@ -96,7 +97,7 @@ void SmoothEngine::begin_motion() {
   h_ = 0.0;
   x_scale_ = 0.0;
   counted_to_ = 0.0;
-  landing_ = {};
+  search_.forget_landing();
   follows_event_ = false;
   if (tracking_) reset_sensitivity();
 }
@@ -134,7 +135,17 @@ void SmoothEngine::build_interval() {
   end_.resize(X_.size());
   error_.resize(X_.size());
   rates_.resize(X_.size());
-  build_watches();
+  search_.begin_interval(X_, local_time_, drive_.force_scale());
+}
+
+SmoothStep SmoothEngine::last_step() const {
+  return {.flow = flow_,
+          .stepper = *stepper_,
+          .begin = X_,
+          .end = end_,
+          .t = local_time_,
+          .length = taken_,
+          .longest = longest_step()};
 }
 
 /// Local errors allowed in each component.
@@ -293,31 +304,31 @@ bool SmoothEngine::advance(double left) {
 }
 
 /// One step that ends at an event or before it.
-bool SmoothEngine::move(double left, Hit& hit, bool& found) {
+bool SmoothEngine::move(double left, std::optional<Hit>& hit) {
   for (int i = 0; i < max_rejections; ++i) {
     if (!advance(left)) return false;
     ++count_.searches;
-    count_.panels += static_cast<long>(points) - 1;
-    const double whole = taken_;
-    grazings_.clear();
-    found = find_hit(hit);
-    if (found && !is_implicit_ && ends_against_flow(hit)) {
+    count_.panels += EventSearch::panels;
+    const SmoothStep whole = last_step();
+    hit = search_.find(whole);
+    if (hit && !is_implicit_ && search_.ends_against_flow(*hit, whole)) {
       // Where explicit steps are asked for by name shorter ones follow the creep, or say that they are too many.
-      h_ = use_implicit_steps() ? 0.0 : 0.25 * whole;
+      h_ = use_implicit_steps() ? 0.0 : 0.25 * whole.length;
       continue;
     }
-    if (found && may_be_swing_of_output(hit)) {
-      h_ = 0.25 * whole;
+    if (hit && search_.may_be_swing_of_output(*hit, whole)) {
+      h_ = 0.25 * whole.length;
       continue;
     }
-    if (!found || land(hit)) {
-      if (passes_over_turn(found && is<SlipEnd>(watches_[hit.watch].ending))) continue;
+    if (!hit || land(*hit)) {
+      if (passes_over_turn(hit && is<SlipEnd>(search_.guards().ending(hit->guard)))) continue;
       // Beyond the event nothing grazed.
+      grazings_ = search_.grazings();
       std::erase_if(grazings_, [&](const core::Grazing& grazing) { return grazing.s > taken_; });
       count_.grazings += static_cast<long>(grazings_.size());
       return true;
     }
-    h_ = 0.5 * hit.part * whole;
+    h_ = 0.5 * hit->part * whole.length;
   }
   outcome_ = {core::OutcomeKind::not_finite,
               "an event at t = " + std::to_string(time()) + " s could not be located"};
@@ -332,39 +343,38 @@ const Interval* SmoothEngine::step(double left, bool to_period_end) {
   grazings_.clear();
   changes_.clear();
   build_interval();
-  Hit hit;
-  const bool at_once = find_violated(hit);
-  bool found = at_once;
   taken_ = 0.0;
   end_ = X_;
+  std::optional<Hit> hit = search_.find_violated(last_step());
+  const bool at_once = hit.has_value();
   if (!at_once && left > 0.0) {
-    landing_ = {};
-    if (!move(left, hit, found)) return nullptr;
-    if (found) note_landing(hit);
+    search_.forget_landing();
+    if (!move(left, hit)) return nullptr;
+    if (hit) search_.note_landing(*hit, last_step());
   }
   if (!comes_to_an_end(taken_ == 0.0)) return nullptr;
-  const bool is_over = !found && taken_ == left;
+  const bool is_over = !hit && taken_ == left;
   describe_step();
   if (tracking_) {
     track_step();
-    if (found && (!at_once || coincides(hit))) {
-      carry_to_event(hit.watch);
+    if (hit && (!at_once || search_.coincides(*hit, last_step()))) {
+      carry_to_event(hit->guard);
     } else if ((is_over && by_schedule) || (at_once && !follows_event_)) {
       // A guard that an interval finds violated at its begin was not crossed: nothing delays that.
       drop_lead();
     }
   }
-  follows_event_ = found || (is_over && by_schedule);
+  follows_event_ = hit || (is_over && by_schedule);
   if (follows_event_) course_.length = 0.0;
-  const Ending ending = found ? watches_[hit.watch].ending : Ending{};
-  take_over(found && is<SlipEnd>(ending));
+  const Ending ending = hit ? search_.guards().ending(hit->guard) : Ending{};
+  take_over(hit && is<SlipEnd>(ending));
   pass_time(to_period_end && is_over && !by_schedule);
   if (leaves_range()) return nullptr;
   if (!follows_event_) {
-    if (has_faded()) is_laid_ = false;
+    if (search_.has_faded()) is_laid_ = false;
     return interval_.get();
   }
-  if (found) {
+  if (hit) {
     ended_at_once_ = !at_once && taken_ == 0.0 && is<SlipEnd>(ending);
     interval_->ending = act(ending);
     ended_at_once_ = false;

@@ -5,28 +5,25 @@
 /// every step and a step may overrun the event that ends it. Steps are those of DOP853; once these are limited
 /// by stability instead of accuracy, of Radau IIA for the rest of the motion (`stepper.hpp`).
 ///
-/// Events. Guards are watched on the dense output of each step: at four points, where a parabola through them
-///   dips to zero, and where they fall into the step from its begin or rise out of it at its end. Sides are frozen
-///   as in the exact engine. The step is then repeated so that it ends at the event, which is so known to the
-///   accuracy of a step's end. Nothing proves here that a guard did not cross twice between two of those points;
-///   where every law is affine the exact engine does.
-/// Rounding. A velocity within `resolution` of zero has not changed its sign: bristles that ring down to rounding
-///   make no events.
-/// Derivatives. The variational equation along the dense output of each step (`variation.hpp`); events add the
+/// Events. A guard that crosses on a step is found on its dense output (`smooth/event_search.hpp`). The step is
+/// then repeated so that it ends at the event, which is so known to the accuracy of a step's end. Derivatives. The
+/// variational equation along the dense output of each step (`variation.hpp`); events add the
 ///   saltation matrix. It is the derivative of the motion, whatever the law and the stepper; over a period it
 ///   agrees with the exact engine's to 1e-7.
 ///
 /// Cost: for a law with one state about 1 us a step of Radau IIA, the same for one of DOP853, and the watch of the
 /// guards.
 
-#include <array>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "sim/engine/engine.hpp"
 #include "sim/engine/flow.hpp"
+#include "sim/engine/smooth/event_search.hpp"
+#include "sim/engine/smooth/smooth_step.hpp"
 #include "sim/engine/velocity_history.hpp"
 #include "sim/steppers/stepper.hpp"
 
@@ -50,28 +47,9 @@ class SmoothEngine final : public Engine {
 
  private:
   class StepInterval;
-  static constexpr std::size_t points = 5;
   static constexpr const char* ran_away =
       "the mass is far beyond the place from which a softening spring pushes outward";
-  /// A guard of the present interval, and its values at 0, 1/4, ..., 1 of the step taken last.
-  struct Watch {
-    Ending ending;
-    std::array<double, points> values{};
-    double scale = 0.0;  ///< its size, to judge rounding by
-    double reach = 0.0;  ///< of a law: what the sizes of x, v and the states make of it
-    double parts = 0.0;  ///< of a law: what cancels in it at the begin of the interval
-  };
-  /// A guard that has crossed, and at which part of the step.
-  struct Hit {
-    std::size_t watch = 0;
-    double part = 1.0;
-  };
-  /// How well the step before the present interval knows when the law changed its mode there. In time: a law's
-  /// guards are forces in one mode and speeds in another.
-  struct Landing {
-    std::size_t law = 0;
-    double error = 0.0;  ///< s
-  };
+  using Hit = EventSearch::Hit;
   /// A mode change, for its derivative.
   struct Change {
     std::size_t law;
@@ -111,43 +89,17 @@ class SmoothEngine final : public Engine {
   [[nodiscard]] std::string too_fast() const;
   [[nodiscard]] std::string infinite_force();
   [[nodiscard]] bool advance(double left);
+  [[nodiscard]] bool move(double left, std::optional<Hit>& hit);
+  [[nodiscard]] bool land(const Hit& hit);
+  [[nodiscard]] bool hides_turn(bool at_end);
+  [[nodiscard]] bool passes_over_turn(bool at_stop);
+  [[nodiscard]] SmoothStep last_step() const;
   [[nodiscard]] bool begins_stiff();
   void notice_stiffness();
   [[nodiscard]] bool use_implicit_steps();
   void describe_step();
   void take_over(bool at_slip_end);
   void pass_time(bool to_period_end);
-
-  // Events.
-  void build_watches();
-  void size_up_guards();
-  void evaluate_guards(std::span<const double> X, double t, std::vector<double>& values) const;
-  [[nodiscard]] double guard(std::size_t watch, double part) const;
-  [[nodiscard]] double guard_rate(std::size_t watch, std::span<const double> X, double t, double length) const;
-  void note_landing(const Hit& hit);
-  [[nodiscard]] double level_at_start(const Watch& watch) const;
-  [[nodiscard]] double landing_error(const Watch& watch) const;
-  [[nodiscard]] bool is_clearly_positive(const Watch& watch, double value) const;
-  [[nodiscard]] bool goes_negative(std::size_t watch, double value, double level) const;
-  [[nodiscard]] bool find_violated(Hit& hit) const;
-  [[nodiscard]] bool coincides(const Hit& hit) const;
-  [[nodiscard]] bool find_hit(Hit& hit);
-  [[nodiscard]] bool has_faded() const;
-  [[nodiscard]] double first_negative(std::size_t watch);
-  /// Three points of the last step, as parts of it, and a guard there: the lowest in the middle.
-  struct Triple {
-    std::array<double, 3> at{};
-    std::array<double, 3> value{};
-  };
-  [[nodiscard]] double dip(std::size_t watch, Triple around);
-  [[nodiscard]] bool falls_at_edge(std::size_t watch, std::size_t edge, Triple& around) const;
-  [[nodiscard]] double crossing(std::size_t watch, double before, double negative) const;
-  [[nodiscard]] bool ends_against_flow(const Hit& hit) const;
-  [[nodiscard]] bool may_be_swing_of_output(const Hit& hit) const;
-  [[nodiscard]] bool land(const Hit& hit);
-  [[nodiscard]] bool hides_turn(bool at_end);
-  [[nodiscard]] bool passes_over_turn(bool at_stop);
-  [[nodiscard]] bool move(double left, Hit& hit, bool& found);
 
   // Derivatives.
   void note_course();
@@ -169,27 +121,25 @@ class SmoothEngine final : public Engine {
   VelocityHistory past_;
   Flow flow_;   ///< of the present interval
   Flow judge_;  ///< of the instant of an event
+  EventSearch search_;
   std::unique_ptr<Stepper> stepper_;
   bool is_implicit_ = false;
   StiffSteps stiff_steps_;
   double reach_ = 0.0;       ///< longest delay of a law [s]
   double x_scale_ = 0.0;     ///< m
-  bool is_laid_ = false;     ///< flow_ and watches_ are those of the present interval
+  bool is_laid_ = false;     ///< flow_ and search_ are those of the present interval
   double h_ = 0.0;           ///< proposed next step [s]; 0: none
   double counted_to_ = 0.0;  ///< time up to which steps_ counts [s]
   long steps_ = 0;
-  double stood_at_ = 0.0;  ///< time of the last step [s]
-  long standing_ = 0;      ///< steps since then that took no time, to rounding
-  double taken_ = 0.0;     ///< length of the step taken last [s]
-  Landing landing_;
+  double stood_at_ = 0.0;       ///< time of the last step [s]
+  long standing_ = 0;           ///< steps since then that took no time, to rounding
+  double taken_ = 0.0;          ///< length of the step taken last [s]
   bool ended_at_once_ = false;  ///< a slip that began at v = 0 and never moved in its direction
   std::vector<double> breaks_;  ///< local times at which a delayed velocity has a kink [s]
   std::vector<double> X_;
   std::vector<double> end_;
   std::vector<double> error_;
   std::vector<double> allowed_;
-  std::vector<Watch> watches_;
-  mutable std::vector<double> guard_values_;
   mutable std::vector<double> probe_;
   mutable std::vector<double> rates_;
 

@@ -159,11 +159,7 @@ void SmoothEngine::drop_lead() {
 Eigen::RowVectorXd SmoothEngine::guard_gradient(std::size_t watch, double t, double& by_time) const {
   Eigen::RowVectorXd gradient(columns_.rows());
   std::vector<double> displaced = end_;
-  std::vector<double> values;
-  const auto value = [&](double at) {
-    evaluate_guards(displaced, at, values);
-    return values[watch];
-  };
+  const auto value = [&](double at) { return search_.guards().value(watch, displaced, at); };
   for (std::size_t k = 0; k < end_.size(); ++k) {
     const double step = displacement * std::max(flow_.scales()[k], least_size * std::abs(end_[k]));
     displaced[k] = end_[k] + step;
@@ -181,7 +177,7 @@ Eigen::RowVectorXd SmoothEngine::guard_gradient(std::size_t watch, double t, dou
 /// crossing no nearer as far as the guard changes with time alone.
 void SmoothEngine::carry_to_event(std::size_t watch) {
   const double t = local_time_ + taken_;
-  const double rate = guard_rate(watch, end_, t, taken_ > 0.0 ? taken_ : longest_step());
+  const double rate = search_.guards().rate(watch, end_, t, taken_ > 0.0 ? taken_ : longest_step());
   // A guard that only touches zero has no crossing to shift.
   if (rate == 0.0) return drop_lead();
   double by_time = 0.0;
@@ -190,7 +186,7 @@ void SmoothEngine::carry_to_event(std::size_t watch) {
   flow_.evaluate(end_, t, rates_);
   columns_ += as_vector(rates_) * ahead;
   lead_ -= ahead;
-  if (is<LawGuard>(watches_[watch].ending)) mode_lead_ = {-ahead, as_vector(rates_)};
+  if (is<LawGuard>(search_.guards().ending(watch))) mode_lead_ = {-ahead, as_vector(rates_)};
 }
 
 /// Sizes of a law's states, as `Flow` has them.

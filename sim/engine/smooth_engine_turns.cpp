@@ -8,7 +8,9 @@
 #include "core/constants.hpp"
 #include "core/numbers.hpp"
 #include "sim/engine/eigenvalues.hpp"
+#include "sim/engine/law_name.hpp"
 #include "sim/engine/smooth_engine.hpp"
+#include "sim/engine/sticking_gate.hpp"
 
 namespace dualdamp::sim {
 
@@ -39,6 +41,10 @@ constexpr long max_standing = 3'000;
 /// as this, a vibration is soon gone.
 constexpr double many_swings = 1'000.0;
 constexpr double soon_gone = 0.01;
+
+/// Steps to a crossing, and the last correction of their length, as a part of it, where Newton's method converges.
+constexpr int most_corrections = 5;
+constexpr double settled = 1e-6;
 
 }  // namespace
 
@@ -150,25 +156,76 @@ std::string SmoothEngine::infinite_force() {
     for (std::size_t i = 0; i < memories.size(); ++i) {
       if (!std::isfinite(there.v) || std::isfinite(model_.friction[i].force(memories[i], there, direction_)))
         continue;
-      return ": the force of " + name_in_list(i) + " is not finite at x = " + core::format_number(there.x, 6) +
-             " " + model_.unit("m") + ", v = " + core::format_number(there.v, 6) + " " + model_.unit("m/s");
+      return ": the force of " + name_in_list(model_, i) +
+             " is not finite at x = " + core::format_number(there.x, 6) + " " + model_.unit("m") +
+             ", v = " + core::format_number(there.v, 6) + " " + model_.unit("m/s");
     }
   }
   return {};
 }
 
-/// Whether a slip is found to end where the equation of motion drives the mass on: friction that turns over within
-/// a speed far below the step's reach, so that an explicit step passes over the creep at which the forces balance.
-bool SmoothEngine::ends_against_flow(const Hit& hit) const {
-  if (!is<SlipEnd>(watches_[hit.watch].ending)) return false;
-  constexpr double clear = 1e-6;
-  flow_.evaluate(X_, local_time_, rates_);
-  const double before = std::abs(rates_[1]);
-  probe_.resize(end_.size());
-  stepper_->at(hit.part, probe_);
-  probe_[1] = 0.0;
-  flow_.evaluate(probe_, local_time_ + hit.part * taken_, rates_);
-  return friction::sign(direction_) * rates_[1] > clear * before;
+/// Repeats the step so that it ends at the crossing, and corrects its length by Newton's method. False: the shorter
+/// step is not accurate; an implicit step that overran the crossing may have computed what only lies beyond it.
+bool SmoothEngine::land(const Hit& hit) {
+  const double whole = taken_;
+  double h = hit.part * whole;
+  if (h < EventSearch::shortest_part * longest_step()) {
+    taken_ = 0.0;
+    end_ = X_;
+    return true;
+  }
+  const double zero = search_.zero(hit.guard, allowed_[1]);
+  for (int i = 0;; ++i) {
+    if (!stepper_->step(flow_, X_, local_time_, h, allowed_, end_, error_) || excess_error() > 1.0) return false;
+    taken_ = h;
+    const double value = search_.guards().value(hit.guard, end_, local_time_ + h);
+    if (std::abs(value) <= zero) return true;
+    const double correction = -value / search_.guards().rate(hit.guard, end_, local_time_ + h, h);
+    const bool is_within_reach = std::abs(correction) < 0.1 * h;
+    if (std::abs(correction) < 1e-16 * whole || (i == 0 && !is_within_reach)) return true;
+    // Of a state that has died out, explicit steps at the limit of stability leave only their own swinging: its
+    // zero recedes from each correction, past the crossings of other guards.
+    if (i == most_corrections - 1 || !is_within_reach) return std::abs(correction) < settled * h;
+    h += correction;
+  }
+}
+
+/// Where a slip ends. Where the pull equals the limit within rounding, what both do next decides.
+void SmoothEngine::settle() {
+  using friction::Direction;
+  const Direction slipped = direction_;
+  change_direction(Direction::none);
+  judge_.freeze(memories_, Direction::none, time() - local_time_);
+  std::vector<double> X;
+  judge_.gather(x_, 0.0, memories_, X);
+  std::vector<double> rates(X.size());
+  judge_.evaluate(X, local_time_, rates);
+  const double pull = judge_.pull(X, local_time_);
+  const double limit = judge_.limit(X, local_time_);
+  const double parts = drive_.force_scale() + limit + model_.oscillator.stiffness * std::abs(x_);
+  const double tolerance = Guards::equal * parts;
+  const auto at_limit = [&] {
+    double pull_then = pull;
+    double limit_then = limit;
+    for (const double part : {1e-6, 1e-4, 1e-2}) {
+      const double later = part * longest_step();
+      probe_ = X;
+      for (std::size_t k = 2; k < probe_.size(); ++k) probe_[k] += later * rates[k];
+      pull_then = judge_.pull(probe_, local_time_ + later);
+      limit_then = judge_.limit(probe_, local_time_ + later);
+      if (std::abs(std::abs(pull_then) - limit_then) > tolerance) break;
+    }
+    return direction_after_slip(pull_then, limit_then, tolerance, [&] {
+      if (can_stick_) return Direction::none;
+      // Without a law that holds it a mass that nothing moves slips, at no speed.
+      return pull_then < 0.0 ? Direction::backward : Direction::forward;
+    });
+  };
+  Direction direction = direction_after_slip(pull, limit, tolerance, at_limit);
+  // Creep below the rounding of the velocity shows only where it leads: not in this direction.
+  if (ended_at_once_ && limit == 0.0 && direction == slipped)
+    direction = slipped == Direction::forward ? Direction::backward : Direction::forward;
+  if (direction != Direction::none) change_direction(direction);
 }
 
 }  // namespace dualdamp::sim

@@ -1,0 +1,59 @@
+#pragma once
+/// The guards of one interval of the smooth engine, as functions of the state and of time. The interval ends where
+/// one of them goes negative:
+///
+///   end of a slip     s v                           s: sign of the direction
+///   end of a stick    limit - pull, limit + pull    if a law can hold the mass (sticking_gate.hpp)
+///   mode of a law     its own guards
+///
+/// Direction and modes are those for which the flow is frozen, for every state.
+
+#include <span>
+#include <vector>
+
+#include "sim/engine/ending.hpp"
+#include "sim/engine/flow.hpp"
+#include "sim/model.hpp"
+
+namespace dualdamp::sim {
+
+class Guards {
+ public:
+  /// Sums of forces within this part of their parts' sizes are equal.
+  static constexpr double equal = 1e-12;
+  /// The rate of a guard is a difference over this part of a step.
+  static constexpr double part_of_rate = 1e-5;
+
+  /// Both must outlive it.
+  Guards(const Model& model, const Flow& flow);
+
+  /// Lists the guards of the interval that begins at X and t [s], for which the flow is frozen.
+  void list(std::span<const double> X, double t);
+  [[nodiscard]] std::size_t size() const { return endings_.size(); }
+  [[nodiscard]] const Ending& ending(std::size_t guard) const { return endings_[guard]; }
+
+  /// Whether some law may have guards in some mode.
+  [[nodiscard]] bool may_be_of_laws() const { return some_memory_; }
+
+  /// Values of all guards, in the order of the list.
+  void evaluate(std::span<const double> X, double t, std::vector<double>& values) const;
+  /// One of them.
+  [[nodiscard]] double value(std::size_t guard, std::span<const double> X, double t) const;
+  /// The rate of a guard along the motion, by a central difference along the flow over a small part of `length`
+  /// [s].
+  [[nodiscard]] double rate(std::size_t guard, std::span<const double> X, double t, double length) const;
+
+ private:
+  const Model& model_;
+  const Flow& flow_;
+  std::vector<char> has_memory_;  ///< of each law
+  bool some_memory_ = false;
+  bool can_stick_ = false;  ///< some law has a static limit
+  std::vector<Ending> endings_;
+  // Scratch.
+  mutable std::vector<double> displaced_;
+  mutable std::vector<double> rates_;
+  mutable std::vector<double> values_;
+};
+
+}  // namespace dualdamp::sim
