@@ -5,7 +5,6 @@
 #include <string>
 
 #include "core/constants.hpp"
-#include "sim/engine/variation.hpp"
 
 namespace dualdamp::sim {
 
@@ -68,6 +67,7 @@ SmoothEngine::SmoothEngine(const Model& model)
       flow_(model, drive_, past_),
       judge_(model, drive_, past_),
       search_(model_, flow_),
+      derivative_(model_, drive_, past_, shortest_period()),
       interval_(std::make_unique<StepInterval>(*this)) {
   for (const friction::Law& law : model_.friction) reach_ = std::max(reach_, law.delay());
   is_implicit_ = model.solver.kind == SolverKind::implicit_steps;
@@ -85,7 +85,7 @@ State SmoothEngine::state() const {
 
 long SmoothEngine::work() const {
   constexpr long responses_in_unit = 8;
-  return Engine::work() + (flow_.responses() + judge_.responses()) / responses_in_unit + variation_work_ +
+  return Engine::work() + (flow_.responses() + judge_.responses()) / responses_in_unit + derivative_.work() +
          stepper_->operations() / operations_in_unit;
 }
 
@@ -136,6 +136,18 @@ void SmoothEngine::build_interval() {
   error_.resize(X_.size());
   rates_.resize(X_.size());
   search_.begin_interval(X_, local_time_, drive_.force_scale());
+}
+
+void SmoothEngine::reset_sensitivity() { derivative_.reset(memories_, direction_); }
+
+Eigen::MatrixXd SmoothEngine::sensitivity() const { return derivative_.matrix(present()); }
+
+void SmoothEngine::jumped(std::size_t law, const friction::Memory& before, friction::Trigger trigger) {
+  derivative_.note_change(law, before, trigger, direction_);
+}
+
+MotionDerivative::Present SmoothEngine::present() const {
+  return {.now = now(), .local_time = local_time_, .direction = direction_, .memories = memories_};
 }
 
 SmoothStep SmoothEngine::last_step() const {
@@ -341,7 +353,7 @@ const Interval* SmoothEngine::step(double left, bool to_period_end) {
   const bool by_schedule = due - time() < left;
   if (by_schedule) left = std::max(0.0, due - time());
   grazings_.clear();
-  changes_.clear();
+  derivative_.begin_interval();
   build_interval();
   taken_ = 0.0;
   end_ = X_;
@@ -356,16 +368,17 @@ const Interval* SmoothEngine::step(double left, bool to_period_end) {
   const bool is_over = !hit && taken_ == left;
   describe_step();
   if (tracking_) {
-    track_step();
-    if (hit && (!at_once || search_.coincides(*hit, last_step()))) {
-      carry_to_event(hit->guard);
+    const SmoothStep taken = last_step();
+    derivative_.pass(taken);
+    if (hit && (!at_once || search_.coincides(*hit, taken))) {
+      derivative_.enter(search_.guards(), hit->guard, taken);
     } else if ((is_over && by_schedule) || (at_once && !follows_event_)) {
       // A guard that an interval finds violated at its begin was not crossed: nothing delays that.
-      drop_lead();
+      derivative_.drop_lead(taken);
     }
   }
   follows_event_ = hit || (is_over && by_schedule);
-  if (follows_event_) course_.length = 0.0;
+  if (follows_event_) derivative_.forget_course();
   const Ending ending = hit ? search_.guards().ending(hit->guard) : Ending{};
   take_over(hit && is<SlipEnd>(ending));
   pass_time(to_period_end && is_over && !by_schedule);
@@ -381,7 +394,7 @@ const Interval* SmoothEngine::step(double left, bool to_period_end) {
   } else {
     interval_->ending = act_on_schedule(due);
   }
-  if (tracking_) carry_from_event();
+  if (tracking_) derivative_.leave(present(), flow_.scales());
   is_laid_ = false;
   h_ = 0.0;
   return interval_.get();

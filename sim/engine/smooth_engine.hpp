@@ -6,10 +6,9 @@
 /// by stability instead of accuracy, of Radau IIA for the rest of the motion (`stepper.hpp`).
 ///
 /// Events. A guard that crosses on a step is found on its dense output (`smooth/event_search.hpp`). The step is
-/// then repeated so that it ends at the event, which is so known to the accuracy of a step's end. Derivatives. The
-/// variational equation along the dense output of each step (`variation.hpp`); events add the
-///   saltation matrix. It is the derivative of the motion, whatever the law and the stepper; over a period it
-///   agrees with the exact engine's to 1e-7.
+/// then repeated so that it ends at the event, which is so known to the accuracy of a step's end.
+///
+/// Derivatives of the motion: `smooth/motion_derivative.hpp`.
 ///
 /// Cost: for a law with one state about 1 us a step of Radau IIA, the same for one of DOP853, and the watch of the
 /// guards.
@@ -23,13 +22,12 @@
 #include "sim/engine/engine.hpp"
 #include "sim/engine/flow.hpp"
 #include "sim/engine/smooth/event_search.hpp"
+#include "sim/engine/smooth/motion_derivative.hpp"
 #include "sim/engine/smooth/smooth_step.hpp"
 #include "sim/engine/velocity_history.hpp"
 #include "sim/steppers/stepper.hpp"
 
 namespace dualdamp::sim {
-
-class Variation;
 
 class SmoothEngine final : public Engine {
  public:
@@ -50,23 +48,6 @@ class SmoothEngine final : public Engine {
   static constexpr const char* ran_away =
       "the mass is far beyond the place from which a softening spring pushes outward";
   using Hit = EventSearch::Hit;
-  /// A mode change, for its derivative.
-  struct Change {
-    std::size_t law;
-    friction::Memory before;
-    friction::Trigger trigger;
-    friction::Direction direction;
-  };
-  /// What the crossing of a law's guard added to lead_, to be taken back behind it.
-  struct ModeLead {
-    Eigen::RowVectorXd time;  ///< of each column [s]; empty: there is none
-    Eigen::VectorXd rates_before;
-  };
-  /// How the motion goes on behind an implicit step, while the derivative is tracked.
-  struct Course {
-    std::vector<double> rates;  ///< by the step's polynomial
-    double length = 0.0;        ///< of the step [s]; 0: nothing is known
-  };
 
   [[nodiscard]] const Interval* step(double left, bool to_period_end) override;
   void settle() override;
@@ -94,6 +75,7 @@ class SmoothEngine final : public Engine {
   [[nodiscard]] bool hides_turn(bool at_end);
   [[nodiscard]] bool passes_over_turn(bool at_stop);
   [[nodiscard]] SmoothStep last_step() const;
+  [[nodiscard]] MotionDerivative::Present present() const;
   [[nodiscard]] bool begins_stiff();
   void notice_stiffness();
   [[nodiscard]] bool use_implicit_steps();
@@ -101,27 +83,11 @@ class SmoothEngine final : public Engine {
   void take_over(bool at_slip_end);
   void pass_time(bool to_period_end);
 
-  // Derivatives.
-  void note_course();
-  [[nodiscard]] static std::vector<double> own_paces(const Flow& flow, std::span<const double> X, double t);
-  void rates_of_motion(const Flow& flow, std::span<const double> X, double t, std::vector<double>& rates) const;
-  [[nodiscard]] Eigen::VectorXd rates_now() const;
-  void track_step();
-  [[nodiscard]] bool forgets_speed() const;
-  void lead_near_stop();
-  void drop_lead();
-  [[nodiscard]] Eigen::RowVectorXd guard_gradient(std::size_t watch, double t, double& by_time) const;
-  void carry_to_event(std::size_t watch);
-  void carry_from_event();
-  void carry_through_changes();
-  [[nodiscard]] std::vector<double> sizes_of(std::size_t law, const friction::Memory& memory) const;
-  [[nodiscard]] Eigen::VectorXd through(const Change& change, Eigen::Index column,
-                                        const Eigen::VectorXd& states) const;
-
   VelocityHistory past_;
   Flow flow_;   ///< of the present interval
   Flow judge_;  ///< of the instant of an event
   EventSearch search_;
+  MotionDerivative derivative_;
   std::unique_ptr<Stepper> stepper_;
   bool is_implicit_ = false;
   StiffSteps stiff_steps_;
@@ -134,6 +100,7 @@ class SmoothEngine final : public Engine {
   double stood_at_ = 0.0;       ///< time of the last step [s]
   long standing_ = 0;           ///< steps since then that took no time, to rounding
   double taken_ = 0.0;          ///< length of the step taken last [s]
+  bool follows_event_ = false;  ///< the present interval begins with an event
   bool ended_at_once_ = false;  ///< a slip that began at v = 0 and never moved in its direction
   std::vector<double> breaks_;  ///< local times at which a delayed velocity has a kink [s]
   std::vector<double> X_;
@@ -142,18 +109,6 @@ class SmoothEngine final : public Engine {
   std::vector<double> allowed_;
   mutable std::vector<double> probe_;
   mutable std::vector<double> rates_;
-
-  Eigen::MatrixXd columns_;
-  std::vector<Change> changes_;
-  Eigen::RowVectorXd lead_;  ///< of each column: the time by which its motion is ahead, beside columns_ [s]
-  ModeLead mode_lead_;
-  Course course_;
-  bool follows_event_ = false;
-  std::unique_ptr<Variation> variation_;
-  std::size_t variation_size_ = 0;
-  long variation_work_ = 0;
-  /// Operations of linear algebra in a unit of work.
-  static constexpr long operations_in_unit = 4000;
   std::unique_ptr<StepInterval> interval_;
 };
 

@@ -8,6 +8,9 @@
 
 namespace dualdamp::sim {
 
+/// Operations of linear algebra in a unit of work (Engine::work).
+inline constexpr long operations_in_unit = 4000;
+
 /// Valid until the next step. An interval that ends where it begins has a step of length 0, without dense output.
 struct SmoothStep {
   const Flow& flow;  ///< frozen for the interval
