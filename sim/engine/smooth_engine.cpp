@@ -4,7 +4,8 @@
 #include <cmath>
 #include <string>
 
-#include "core/constants.hpp"
+#include "sim/engine/smooth/reasons.hpp"
+#include "sim/engine/sticking_gate.hpp"
 
 namespace dualdamp::sim {
 
@@ -12,54 +13,41 @@ using friction::Direction;
 
 namespace {
 
-using core::infinity;
-
-/// Errors of a step change by at most these factors.
-constexpr double largest_growth = 5.0;
-constexpr double largest_cut = 0.1;
-/// The step after one whose equations were not solved.
-constexpr double unsolved_cut = 0.25;
-constexpr double safety = 0.9;
-
-/// Friction that acts within this part of the longest step is not even tried by explicit steps.
-constexpr double part_of_longest = 1e-3;
-
-/// A step is at most this part of the shortest period, so that five points show every minimum of a guard.
-constexpr double part_of_period = 0.125;
-
 /// Part of force/stiffness that counts as the size of a motion that has none yet.
 constexpr double small_motion = 1e-3;
 
-constexpr int max_rejections = 200;
+/// Steps to a crossing, and the last correction of their length, as a part of it, where Newton's method converges.
+constexpr int most_corrections = 5;
+constexpr double settled = 1e-6;
 
-/// Kinks of a delayed velocity pass on this often, each time one derivative higher.
-constexpr int echoes = 4;
+constexpr const char* ran_away = "the mass is far beyond the place from which a softening spring pushes outward";
 
 }  // namespace
 
 /// One step as an interval: the dense output of the stepper.
 class SmoothEngine::StepInterval final : public Interval {
  public:
-  explicit StepInterval(const SmoothEngine& engine) : engine_(engine) {}
+  StepInterval(const Steps& steps, const Flow& flow) : steps_(steps), flow_(flow) {}
 
   [[nodiscard]] Sample at(double s) const override {
-    state.resize(engine_.end_.size());
     if (duration > 0.0) {
-      engine_.stepper_->at(std::clamp(s / duration, 0.0, 1.0), state);
+      state_.resize(steps_.end().size());
+      steps_.at(std::clamp(s / duration, 0.0, 1.0), state_);
     } else {
-      state = engine_.end_;
+      state_.assign(steps_.end().begin(), steps_.end().end());
     }
-    Sample sample = engine_.flow_.sample(state, local_begin + s);
+    Sample sample = flow_.sample(state_, local_begin + s);
     sample.t = begin + s;
     return sample;
   }
   [[nodiscard]] double resolution(double) const override { return duration; }
 
-  double local_begin = 0.0;           ///< within the forcing period [s]
-  mutable std::vector<double> state;  ///< scratch
+  double local_begin = 0.0;  ///< within the forcing period [s]
 
  private:
-  const SmoothEngine& engine_;
+  const Steps& steps_;
+  const Flow& flow_;
+  mutable std::vector<double> state_;  // scratch
 };
 
 SmoothEngine::SmoothEngine(const Model& model)
@@ -67,11 +55,10 @@ SmoothEngine::SmoothEngine(const Model& model)
       flow_(model, drive_, past_),
       judge_(model, drive_, past_),
       search_(model_, flow_),
-      derivative_(model_, drive_, past_, shortest_period()),
-      interval_(std::make_unique<StepInterval>(*this)) {
+      steps_(model_, drive_, flow_),
+      derivative_(model_, drive_, past_, steps_.shortest_period()),
+      interval_(std::make_unique<StepInterval>(steps_, flow_)) {
   for (const friction::Law& law : model_.friction) reach_ = std::max(reach_, law.delay());
-  is_implicit_ = model.solver.kind == SolverKind::implicit_steps;
-  stepper_ = is_implicit_ ? make_implicit_stepper() : make_explicit_stepper();
   start(model.initial.position, model.initial.velocity);
 }
 
@@ -86,17 +73,15 @@ State SmoothEngine::state() const {
 long SmoothEngine::work() const {
   constexpr long responses_in_unit = 8;
   return Engine::work() + (flow_.responses() + judge_.responses()) / responses_in_unit + derivative_.work() +
-         stepper_->operations() / operations_in_unit;
+         steps_.operations() / operations_in_unit;
 }
 
 void SmoothEngine::begin_motion() {
   drive_.reset(0.0);
   past_.clear(v_, reach_);
-  breaks_.clear();
+  steps_.begin_motion();
   is_laid_ = false;
-  h_ = 0.0;
   x_scale_ = 0.0;
-  counted_to_ = 0.0;
   search_.forget_landing();
   follows_event_ = false;
   if (tracking_) reset_sensitivity();
@@ -131,11 +116,8 @@ void SmoothEngine::build_interval() {
   is_laid_ = true;
   flow_.freeze(memories_, direction_, time() - local_time_);
   set_scales();
-  flow_.gather(x_, v_, memories_, X_);
-  end_.resize(X_.size());
-  error_.resize(X_.size());
-  rates_.resize(X_.size());
-  search_.begin_interval(X_, local_time_, drive_.force_scale());
+  steps_.begin_interval(x_, v_, memories_);
+  search_.begin_interval(steps_.begin(), local_time_, drive_.force_scale());
 }
 
 void SmoothEngine::reset_sensitivity() { derivative_.reset(memories_, direction_); }
@@ -150,39 +132,10 @@ MotionDerivative::Present SmoothEngine::present() const {
   return {.now = now(), .local_time = local_time_, .direction = direction_, .memories = memories_};
 }
 
-SmoothStep SmoothEngine::last_step() const {
-  return {.flow = flow_,
-          .stepper = *stepper_,
-          .begin = X_,
-          .end = end_,
-          .t = local_time_,
-          .length = taken_,
-          .longest = longest_step()};
-}
-
-/// Local errors allowed in each component.
-void SmoothEngine::allow() {
-  allowed_.resize(X_.size());
-  for (std::size_t k = 0; k < X_.size(); ++k)
-    allowed_[k] = model_.solver.tolerance * (std::abs(X_[k]) + flow_.scales()[k]);
-}
-
-/// Largest error of the last step over what is allowed.
-double SmoothEngine::excess_error() const {
-  double largest = 0.0;
-  for (std::size_t k = 0; k < error_.size(); ++k) {
-    const double excess = std::abs(error_[k]) / allowed_[k];
-    // max() would pass over what is not a number.
-    if (!std::isfinite(excess)) return infinity;
-    largest = std::max(largest, excess);
-  }
-  return largest;
-}
-
 /// Near the end of the range the terms of a step and of its dense output overflow before the motion itself does.
 bool SmoothEngine::is_near_end_of_range() const {
   constexpr double safe = 1e280;
-  return !std::ranges::all_of(X_, [](double value) { return std::abs(value) < safe; });
+  return !std::ranges::all_of(steps_.begin(), [](double value) { return std::abs(value) < safe; });
 }
 
 /// A softening spring pushes outward beyond sqrt(-k/k3), and the mass is infinitely far away within a finite time.
@@ -193,154 +146,93 @@ bool SmoothEngine::has_run_away() const {
          std::abs(Engine::state().x) > far * std::sqrt(-oscillator.stiffness / oscillator.cubic_stiffness);
 }
 
-/// Of the oscillator and its drive [s].
-double SmoothEngine::shortest_period() const {
-  double fastest = natural_frequency(model_.oscillator);
-  for (const double frequency : drive_.frequencies()) fastest = std::max(fastest, frequency);
-  return core::two_pi / fastest;
+std::string SmoothEngine::fast_vibration() const {
+  return too_fast_vibration(flow_, steps_.begin(), local_time_, steps_.shortest_period());
 }
 
-/// As far as implicit steps see it: an overdamped oscillator has no period of its own, and they pass over the fast
-/// one of its two decays where nothing is left of it.
-double SmoothEngine::shortest_seen() const {
-  const Oscillator& oscillator = model_.oscillator;
-  const double own = natural_frequency(oscillator);
-  const double ratio = oscillator.damping / (2.0 * oscillator.mass * own);
-  if (!is_implicit_ || !(ratio > 1.0)) return shortest_period();
-  double fastest = own / (ratio + std::sqrt(ratio * ratio - 1.0));
-  for (const double frequency : drive_.frequencies()) fastest = std::max(fastest, frequency);
-  return core::two_pi / fastest;
+/// Ends the motion where steps are too many: what changes too fast is a vibration of its own that nearly nothing
+/// damps, or else friction.
+void SmoothEngine::stop_at_many_steps() {
+  const bool stands = steps_.stand_still();
+  const std::string spent = stands ? std::to_string(Steps::most_at_instant) + " steps at one instant, "
+                                   : std::to_string(Steps::most_in_period) + " steps in one period before ";
+  const bool away = has_run_away();
+  std::string why = away ? ran_away : stands ? std::string() : fast_vibration();
+  if (why.empty()) why = "friction changes too fast there to be integrated";
+  outcome_ = {away ? core::OutcomeKind::not_finite : core::OutcomeKind::event_limit,
+              "more than " + spent + "t = " + std::to_string(time()) + " s: " + why};
 }
 
-double SmoothEngine::longest_step() const {
-  double longest = part_of_period * shortest_seen();
-  for (const friction::Law& law : model_.friction) {
-    if (law.delay() > 0.0) longest = std::min(longest, law.delay());
-  }
-  for (const double kink : breaks_) {
-    // Shorter than rounding of time: passed.
-    const double ahead = kink - local_time_;
-    if (ahead > 1e-12 * longest) longest = std::min(longest, ahead);
-  }
-  return longest;
-}
-
-/// A step whose second-order term is a hundredth of what is allowed at the method's order (hairer1993, II.4).
-double SmoothEngine::first_step() {
-  flow_.evaluate(X_, local_time_, rates_);
-  const auto norm = [&](const std::vector<double>& values) {
-    double largest = 0.0;
-    for (std::size_t k = 0; k < values.size(); ++k)
-      largest = std::max(largest, std::abs(values[k]) / flow_.scales()[k]);
-    return largest;
-  };
-  const double first = norm(rates_);
-  const double trial = first > 0.0 ? 1e-4 / first : 1e-4 * longest_step();
-  probe_ = X_;
-  for (std::size_t k = 0; k < probe_.size(); ++k) probe_[k] += trial * rates_[k];
-  std::vector<double> later(rates_.size());
-  flow_.evaluate(probe_, local_time_ + trial, later);
-  for (std::size_t k = 0; k < later.size(); ++k) later[k] = (later[k] - rates_[k]) / trial;
-  const double rate = std::max(first, std::sqrt(norm(later)));
-  const double exponent = 1.0 / (stepper_->order() + 1);
-  return rate > 0.0 ? std::pow(0.01 * model_.solver.tolerance, exponent) / rate : longest_step();
-}
-
-bool SmoothEngine::use_implicit_steps() {
-  if (is_implicit_ || model_.solver.kind != SolverKind::automatic) return false;
-  is_implicit_ = true;
-  stepper_ = make_implicit_stepper();
-  return true;
-}
-
-/// Whether friction turns the acceleration over within a thousandth of the longest step: a dashpot that holds the
-/// mass. Explicit steps would be lost on it.
-bool SmoothEngine::begins_stiff() {
-  if (direction_ == Direction::none) return false;
-  const double s = part_of_longest * longest_step();
-  flow_.evaluate(X_, local_time_, rates_);
-  const double acceleration = rates_[1];
-  probe_ = X_;
-  for (std::size_t k = 0; k < probe_.size(); ++k) probe_[k] += s * rates_[k];
-  flow_.evaluate(probe_, local_time_ + s, rates_);
-  return acceleration * rates_[1] < 0.0 && std::abs(rates_[1]) > 0.1 * std::abs(acceleration);
-}
-
-/// Counts steps that stability limits. The dense output of the present step is needed still: the change comes with
-/// the next one.
-void SmoothEngine::notice_stiffness() {
-  if (!is_implicit_) stiff_steps_.add(stepper_->stiffness());
-}
-
-/// One accepted step from X_ to end_, at most `left` long; taken_ says how long.
-bool SmoothEngine::advance(double left) {
-  const bool hold_off = h_ == 0.0 && !is_implicit_ && begins_stiff();
-  if ((hold_off || stiff_steps_.are_many()) && use_implicit_steps()) h_ = 0.0;
-  if (h_ == 0.0) h_ = first_step();
-  allow();
-  const double longest = longest_step();
-  bool rejected = false;
-  for (int i = 0; i < max_rejections; ++i) {
-    if (!makes_headway()) return false;
-    double h = std::min(h_, longest);
-    // No tiny step is left over at the end.
-    if (1.01 * h >= left) {
-      h = left;
-    } else if (2.0 * h > left) {
-      h = 0.5 * left;
-    }
-    const bool solved = stepper_->step(flow_, X_, local_time_, h, allowed_, end_, error_);
-    const double excess = solved ? excess_error() : infinity;
-    const double ideal = excess > 0.0 ? safety * std::pow(excess, -1.0 / (stepper_->order() + 1)) : largest_growth;
-    if (excess <= 1.0) {
-      taken_ = h;
-      const double next = h * std::clamp(ideal, largest_cut, rejected ? 1.0 : largest_growth);
-      h_ = h < h_ ? std::max(h_, next) : next;
-      notice_stiffness();
-      return true;
-    }
-    rejected = true;
-    h_ = h * std::clamp(ideal, solved ? largest_cut : unsolved_cut, 0.7);
-    if (h_ < 1e-14 * longest && use_implicit_steps()) h_ = first_step();
-    if (h_ < 1e-100 * longest) break;
-  }
-  if (is_near_end_of_range() && !has_run_away()) {
-    leave_range();
-    return false;
-  }
+/// Ends the motion where steps become too short.
+void SmoothEngine::stop_at_short_steps() {
+  const bool away = has_run_away();
+  if (is_near_end_of_range() && !away) return leave_range();
+  const std::string why = away ? std::string(ran_away)
+                               : infinite_force(model_, flow_, steps_.begin(), local_time_,
+                                                steps_.longest(local_time_), now(), memories_);
   outcome_ = {core::OutcomeKind::not_finite,
               "the equation of motion could not be integrated at t = " + std::to_string(time()) +
-                  " s: steps became too small" +
-                  (has_run_away() ? std::string(": ") + ran_away : infinite_force())};
-  return false;
+                  " s: steps became too small" + (why.empty() ? why : ": " + why)};
+}
+
+bool SmoothEngine::advance(double left) {
+  const Steps::Result result = steps_.advance(local_time_, time(), left);
+  if (result == Steps::Result::too_many) stop_at_many_steps();
+  if (result == Steps::Result::too_short) stop_at_short_steps();
+  return result == Steps::Result::taken;
+}
+
+/// Repeats the step so that it ends at the crossing, and corrects its length by Newton's method. False: the shorter
+/// step is not accurate; an implicit step that overran the crossing may have computed what only lies beyond it.
+bool SmoothEngine::land(const Hit& hit) {
+  const double whole = steps_.length();
+  double h = hit.part * whole;
+  if (h < EventSearch::shortest_part * steps_.longest(local_time_)) {
+    steps_.stay(local_time_);
+    return true;
+  }
+  const double zero = search_.zero(hit.guard, steps_.allowed_in_velocity());
+  for (int i = 0;; ++i) {
+    if (!steps_.repeat(h)) return false;
+    const double value = search_.guards().value(hit.guard, steps_.end(), local_time_ + h);
+    if (std::abs(value) <= zero) return true;
+    const double correction = -value / search_.guards().rate(hit.guard, steps_.end(), local_time_ + h, h);
+    const bool is_within_reach = std::abs(correction) < 0.1 * h;
+    if (std::abs(correction) < 1e-16 * whole || (i == 0 && !is_within_reach)) return true;
+    // Of a state that has died out, explicit steps at the limit of stability leave only their own swinging: its
+    // zero recedes from each correction, past the crossings of other guards.
+    if (i == most_corrections - 1 || !is_within_reach) return std::abs(correction) < settled * h;
+    h += correction;
+  }
 }
 
 /// One step that ends at an event or before it.
 bool SmoothEngine::move(double left, std::optional<Hit>& hit) {
-  for (int i = 0; i < max_rejections; ++i) {
+  for (int i = 0; i < Steps::most_tries; ++i) {
     if (!advance(left)) return false;
     ++count_.searches;
     count_.panels += EventSearch::panels;
-    const SmoothStep whole = last_step();
+    const SmoothStep whole = steps_.last();
+    const double length = whole.length;
     hit = search_.find(whole);
-    if (hit && !is_implicit_ && search_.ends_against_flow(*hit, whole)) {
+    if (hit && !steps_.are_implicit() && search_.ends_against_flow(*hit, whole)) {
       // Where explicit steps are asked for by name shorter ones follow the creep, or say that they are too many.
-      h_ = use_implicit_steps() ? 0.0 : 0.25 * whole.length;
+      steps_.propose(steps_.make_implicit() ? 0.0 : 0.25 * length);
       continue;
     }
     if (hit && search_.may_be_swing_of_output(*hit, whole)) {
-      h_ = 0.25 * whole.length;
+      steps_.propose(0.25 * length);
       continue;
     }
     if (!hit || land(*hit)) {
-      if (passes_over_turn(hit && is<SlipEnd>(search_.guards().ending(hit->guard)))) continue;
+      if (steps_.passes_over_turn(hit && is<SlipEnd>(search_.guards().ending(hit->guard)))) continue;
       // Beyond the event nothing grazed.
       grazings_ = search_.grazings();
-      std::erase_if(grazings_, [&](const core::Grazing& grazing) { return grazing.s > taken_; });
+      std::erase_if(grazings_, [&](const core::Grazing& grazing) { return grazing.s > steps_.length(); });
       count_.grazings += static_cast<long>(grazings_.size());
       return true;
     }
-    h_ = 0.5 * hit->part * whole.length;
+    steps_.propose(0.5 * hit->part * length);
   }
   outcome_ = {core::OutcomeKind::not_finite,
               "an event at t = " + std::to_string(time()) + " s could not be located"};
@@ -355,20 +247,19 @@ const Interval* SmoothEngine::step(double left, bool to_period_end) {
   grazings_.clear();
   derivative_.begin_interval();
   build_interval();
-  taken_ = 0.0;
-  end_ = X_;
-  std::optional<Hit> hit = search_.find_violated(last_step());
+  steps_.stay(local_time_);
+  std::optional<Hit> hit = search_.find_violated(steps_.last());
   const bool at_once = hit.has_value();
   if (!at_once && left > 0.0) {
     search_.forget_landing();
     if (!move(left, hit)) return nullptr;
-    if (hit) search_.note_landing(*hit, last_step());
+    if (hit) search_.note_landing(*hit, steps_.last());
   }
-  if (!comes_to_an_end(taken_ == 0.0)) return nullptr;
-  const bool is_over = !hit && taken_ == left;
+  const SmoothStep taken = steps_.last();
+  if (!comes_to_an_end(taken.length == 0.0)) return nullptr;
+  const bool is_over = !hit && taken.length == left;
   describe_step();
   if (tracking_) {
-    const SmoothStep taken = last_step();
     derivative_.pass(taken);
     if (hit && (!at_once || search_.coincides(*hit, taken))) {
       derivative_.enter(search_.guards(), hit->guard, taken);
@@ -388,7 +279,7 @@ const Interval* SmoothEngine::step(double left, bool to_period_end) {
     return interval_.get();
   }
   if (hit) {
-    ended_at_once_ = !at_once && taken_ == 0.0 && is<SlipEnd>(ending);
+    ended_at_once_ = !at_once && taken.length == 0.0 && is<SlipEnd>(ending);
     interval_->ending = act(ending);
     ended_at_once_ = false;
   } else {
@@ -396,7 +287,7 @@ const Interval* SmoothEngine::step(double left, bool to_period_end) {
   }
   if (tracking_) derivative_.leave(present(), flow_.scales());
   is_laid_ = false;
-  h_ = 0.0;
+  steps_.propose(0.0);
   return interval_.get();
 }
 
@@ -404,46 +295,75 @@ const Interval* SmoothEngine::step(double left, bool to_period_end) {
 void SmoothEngine::describe_step() {
   interval_->begin = time();
   interval_->local_begin = local_time_;
-  interval_->duration = taken_;
+  interval_->duration = steps_.length();
   interval_->direction = direction_;
   interval_->ending.reset();
 }
 
 /// The step's end becomes the present; `at_slip_end`: there the velocity is zero.
 void SmoothEngine::take_over(bool at_slip_end) {
-  if (reach_ > 0.0 && taken_ > 0.0) {
+  if (reach_ > 0.0 && steps_.length() > 0.0) {
     VelocityHistory::Values values{};
-    interval_->state.resize(end_.size());
+    std::vector<double> state(steps_.end().size());
     for (std::size_t k = 0; k < values.size(); ++k) {
-      stepper_->at(0.25 * static_cast<double>(k), interval_->state);
-      values[k] = interval_->state[1];
+      steps_.at(0.25 * static_cast<double>(k), state);
+      values[k] = state[1];
     }
-    past_.add(local_time_, taken_, values);
+    past_.add(local_time_, steps_.length(), values);
   }
-  X_ = end_;
-  if (at_slip_end) {
-    X_[1] = 0.0;
-    for (const friction::Law& law : model_.friction) {
-      for (int j = 1; j <= echoes && law.delay() > 0.0; ++j)
-        breaks_.push_back(local_time_ + taken_ + j * law.delay());
-    }
-  }
-  x_ = X_[0];
-  v_ = X_[1];
-  flow_.scatter(X_, memories_);
+  steps_.go_on(at_slip_end);
+  x_ = steps_.begin()[0];
+  v_ = steps_.begin()[1];
+  flow_.scatter(steps_.begin(), memories_);
   x_scale_ = std::max(x_scale_, std::abs(x_));
 }
 
 void SmoothEngine::pass_time(bool to_period_end) {
-  local_time_ += taken_;
+  local_time_ += steps_.length();
   if (!to_period_end && local_time_ < drive_.period()) return;
   local_time_ = to_period_end ? 0.0 : local_time_ - drive_.period();
   pass_period();
   past_.shift(drive_.period());
-  for (double& kink : breaks_) kink -= drive_.period();
-  std::erase_if(breaks_, [&](double kink) { return kink < local_time_; });
+  steps_.shift(drive_.period(), local_time_);
   // Time is counted anew.
   is_laid_ = false;
+}
+
+/// Where a slip ends. Where the pull equals the limit within rounding, what both do next decides.
+void SmoothEngine::settle() {
+  const Direction slipped = direction_;
+  change_direction(Direction::none);
+  judge_.freeze(memories_, Direction::none, time() - local_time_);
+  std::vector<double> X;
+  judge_.gather(x_, 0.0, memories_, X);
+  std::vector<double> rates(X.size());
+  judge_.evaluate(X, local_time_, rates);
+  const double pull = judge_.pull(X, local_time_);
+  const double limit = judge_.limit(X, local_time_);
+  const double parts = drive_.force_scale() + limit + model_.oscillator.stiffness * std::abs(x_);
+  const double tolerance = Guards::equal * parts;
+  const auto at_limit = [&] {
+    double pull_then = pull;
+    double limit_then = limit;
+    for (const double part : {1e-6, 1e-4, 1e-2}) {
+      const double later = part * steps_.longest(local_time_);
+      std::vector<double> then = X;
+      for (std::size_t k = 2; k < then.size(); ++k) then[k] += later * rates[k];
+      pull_then = judge_.pull(then, local_time_ + later);
+      limit_then = judge_.limit(then, local_time_ + later);
+      if (std::abs(std::abs(pull_then) - limit_then) > tolerance) break;
+    }
+    return direction_after_slip(pull_then, limit_then, tolerance, [&] {
+      if (can_stick_) return Direction::none;
+      // Without a law that holds it a mass that nothing moves slips, at no speed.
+      return pull_then < 0.0 ? Direction::backward : Direction::forward;
+    });
+  };
+  Direction direction = direction_after_slip(pull, limit, tolerance, at_limit);
+  // Creep below the rounding of the velocity shows only where it leads: not in this direction.
+  if (ended_at_once_ && limit == 0.0 && direction == slipped)
+    direction = slipped == Direction::forward ? Direction::backward : Direction::forward;
+  if (direction != Direction::none) change_direction(direction);
 }
 
 }  // namespace dualdamp::sim

@@ -15,17 +15,14 @@
 
 #include <memory>
 #include <optional>
-#include <span>
 #include <string>
-#include <vector>
 
 #include "sim/engine/engine.hpp"
 #include "sim/engine/flow.hpp"
 #include "sim/engine/smooth/event_search.hpp"
 #include "sim/engine/smooth/motion_derivative.hpp"
-#include "sim/engine/smooth/smooth_step.hpp"
+#include "sim/engine/smooth/steps.hpp"
 #include "sim/engine/velocity_history.hpp"
-#include "sim/steppers/stepper.hpp"
 
 namespace dualdamp::sim {
 
@@ -45,8 +42,6 @@ class SmoothEngine final : public Engine {
 
  private:
   class StepInterval;
-  static constexpr const char* ran_away =
-      "the mass is far beyond the place from which a softening spring pushes outward";
   using Hit = EventSearch::Hit;
 
   [[nodiscard]] const Interval* step(double left, bool to_period_end) override;
@@ -55,60 +50,32 @@ class SmoothEngine final : public Engine {
   void restore_past(const State& state) override;
   void jumped(std::size_t law, const friction::Memory& before, friction::Trigger trigger) override;
 
-  // The step.
   void build_interval();
   void set_scales();
-  void allow();
-  [[nodiscard]] bool is_near_end_of_range() const;
-  [[nodiscard]] bool has_run_away() const;
-  [[nodiscard]] double first_step();
-  [[nodiscard]] double shortest_period() const;
-  [[nodiscard]] double shortest_seen() const;
-  [[nodiscard]] double longest_step() const;
-  [[nodiscard]] double excess_error() const;
-  [[nodiscard]] bool makes_headway();
-  [[nodiscard]] std::string too_fast() const;
-  [[nodiscard]] std::string infinite_force();
   [[nodiscard]] bool advance(double left);
-  [[nodiscard]] bool move(double left, std::optional<Hit>& hit);
   [[nodiscard]] bool land(const Hit& hit);
-  [[nodiscard]] bool hides_turn(bool at_end);
-  [[nodiscard]] bool passes_over_turn(bool at_stop);
-  [[nodiscard]] SmoothStep last_step() const;
-  [[nodiscard]] MotionDerivative::Present present() const;
-  [[nodiscard]] bool begins_stiff();
-  void notice_stiffness();
-  [[nodiscard]] bool use_implicit_steps();
+  [[nodiscard]] bool move(double left, std::optional<Hit>& hit);
   void describe_step();
   void take_over(bool at_slip_end);
   void pass_time(bool to_period_end);
+  [[nodiscard]] MotionDerivative::Present present() const;
+
+  [[nodiscard]] bool is_near_end_of_range() const;
+  [[nodiscard]] bool has_run_away() const;
+  void stop_at_many_steps();
+  void stop_at_short_steps();
 
   VelocityHistory past_;
   Flow flow_;   ///< of the present interval
   Flow judge_;  ///< of the instant of an event
   EventSearch search_;
+  Steps steps_;
   MotionDerivative derivative_;
-  std::unique_ptr<Stepper> stepper_;
-  bool is_implicit_ = false;
-  StiffSteps stiff_steps_;
-  double reach_ = 0.0;       ///< longest delay of a law [s]
-  double x_scale_ = 0.0;     ///< m
-  bool is_laid_ = false;     ///< flow_ and search_ are those of the present interval
-  double h_ = 0.0;           ///< proposed next step [s]; 0: none
-  double counted_to_ = 0.0;  ///< time up to which steps_ counts [s]
-  long steps_ = 0;
-  double stood_at_ = 0.0;       ///< time of the last step [s]
-  long standing_ = 0;           ///< steps since then that took no time, to rounding
-  double taken_ = 0.0;          ///< length of the step taken last [s]
+  double reach_ = 0.0;          ///< longest delay of a law [s]
+  double x_scale_ = 0.0;        ///< m
+  bool is_laid_ = false;        ///< flow_ and what depends on it are those of the present interval
   bool follows_event_ = false;  ///< the present interval begins with an event
   bool ended_at_once_ = false;  ///< a slip that began at v = 0 and never moved in its direction
-  std::vector<double> breaks_;  ///< local times at which a delayed velocity has a kink [s]
-  std::vector<double> X_;
-  std::vector<double> end_;
-  std::vector<double> error_;
-  std::vector<double> allowed_;
-  mutable std::vector<double> probe_;
-  mutable std::vector<double> rates_;
   std::unique_ptr<StepInterval> interval_;
 };
 
