@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <vector>
 
 #include "sim/engine/smooth/reasons.hpp"
 #include "sim/engine/sticking_gate.hpp"
