@@ -7,8 +7,8 @@
 ///   the exact engine. Nothing proves here that a guard did not cross twice between two of those points; where
 ///   every law is affine the exact engine does.
 /// Rounding. A velocity within 1e-13 of zero has not changed its sign: bristles that ring down to rounding make no
-///   events. What counts as zero at the begin of an interval also depends on the event that it begins with: its
-///   step knows the time of a mode change to a part of itself.
+///   events. What counts as zero at the begin of an interval also depends on how
+///   well the step before knew the time of the mode change there.
 ///
 /// It knows guards and steps only: it takes no step, and changes neither modes nor the state.
 ///
