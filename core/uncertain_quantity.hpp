@@ -2,7 +2,8 @@
 /// Quantities that state their uncertainty: `1.042 kg ± 0.5 %`, `1568 N/m +- 8 N/m`, `(1.042 ± 0.005) kg`.
 ///
 /// The number after `±`, `+-` or `+/-` is the standard uncertainty (one standard deviation): in percent of the
-/// value, in a unit of its dimension, or without unit. A side without unit has the unit of the other side.
+/// value, in a unit of its dimension, or without unit. A side without unit has the unit of the other side, and a
+/// unit behind parentheses is that of both sides: `(1.042 ± 0.5 %) kg` and `1.042 ± 0.5 % kg` are 1.042 kg ± 0.5 %.
 
 #include <optional>
 #include <string>

@@ -53,7 +53,8 @@ class UnitGrammar {
  public:
   explicit UnitGrammar(std::string_view text) : text_(text) {}
 
-  [[nodiscard]] bool accepts() { return product() && at_ == text_.size(); }
+  /// A share is no factor of a unit: "1 % kg" is a slip.
+  [[nodiscard]] bool accepts() { return text_ == "%" || text_ == "percent" || (product() && at_ == text_.size()); }
 
  private:
   [[nodiscard]] char peek() const { return at_ < text_.size() ? text_[at_] : '\0'; }
@@ -93,10 +94,10 @@ class UnitGrammar {
 
   bool name() {
     const std::size_t begin = at_;
-    while (is_letter(peek()) || peek() == '_' || peek() == '%') ++at_;
+    while (is_letter(peek()) || peek() == '_') ++at_;
     const std::string_view word = text_.substr(begin, at_ - begin);
-    static constexpr std::array<std::string_view, 5> references = {"since", "after", "from", "ref", "re"};
-    return !word.empty() && peek() != '(' && std::ranges::find(references, word) == references.end();
+    static constexpr std::array<std::string_view, 6> refused = {"since", "after", "from", "ref", "re", "percent"};
+    return !word.empty() && peek() != '(' && std::ranges::find(refused, word) == refused.end();
   }
 
   bool power() {

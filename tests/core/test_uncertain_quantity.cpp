@@ -9,7 +9,8 @@ using dualdamp::core::split_uncertainty;
 TEST_CASE("A quantity may state its uncertainty in percent, in its own unit or in another of its dimension") {
   for (const char* text :
        {"1.042 kg ± 0.5 %", "1.042 kg +- 5.21 g", "1.042 kg +/- 0.00521 kg", "(1.042 ± 0.00521) kg",
-        "1.042 ± 0.00521 kg", "1.042 kg ± 0.00521", "1.042 ± 0.5 %", "1042 g±5.21 g"}) {
+        "1.042 ± 0.00521 kg", "1.042 kg ± 0.00521", "1.042 ± 0.5 %", "1042 g±5.21 g", "(1.042 ± 0.5 %) kg",
+        "1.042 ± 0.5 % kg", "1.042±0.5% kg", "1.042 +- 0.5 % kg", "(1042 +/- 0.5%)g", "(1.042 kg ± 0.5 %)"}) {
     CAPTURE(text);
     const auto quantity = parse_uncertain_quantity(text, "kg");
     CHECK(quantity.fault.empty());
@@ -27,6 +28,12 @@ TEST_CASE("The uncertainty of a frequency has a unit of its own") {
   CHECK(*parse_uncertain_quantity("6 Hz +- 0.01", "rad/s").uncertainty == Approx(0.02 * std::numbers::pi));
 }
 
+TEST_CASE("A unit behind parentheses is that of both sides, percent included") {
+  const auto share = parse_uncertain_quantity("(5 ± 1) %", "1");
+  CHECK(*share.value == Approx(0.05));
+  CHECK(*share.uncertainty == Approx(0.01));
+}
+
 TEST_CASE("A quantity without uncertainty states none") {
   const auto quantity = parse_uncertain_quantity("1568 N/m", "N/m");
   CHECK(*quantity.value == 1568.0);
@@ -41,8 +48,8 @@ TEST_CASE("A negative value has a positive uncertainty, and zero is one") {
 TEST_CASE("An uncertainty that cannot be read is refused with the reason") {
   CHECK(parse_uncertain_quantity("1 kg ± 5 mm", "kg").fault == "the uncertainty: 'mm' is not a unit of a mass");
   CHECK(parse_uncertain_quantity("1 kg ± -5 g", "kg").fault == "the uncertainty is negative");
-  for (const char* text :
-       {"1 kg ±", "± 5 g", "1 kg ± ± 5 g", "1 kg ± 5 g ± 2 g", "(1 ± 2 kg", "1 kg ± nan", "kg ± 1 %"}) {
+  for (const char* text : {"1 kg ±", "± 5 g", "1 kg ± ± 5 g", "1 kg ± 5 g ± 2 g", "(1 ± 2 kg", "1 kg ± nan",
+                           "kg ± 1 %", "1 kg ± 5 % kg", "(1 kg ± 2 g) kg", "(1 ± 2 g) kg", "(1 ± 2 %) % kg"}) {
     CAPTURE(text);
     const auto quantity = parse_uncertain_quantity(text, "kg");
     CHECK_FALSE(quantity.value);
@@ -51,7 +58,8 @@ TEST_CASE("An uncertainty that cannot be read is refused with the reason") {
 }
 
 TEST_CASE("The relative uncertainty of a scale stands apart from the scale") {
-  for (const char* text : {"2.5 mm/V ± 1 %", "2.5 mm/V +- 0.025 mm/V", "2.5 mm/V +- 0.025", "(2.5 ± 0.025) mm/V"}) {
+  for (const char* text : {"2.5 mm/V ± 1 %", "2.5 mm/V +- 0.025 mm/V", "2.5 mm/V +- 0.025", "(2.5 ± 0.025) mm/V",
+                           "(2.5 ± 1 %) mm/V", "2.5 ± 1 % mm/V"}) {
     CAPTURE(text);
     const auto split = split_uncertainty(text);
     CHECK(split.fault.empty());

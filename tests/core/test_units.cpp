@@ -142,9 +142,9 @@ TEST_CASE("units: the wrong dimension is refused, reciprocals included", "[core]
 }
 
 TEST_CASE("units: udunits2 never sees what it would misread", "[core][units]") {
-  for (const char* text :
-       {"5 m^0.5", "5 m^1/2", "5 m^(1/2)", "5 m0.5", "5 2 m", "5 m 2", "5 m @ 3", "5 s since 1990", "5 lg(re 1 mW)",
-        "5 m^", "5 /s", "5 m^10", "5 m)", "5 (m", "5 m..m", "5 1000 m", "5 m\nm"})
+  for (const char* text : {"5 m^0.5", "5 % m", "5 m.%",   "5 percent m",    "5 m^1/2",       "5 m^(1/2)", "5 m0.5",
+                           "5 2 m",   "5 m 2", "5 m @ 3", "5 s since 1990", "5 lg(re 1 mW)", "5 m^",      "5 /s",
+                           "5 m^10",  "5 m)",  "5 (m",    "5 m..m",         "5 1000 m",      "5 m\nm"})
     CHECK(fault(text, "m").find("is not a unit") != std::string::npos);
 }
 
