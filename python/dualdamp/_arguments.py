@@ -51,6 +51,14 @@ def refuse_masked(name, array):
         raise ValueError(f"{name} has masked values: leave them out, or fill them, before they are used")
 
 
+def refuse_other_rows(columns):
+    """Refuses Series of pandas whose indexes differ: they would be paired by position, not by index. `columns`: pairs of name and values."""
+    indexed = [(name, values.index) for name, values in columns if hasattr(values, "to_numpy") and hasattr(values, "index")]
+    for name, index in indexed[1:]:
+        if not index.equals(indexed[0][1]):
+            raise ValueError(f"{indexed[0][0]!r} and {name!r} are Series with different indexes: align them, or take their values without index, to_numpy()")
+
+
 def refuse_twice(function, options, names):
     """Refuses options that the function itself sets."""
     for name in names:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ._analyses import function
-from ._arguments import refuse_masked, thread_count
+from ._arguments import refuse_masked, refuse_other_rows, thread_count
 from ._errors import Diagnostic, InvalidScenario, NumericalFailure
 from ._library import core
 from ._run import close, reporter
@@ -155,6 +155,7 @@ def steady_state(
         raise TypeError("steady_state takes one of Y and force")
     if (damping is None) == (zeta is None):
         raise TypeError("steady_state takes one of damping and zeta")
+    refuse_other_rows(given.items())
     for name, value in given.items():
         if value.__class__ is not float and value is not None:
             given[name] = _numbers(name, value)

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from ._arguments import is_unicode, path_text, refuse_masked, refuse_twice
+from ._arguments import is_unicode, path_text, refuse_masked, refuse_other_rows, refuse_twice
 from ._library import core
 from ._run import run_source, source_of
 
@@ -153,6 +153,7 @@ def _columns_of(data):
         pairs = list(data.items())
     else:
         raise TypeError(f"data are a path, a DataFrame, a structured array or a dict of columns, not {type(data).__name__}")
+    refuse_other_rows(pairs)
     columns = [(_field("the name of a column", str(name)), _cells(name, values)) for name, values in pairs]
     lengths = {len(cells) for _, cells in columns}
     if len(lengths) > 1:

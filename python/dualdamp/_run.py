@@ -13,7 +13,7 @@ from ._arguments import path_text, thread_count
 from ._errors import CheckFailed, IncompleteResult, NumericalFailure
 from ._library import core
 from ._results import Result
-from ._scenario import flow, plain, text_of
+from ._scenario import flow, plain, refuse_surrogates, text_of
 
 
 def run(scenario, changes=None, *, out=None, threads=0, resume=False, overwrite=False, verify=False, progress=None):
@@ -125,11 +125,11 @@ def source_of(scenario, changes=None, data=None):
     set_ = [f"{path}={flow(plain(value))}" for path, value in (changes or {}).items()]
     data = data or {}
     for text in set_:
-        text.encode()  # a lone surrogate raises UnicodeEncodeError
+        refuse_surrogates(text)
     if isinstance(scenario, Mapping):
         return core.Source(text_of(scenario), "scenario", data_anywhere=True, data=data, set=set_)
     if isinstance(scenario, str) and ("\n" in scenario or scenario.lstrip().startswith("{")):
-        scenario.encode()
+        refuse_surrogates(scenario)
         return core.Source(scenario, "scenario", data=data, set=set_)
     if isinstance(scenario, (str, PathLike)):
         return core.Source("", fsencode(path_text(scenario, "the name of a scenario")), is_file=True, data=data, set=set_)

@@ -7,25 +7,34 @@ import os
 import re
 from collections.abc import Mapping
 
+from ._arguments import is_unicode
+from ._errors import InvalidScenario
+
 SCHEMA = "dualdamp/1"
 _PLAIN_KEY = re.compile(r"[A-Za-z_][A-Za-z0-9_]*\Z")
 
 
-def plain(value):
+# The reader refuses less. A dict or a list that holds itself has no end.
+_DEEPEST = 50
+
+
+def plain(value, depth=0):
     """The value as plain dicts, lists and scalars. Arrays become lists; keys whose value is None are left out."""
+    if depth > _DEEPEST:
+        raise InvalidScenario("error: the scenario is nested too deeply, or a dict or a list of it holds itself")
     if hasattr(value, "to_dict") and not isinstance(value, Mapping) and hasattr(type(value), "_is_scenario_part"):
-        return plain(value.to_dict())
+        return plain(value.to_dict(), depth + 1)
     if isinstance(value, Mapping):
-        return {str(key): plain(item) for key, item in value.items() if item is not None}
+        return {str(key): plain(item, depth + 1) for key, item in value.items() if item is not None}
     if isinstance(value, (str, bool, int, float)):
         # numpy.float64 is a float, but its repr is another one.
         return float(value) if isinstance(value, float) else value
     if isinstance(value, os.PathLike):
         return os.fspath(value)
     if hasattr(value, "tolist"):  # a masked value becomes None there
-        return plain(value.tolist())
+        return plain(value.tolist(), depth + 1)
     if isinstance(value, (list, tuple, range)):
-        return [plain(item) for item in value]
+        return [plain(item, depth + 1) for item in value]
     if value is None:
         raise TypeError("a scenario holds no None here; a masked value of an array is one, too")
     raise TypeError(f"a scenario holds no {type(value).__name__}: {value!r}; it holds texts, numbers, True, False, lists and dicts")
@@ -60,6 +69,13 @@ def _lines(value, margin):
             yield f"{margin}{_key(key)}: {flow(item)}"
 
 
+def refuse_surrogates(text):
+    """Refuses a text that cannot be encoded."""
+    if not is_unicode(text):
+        at = next(i for i, character in enumerate(text) if not is_unicode(character))
+        raise InvalidScenario(f"error: surrogates not allowed: {text[max(at - 20, 0) : at + 20]!r} holds half a character")
+
+
 def text_of(scenario):
     """The text of a scenario from a mapping.
 
@@ -84,5 +100,5 @@ def text_of(scenario):
     <BLANKLINE>
     """
     text = "\n".join(_lines({"schema": SCHEMA, **plain(scenario)}, "")) + "\n"
-    text.encode()  # a lone surrogate raises UnicodeEncodeError
+    refuse_surrogates(text)
     return text

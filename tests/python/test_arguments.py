@@ -101,6 +101,25 @@ def test_arguments_of_a_run_that_mean_nothing(scenario, arguments, words):
     assert not os.path.exists("nowhere")
 
 
+@pytest.mark.parametrize("words, part", [("surrogates not allowed", {"title": "\ud800"}), ("holds itself", {})])
+def test_dicts_that_no_text_can_hold(scenario, words, part):
+    broken = {**scenario, **part}
+    if not part:
+        broken["numerics"] = broken
+    with pytest.raises(dd.InvalidScenario, match=words):
+        dd.run(broken)
+
+
+def test_columns_with_different_indexes():
+    """They would be paired by position: the damping ratio was 0.72 instead of 0.099."""
+    pandas = pytest.importorskip("pandas")
+    Y, x = (pandas.Series(PAIRS[name]) for name in ("Y [mm]", "x [mm]"))
+    with pytest.raises(ValueError, match="Series with different indexes"):
+        dd.identify({"Y [mm]": Y, "x [mm]": x[::-1]}, **KNOWN)
+    with pytest.raises(ValueError, match="'F0' and 'Y' are Series with different indexes"):
+        dd.steady_state(**RIG, F0=x, Y=Y[::-1])
+
+
 def test_threads_of_a_batch():
     assert dd.steady_state(**RIG, F0=[2, 1], Y=0.1, threads=np.int64(1)).shape == (2,)
     for threads in (-1, 2000, 1.5):
