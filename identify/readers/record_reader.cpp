@@ -26,6 +26,8 @@ namespace fs = std::filesystem;
 constexpr std::size_t largest_file = std::size_t{1} << 30U;
 /// Number of first bytes that suffice to recognise the type of a file.
 constexpr std::size_t sample_size = std::size_t{1} << 16U;
+/// Thousands of columns. Each field of a longer line would be copied and searched several times.
+constexpr std::size_t longest_line = std::size_t{1} << 20U;
 
 /// The first bytes of files of other types, and what the user should do.
 struct Foreign {
@@ -56,6 +58,19 @@ void refuse_at_sight(std::string_view beginning, const std::string& name) {
     refuse_binary(beginning, name);
 }
 
+/// Finds long lines in the pieces of a text.
+class LineLength {
+ public:
+  void add(std::string_view piece) {
+    const std::size_t end = piece.find_last_of("\r\n");
+    length_ = end == std::string_view::npos ? length_ + piece.size() : piece.size() - end - 1;
+  }
+  [[nodiscard]] bool is_too_long() const { return length_ > longest_line; }
+
+ private:
+  std::size_t length_ = 0;
+};
+
 /// All bytes of a file or a pipe.
 std::string load(const std::string& path, const std::string& name) {
   std::error_code error;
@@ -69,10 +84,14 @@ std::string load(const std::string& path, const std::string& name) {
   if (!file) refuse_file(name, "cannot be opened: " + std::generic_category().message(errno));
   std::string bytes;
   std::array<char, sample_size> buffer{};
+  LineLength line;
   while (const std::size_t count = std::fread(buffer.data(), 1, buffer.size(), file.get())) {
     bytes.append(buffer.data(), count);
     if (bytes.size() > largest_file) refuse_file(name, "the file is larger than 1 GiB");
     if (bytes.size() <= sample_size) refuse_at_sight(bytes, name);
+    line.add({buffer.data(), count});
+    if (line.is_too_long() && !is_mat(bytes) && !is_universal_file(bytes))
+      refuse_file(name, "a line has more than a million characters", "a row of numbers for each reading");
   }
   if (std::ferror(file.get()) != 0) refuse_file(name, "cannot be read: " + std::generic_category().message(errno));
   return bytes;

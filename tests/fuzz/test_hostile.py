@@ -108,7 +108,7 @@ DATA_FILES = {
     "headers.csv": lambda: "Y,x\n" * 1_000_000,
     "ragged.csv": lambda: "Y [m],x [m]\n" + "1\n" * 2_000_000,
     "words.csv": lambda: "Y [m],x [m]\n" + "a,b\n" * 1_000_000,
-    "long_number.csv": lambda: "Y [m],x [m]\n1," + "9" * 10_000_000 + "\n",
+    "long_number.csv": lambda: "Y [m],x [m]\n1," + "9" * 60_000_000 + "\n",
     "long_unit.csv": lambda: "Y [" + "m." * 3_000_000 + "m],x [m]\n1,2\n",
     "exponents.csv": lambda: "Y [m],x [m]\n" + "1e" + "9" * 1_000_000 + ",1\n",
     "huge.mat": lambda: mat5_of(2**31 - 1, 2**31 - 1),
