@@ -24,6 +24,7 @@
 #include "cli/guarded.hpp"
 #include "cli/identify_scenario.hpp"
 #include "cli/interrupt.hpp"
+#include "cli/isolation.hpp"
 #include "cli/lists.hpp"
 #include "cli/manual.hpp"
 #include "cli/new_scenario.hpp"
@@ -93,10 +94,12 @@ CommandOutput run_and_write(Scenario loaded, scenarios::RunOptions options, bool
     output.errors += scenario->file + ": error: verification: " + result->verification->reason + "\n";
   for (const std::string& warning : result->warnings) output.messages += warning_line(scenario->file, warning);
   {
-    const std::lock_guard lock(output_mutex());
+    std::unique_lock lock(output_mutex(), std::defer_lock);  // an interrupt ends the wait for another process
+    scenarios::StagedFiles staged(directory);
+    lock.lock();
     core::stop_if_cancelled();
     for (const std::string& message :
-         write_results(directory, result->provenance.source, result->provenance.data_sha256, files))
+         write_results(staged, result->provenance.source, result->provenance.data_sha256, files))
       output.messages += warning_line(scenario->file, message);
   }
   for (const scenarios::OutputFile& file : files)
@@ -193,6 +196,7 @@ CommandOutput run_file(const RunCommand& command, const std::string& file) {
   if (command.json) output.json(std::cout);
   print(output, {command.json, command.quiet});
   std::cout.flush();
+  announce_end(static_cast<int>(output.status));
   processes()->abort(static_cast<int>(output.status));
 }
 

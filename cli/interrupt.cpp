@@ -8,6 +8,7 @@
 #include <system_error>
 #include <thread>
 
+#include "cli/isolation.hpp"
 #include "core/cancellation.hpp"
 #include "core/diagnostics.hpp"
 
@@ -29,7 +30,9 @@ void wait_for_interrupt(const sigset_t& signals) {
   (void)sigtimedwait(&signals, nullptr, &patience);
   const std::lock_guard lock(output_mutex());
   say_interrupted();
-  ::_exit(static_cast<int>(core::ExitStatus::interrupted));
+  constexpr int status = static_cast<int>(core::ExitStatus::interrupted);
+  announce_end(status);
+  ::_exit(status);
 }
 
 }  // namespace

@@ -1,10 +1,12 @@
 #include "cli/isolation.hpp"
 
 #include <signal.h>
+#include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <cerrno>
 #include <chrono>
 #include <cmath>
@@ -12,6 +14,7 @@
 #include <cstring>
 #include <ctime>
 #include <iostream>
+#include <new>
 #include <optional>
 #include <string>
 
@@ -40,6 +43,19 @@ std::string names(const std::vector<std::string>& plugins) {
   return plugins.empty() ? "none" : core::joined(plugins);
 }
 
+/// The status with which the child is about to end, in memory that it shares with its parent. A child that a plugin
+/// ends by _exit, or by a system call, has announced none.
+std::atomic<int>* announced = nullptr;
+static_assert(std::atomic<int>::is_always_lock_free);
+constexpr int none_announced = -1;
+
+bool share_announcement() {
+  void* memory = ::mmap(nullptr, sizeof *announced, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+  if (memory == MAP_FAILED) return false;
+  announced = new (memory) std::atomic<int>(none_announced);
+  return true;
+}
+
 /// The call that has not returned yet.
 const Call* unfinished = nullptr;
 
@@ -49,6 +65,7 @@ void end_unfinished() {
   const int status =
       say(ExitStatus::numerical_failure,
           "a plugin ended the program (exit); there were the plugins: " + names(unfinished->plugins), *unfinished);
+  announce_end(status);
   ::_exit(status);
 }
 
@@ -56,7 +73,9 @@ void end_unfinished() {
   (void)::prctl(PR_SET_PDEATHSIG, SIGKILL);  // otherwise it would run on after its parent
   (void)::sigprocmask(SIG_SETMASK, &before, nullptr);
   watch_for_interrupt();
-  std::exit(execute_to_its_end(call));
+  const int status = execute_to_its_end(call);
+  announce_end(status);
+  std::exit(status);
 }
 
 timespec until(Clock::time_point end) {
@@ -87,6 +106,11 @@ std::string crash(int signal, const Call& call) {
          "); it had the plugins: " + names(call.plugins);
 }
 
+std::string early_end(int status, const Call& call) {
+  return "a plugin ended the program (_exit, status " + std::to_string(status) +
+         "); there were the plugins: " + names(call.plugins);
+}
+
 std::string no_end(const Call& call) {
   constexpr int digits = 6;
   return "the command did not end within " + core::format_number(call.isolation, digits) +
@@ -102,6 +126,10 @@ int execute_to_its_end(const Call& call) noexcept {
   return status;
 }
 
+void announce_end(int status) noexcept {
+  if (announced != nullptr) *announced = status;
+}
+
 int execute_isolated(const Call& call) noexcept {
   sigset_t signals;
   sigset_t before;
@@ -110,14 +138,16 @@ int execute_isolated(const Call& call) noexcept {
   (void)::sigprocmask(SIG_BLOCK, &signals, &before);
   const Clock::time_point end =
       Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(call.isolation));
-  const pid_t child = ::fork();
+  const pid_t child = share_announcement() ? ::fork() : -1;
   if (child == 0) be_child(call, before);
   if (child < 0)
     return say(ExitStatus::usage, std::string("no process for --isolate-plugins: ") + std::strerror(errno), call);
   const std::optional<int> status = wait_for(child, signals, end);
   if (!status) return say(ExitStatus::numerical_failure, no_end(call), call);
-  if (WIFEXITED(*status)) return WEXITSTATUS(*status);
-  return say(ExitStatus::numerical_failure, crash(WTERMSIG(*status), call), call);
+  if (!WIFEXITED(*status)) return say(ExitStatus::numerical_failure, crash(WTERMSIG(*status), call), call);
+  const int exited = WEXITSTATUS(*status);
+  if (exited == *announced) return exited;
+  return say(ExitStatus::numerical_failure, early_end(exited, call), call);
 }
 
 }  // namespace dualdamp::cli

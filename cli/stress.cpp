@@ -28,9 +28,11 @@ std::string export_stress_test(const ExportCommand& command) {
       loader(command.file, command.set), command.seed.empty() ? bench::hidden_seed() : command.seed, "--seed");
   scenarios::RunOptions options{.directory = command.out, .threads = command.jobs};
   if (command.overwrite) options.found = scenarios::FoundCases::overwrite;
-  const std::size_t cases = bench::export_cases(*bench::stress_test_of(*scenario.question),
-                                                scenarios::context_of(scenario, options), command.out);
-  return "wrote " + std::to_string(cases) + " cases to " + command.out +
+  const bench::Exported exported = bench::export_cases(*bench::stress_test_of(*scenario.question),
+                                                       scenarios::context_of(scenario, options), command.out);
+  std::string messages;
+  for (const std::string& message : exported.messages) messages += message + "\n";
+  return messages + "wrote " + std::to_string(exported.cases) + " cases to " + command.out +
          "/cases, their constants to constants.csv, and the key, which participants must not see, to key.json\n";
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <functional>
 #include <ostream>
 #include <span>
@@ -12,9 +13,10 @@
 
 #include "bench/case.hpp"
 #include "bench/grid.hpp"
+#include "core/diagnostics.hpp"
 #include "core/numbers.hpp"
 #include "core/provenance.hpp"
-#include "scenarios/results/files.hpp"
+#include "scenarios/results/staged_files.hpp"
 #include "sim/parallel.hpp"
 
 namespace dualdamp::bench {
@@ -110,7 +112,7 @@ std::string six_digits(std::size_t number) {
 }
 
 /// `responses`: how many histories at the end of the record are responses to a random drive, none or one.
-void write_case(const std::string& directory, const std::string& name, const identify::Record& record,
+void write_case(scenarios::StagedFiles& cases, const std::string& name, const identify::Record& record,
                 std::size_t responses) {
   std::vector<OutputFile> files;
   const std::span histories(record.histories);
@@ -126,32 +128,75 @@ void write_case(const std::string& directory, const std::string& name, const ide
         {name + "-random.csv", [&response](std::ostream& out) { write_alone(out, columns_of(response)); }});
   if (record.decay)
     files.push_back({name + "-decay.csv", [&record](std::ostream& out) { write_decay(out, *record.decay); }});
-  scenarios::write_files(directory, files);
+  for (const OutputFile& file : files) cases.write(file);
 }
 
+constexpr const char* head_of_constants =
+    "case,mass [kg],stiffness [N/m],frequency [rad/s],sigma_x [m],sigma_Y [m]";
+
 /// "000001.csv", "000001-decay.csv", "000001-random.csv"
-bool is_record(const std::string& name) {
+bool is_name_of_record(const std::string& name) {
   const std::size_t digits = std::min(name.find_first_not_of("0123456789"), name.size());
   const std::string_view rest = std::string_view(name).substr(digits);
   return digits >= 6 && (rest == ".csv" || rest == "-decay.csv" || rest == "-random.csv");
 }
 
-/// Refuses or removes the files of an earlier export: without its key its answers could not be scored, and its
-/// decays would be read as those of new cases.
-void clear(const std::string& directory, scenarios::FoundCases found) {
-  const fs::path folder(directory);
-  std::vector<fs::path> old;
-  for (const char* name : {"constants.csv", "key.json"})
-    if (fs::exists(folder / name)) old.push_back(folder / name);
+std::string first_line(const fs::path& path) {
+  std::string line;
+  std::ifstream file(path, std::ios::binary);
+  std::getline(file, line);
+  return line;
+}
+
+bool is_key(const fs::path& path) {
+  try {
+    return !read_key(path.string()).numbers.empty();
+  } catch (const core::InputError&) {
+    return false;
+  }
+}
+
+/// Files whose names an export needs, or that would be read as records of its cases.
+struct FoundFiles {
+  std::vector<fs::path> exported;
+  std::vector<fs::path> others;
+};
+
+/// Records hold no mark, so that they do not tell from which case they are: they are taken for exported ones where
+/// the constants of an export lie beside them, and the first line is that of a record.
+FoundFiles found_files(const fs::path& folder) {
+  FoundFiles found;
+  const auto add = [&](const fs::path& path, bool is_exported) {
+    (is_exported ? found.exported : found.others).push_back(path);
+  };
+  const bool has_constants = first_line(folder / "constants.csv") == head_of_constants;
+  if (fs::exists(folder / "constants.csv")) add(folder / "constants.csv", has_constants);
+  if (fs::exists(folder / "key.json")) add(folder / "key.json", is_key(folder / "key.json"));
   std::error_code error;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder / "cases", error))
-    if (is_record(entry.path().filename().string())) old.push_back(entry.path());
-  if (old.empty()) return;
-  if (found != scenarios::FoundCases::overwrite)
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder / "cases", error)) {
+    if (!is_name_of_record(entry.path().filename().string())) continue;
+    const std::string line = first_line(entry.path());
+    add(entry.path(), has_constants && (line.starts_with("Y [m],x [m]") || line.starts_with("t [s],x [m]")));
+  }
+  return found;
+}
+
+/// Without its key the answers to an earlier export could not be scored.
+void refuse_exported(const std::string& directory, scenarios::FoundCases found) {
+  if (found != scenarios::FoundCases::overwrite && !found_files(directory).exported.empty())
     throw scenarios::EarlierFiles(directory + " holds an earlier export", false);
-  for (const fs::path& path : old)
+}
+
+/// The decays of an earlier export would be read as those of new cases. Returns messages about files of others.
+std::vector<std::string> clear(const std::string& directory) {
+  const FoundFiles found = found_files(directory);
+  std::vector<std::string> messages;
+  for (const fs::path& path : found.others) messages.push_back(scenarios::set_aside(path.string()));
+  std::error_code error;
+  for (const fs::path& path : found.exported)
     if (!fs::remove(path, error) && error)
       throw scenarios::OutputError("cannot remove " + path.string() + ": " + error.message());
+  return messages;
 }
 
 /// One line of constants.csv.
@@ -172,10 +217,12 @@ Key key_of(const StressTest& question, const scenarios::RunContext& context) {
   return make_key(core::sha256(context.resolved), question.seed, Grid(question).cases());
 }
 
-std::size_t export_cases(const StressTest& question, const scenarios::RunContext& context,
-                         const std::string& directory) {
+Exported export_cases(const StressTest& question, const scenarios::RunContext& context,
+                      const std::string& directory) {
   const Grid grid(question);
-  clear(directory, context.options.found);
+  refuse_exported(directory, context.options.found);
+  scenarios::StagedFiles staged(directory);
+  scenarios::StagedFiles cases(directory + "/cases");
   const Key key = key_of(question, context);
   std::vector<std::size_t> file_of(key.numbers.size());
   for (std::size_t i = 0; i < key.numbers.size(); ++i) file_of[key.numbers[i]] = i + 1;
@@ -185,19 +232,19 @@ std::size_t export_cases(const StressTest& question, const scenarios::RunContext
         grid, context.steady_states(), motion, [](std::size_t) { return true; },
         [&](const MeasuredCase& measured) {
           const std::size_t file = file_of[measured.number];
-          write_case(directory + "/cases", six_digits(file), measured.record, measured.responses);
+          write_case(cases, six_digits(file), measured.record, measured.responses);
           constants[file - 1] = constants_line(measured);
         });
   });
-  scenarios::write_files(directory,
-                         {{"constants.csv",
-                           [&](std::ostream& out) {
-                             out << "case,mass [kg],stiffness [N/m],frequency [rad/s],sigma_x [m],sigma_Y [m]\n";
-                             for (std::size_t i = 0; i < constants.size(); ++i)
-                               out << i + 1 << constants[i] << "\n";
-                           }},
-                          key_file(key)});
-  return grid.cases();
+  staged.write({"constants.csv", [&](std::ostream& out) {
+                  out << head_of_constants << "\n";
+                  for (std::size_t i = 0; i < constants.size(); ++i) out << i + 1 << constants[i] << "\n";
+                }});
+  staged.write(key_file(key));
+  Exported exported{grid.cases(), clear(directory)};
+  cases.publish();
+  staged.publish();
+  return exported;
 }
 
 }  // namespace dualdamp::bench

@@ -10,16 +10,23 @@
 /// Errors: `scenarios::OutputError`.
 
 #include <string>
+#include <vector>
 
 #include "bench/contest/key.hpp"
 #include "bench/stress_test.hpp"
 
 namespace dualdamp::bench {
 
-/// Writes all records on all threads (`options.threads`), then `constants.csv`, then `key.json`. Returns the number
-/// of cases. Files of an earlier export are removed if `options.found` says so; else they are an error.
-std::size_t export_cases(const StressTest& question, const scenarios::RunContext& context,
-                         const std::string& directory);
+struct Exported {
+  std::size_t cases = 0;
+  std::vector<std::string> messages;  ///< which files of others were renamed
+};
+
+/// Writes all records on all threads (`options.threads`), `constants.csv` and `key.json`; all files appear at the
+/// end. Files of an earlier export are then removed if `options.found` says so; else they are an error. Other files
+/// whose names are needed, or that would be read as records, are renamed.
+Exported export_cases(const StressTest& question, const scenarios::RunContext& context,
+                      const std::string& directory);
 
 /// The key of a stress test, as `export_cases` makes it.
 [[nodiscard]] Key key_of(const StressTest& question, const scenarios::RunContext& context);

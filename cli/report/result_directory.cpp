@@ -69,46 +69,45 @@ void remove_stale(const fs::path& directory, const StoredResult& before,
   }
 }
 
-/// Gives a file a new name that is not in use. Returns a message.
-std::string set_aside(const fs::path& path) {
-  fs::path other = path;
-  std::error_code error;
-  do other += "~";
-  while (fs::exists(other, error));
-  fs::rename(path, other, error);
-  if (error)
-    throw scenarios::OutputError("cannot write " + path.string() +
-                                 ": the file that is there cannot be renamed: " + error.message());
-  return "the " + path.string() + " that was there is kept as " + other.string();
+std::vector<std::string> set_others_aside(const fs::path& directory,
+                                          const std::vector<scenarios::OutputFile>& files,
+                                          const std::vector<std::string>& data_sha256) {
+  std::vector<std::string> messages;
+  for (const scenarios::OutputFile& file : files) {
+    const fs::path path = directory / file.name;
+    std::error_code unseen;  // a path that cannot be examined cannot be written either; the write reports it
+    if (fs::is_regular_file(path, unseen) && (!is_ours(path) || is_data(path, data_sha256)))
+      messages.push_back(scenarios::set_aside(path.string()));
+  }
+  return messages;
 }
 
 }  // namespace
 
 std::vector<std::string> write_keeping(const std::string& directory,
-                                       const std::vector<scenarios::OutputFile>& files,
-                                       const std::vector<std::string>& data_sha256) {
-  std::vector<std::string> messages;
-  for (const scenarios::OutputFile& file : files) {
-    const fs::path path = fs::path(directory) / file.name;
-    std::error_code unseen;  // a path that cannot be examined cannot be written either; the write reports it
-    if (fs::is_regular_file(path, unseen) && (!is_ours(path) || is_data(path, data_sha256)))
-      messages.push_back(set_aside(path));
-  }
-  scenarios::write_files(directory, files);
+                                       const std::vector<scenarios::OutputFile>& files) {
+  scenarios::StagedFiles staged(directory);
+  for (const scenarios::OutputFile& file : files) staged.write(file);
+  std::vector<std::string> messages = set_others_aside(directory, files, {});
+  staged.publish();
   return messages;
 }
 
-std::vector<std::string> write_results(const std::string& directory, const std::string& source,
+std::vector<std::string> write_results(scenarios::StagedFiles& staged, const std::string& source,
                                        const std::vector<std::string>& data_sha256,
-                                       const std::vector<scenarios::OutputFile>& files) {
+                                       std::vector<scenarios::OutputFile> files) {
+  const std::string& directory = staged.directory();
   std::vector<std::string> messages;
   const std::optional<StoredResult> before = stored_result(directory);
   if (before && before->source != source)
     messages.push_back(directory + " held the result of " + before->source +
                        ", which is replaced; --out DIR keeps results apart");
-  std::ranges::copy(write_keeping(directory, files, data_sha256), std::back_inserter(messages));
+  for (const scenarios::OutputFile& file : files) staged.write(file);
+  files.push_back(report_page(staged.path()));
+  staged.write(files.back());
+  std::ranges::copy(set_others_aside(directory, files, data_sha256), std::back_inserter(messages));
+  staged.publish();
   if (before) remove_stale(directory, *before, data_sha256, files);
-  std::ranges::copy(write_keeping(directory, {report_page(directory)}), std::back_inserter(messages));
   return messages;
 }
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import os
 import tempfile
+import warnings
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -129,7 +130,7 @@ def stress_export(scenario, directory, *, changes=None, seed=None, threads=0, ov
     threads : int, optional
         Largest number of threads; 0: all cores, or one if a friction law of the scenario is written in Python.
     overwrite : bool, optional
-        Remove the files of an earlier export in this directory; without it they are refused.
+        Remove the files of an earlier export in this directory; without it they are refused. Other files whose names are needed are renamed to ``NAME~``, with a warning.
 
     Returns
     -------
@@ -144,7 +145,10 @@ def stress_export(scenario, directory, *, changes=None, seed=None, threads=0, ov
         The files cannot be written, or the directory holds an earlier export.
     """
     seed = "" if seed is None else str(seed)
-    return core.export_cases(source_of(scenario, changes), os.fsencode(path_text(directory)), seed, thread_count(threads), bool(overwrite))
+    count, messages = core.export_cases(source_of(scenario, changes), os.fsencode(path_text(directory)), seed, thread_count(threads), bool(overwrite))
+    for message in messages:
+        warnings.warn(message, stacklevel=2)
+    return count
 
 
 def cases(directory):

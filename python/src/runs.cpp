@@ -139,10 +139,10 @@ Run run(const Source& source, const Settings& settings, std::optional<ProgressCa
   return done;
 }
 
-/// Exports a stress test and returns the number of cases. `seed`: empty for a hidden one.
-std::size_t export_cases(const Source& source, const std::string& directory, const std::string& seed, int threads,
-                         bool overwrite) {
-  return interruptible([&] {
+/// Exports a stress test. Returns the number of cases, and messages. `seed`: empty for a hidden one.
+py::tuple export_cases(const Source& source, const std::string& directory, const std::string& seed, int threads,
+                       bool overwrite) {
+  const bench::Exported exported = interruptible([&] {
     const scenarios::Scenario scenario =
         bench::contest_scenario(loader(source), seed.empty() ? bench::hidden_seed() : seed, "seed");
     scenarios::RunOptions options{.directory = directory, .threads = threads_for(scenario, threads)};
@@ -150,6 +150,7 @@ std::size_t export_cases(const Source& source, const std::string& directory, con
     return bench::export_cases(*bench::stress_test_of(*scenario.question), scenarios::context_of(scenario, options),
                                directory);
   });
+  return py::make_tuple(exported.cases, exported.messages);
 }
 
 std::string document(const Run& run) {
@@ -161,7 +162,8 @@ std::string document(const Run& run) {
 /// Writes the files that the program writes. Returns its messages.
 std::vector<std::string> save(const Run& run, const std::string& directory) {
   const core::Provenance& provenance = run.result->provenance;
-  return cli::write_results(directory, provenance.source, provenance.data_sha256,
+  scenarios::StagedFiles staged(directory);
+  return cli::write_results(staged, provenance.source, provenance.data_sha256,
                             scenarios::output_files(run.scenario, run.result));
 }
 

@@ -1,8 +1,6 @@
 #include "scenarios/results/case_file.hpp"
 
 #include <fcntl.h>
-#include <sys/file.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -79,14 +77,6 @@ void write_at(int descriptor, std::string_view text, std::uintmax_t place, const
     text.remove_prefix(static_cast<std::size_t>(count));
     place += static_cast<std::uintmax_t>(count);
   }
-}
-
-/// Whether the file with this name is still the one that is open, and was not replaced.
-bool is_at(const std::string& path, int descriptor) {
-  struct stat here{};
-  struct stat there{};
-  return ::fstat(descriptor, &here) == 0 && ::stat(path.c_str(), &there) == 0 && here.st_ino == there.st_ino &&
-         here.st_dev == there.st_dev;
 }
 
 }  // namespace
@@ -176,19 +166,14 @@ void CaseFile::prepare(FoundCases found) {
 }
 
 void CaseFile::open_part() {
+  if (descriptor_ >= 0) return;
   const std::string path = part_path(part_);
-  while (descriptor_ < 0) {
-    descriptor_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
-    if (descriptor_ < 0) fail_to_write(path, std::strerror(errno));
-    // A file system may have no locks.
-    if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
-      close();
-      fail_to_write(path,
-                    "another process is writing it; several that share a campaign are to be started by "
-                    "mpirun or srun");
-    }
-    if (!is_at(path, descriptor_)) close();
-  }
+  descriptor_ = open_locked(path, O_APPEND);
+  if (descriptor_ < 0)
+    fail_to_write(path, errno == EWOULDBLOCK
+                            ? "another process is writing it; several that share a campaign are to be started by "
+                              "mpirun or srun"
+                            : std::strerror(errno));
 }
 
 void CaseFile::open() {

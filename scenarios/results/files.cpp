@@ -1,11 +1,11 @@
 #include "scenarios/results/files.hpp"
 
 #include <fcntl.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <array>
-#include <atomic>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
@@ -97,24 +97,15 @@ bool write_all(int descriptor, const OutputFile& content) {
   return stream.good();
 }
 
-void write_file(const std::string& path, const OutputFile& content) {
-  static std::atomic<unsigned> serial{0};
-  const std::string partial = path + "." + std::to_string(::getpid()) + "-" + std::to_string(serial++) + ".partial";
-  const auto refuse = [&] {
-    const std::string reason = std::strerror(errno);
-    throw OutputError("cannot write " + path + ": " + reason);
-  };
-  constexpr mode_t mode = 0666;  // the umask decides
-  Descriptor file(::open(partial.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode));
-  if (file.number() < 0) refuse();
-  try {
-    if (!write_all(file.number(), content) || !file.close()) refuse();
-    if (::rename(partial.c_str(), path.c_str()) != 0) refuse();
-  } catch (...) {
-    ::unlink(partial.c_str());
-    throw;
-  }
+/// Whether the file of the descriptor is still at `path`: another process may have replaced or removed it.
+bool is_at(const std::string& path, int descriptor) {
+  struct stat opened{};
+  struct stat there{};
+  return ::fstat(descriptor, &opened) == 0 && ::stat(path.c_str(), &there) == 0 && opened.st_ino == there.st_ino &&
+         opened.st_dev == there.st_dev;
 }
+
+constexpr mode_t mode_of_files = 0666;  // the umask decides
 
 }  // namespace
 
@@ -153,13 +144,33 @@ std::string read_file(const std::string& path, std::size_t limit) {
   }
 }
 
-void write_files(const std::string& directory, const std::vector<OutputFile>& files) {
+int write_new_file(const std::string& path, const OutputFile& content) {
+  Descriptor file(::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode_of_files));
+  return file.number() >= 0 && write_all(file.number(), content) && file.close() ? 0 : errno;
+}
+
+int open_locked(const std::string& path, int flags) {
+  while (true) {
+    const int descriptor = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | flags, mode_of_files);
+    if (descriptor < 0) return descriptor;
+    const bool is_held = ::flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+    if (!is_held && is_at(path, descriptor)) return descriptor;
+    ::close(descriptor);
+    if (!is_held) continue;
+    errno = EWOULDBLOCK;
+    return -1;
+  }
+}
+
+std::string set_aside(const std::string& path) {
+  std::string other = path;
   std::error_code error;
-  std::filesystem::create_directories(directory, error);
-  if (error || !std::filesystem::is_directory(directory, error))
-    throw OutputError("cannot create the directory " + directory + ": " +
-                      (error ? error.message() : "a file of that name is there"));
-  for (const OutputFile& file : files) write_file((std::filesystem::path(directory) / file.name).string(), file);
+  do other += "~";
+  while (std::filesystem::exists(other, error));
+  std::filesystem::rename(path, other, error);
+  if (error)
+    throw OutputError("cannot write " + path + ": the file that is there cannot be renamed: " + error.message());
+  return "the " + path + " that was there is kept as " + other;
 }
 
 }  // namespace dualdamp::scenarios

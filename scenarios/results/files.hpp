@@ -1,5 +1,6 @@
 #pragma once
-/// Reading of files with a limit of size, and writing that leaves either the old file or the complete new one.
+/// Reading of files with a limit of size, and writing of single files; scenarios/results/staged_files.hpp writes
+/// the files of a result.
 
 #include <cstddef>
 #include <functional>
@@ -29,9 +30,16 @@ struct OutputFile {
 [[nodiscard]] std::string sealed(const std::string& text);
 [[nodiscard]] bool is_sealed(std::string_view text);
 
-/// Creates `directory` if necessary and writes the files there. Each file is written under another name and renamed
-/// when complete. Errors: `OutputError`; files written before the error stay.
-void write_files(const std::string& directory, const std::vector<OutputFile>& files);
+/// Writes a file that must not exist. Returns 0 or errno; a part of the file may then be there.
+[[nodiscard]] int write_new_file(const std::string& path, const OutputFile& content);
+
+/// Opens a file for reading and writing, creates it if necessary, and locks it against other processes (flock). A
+/// file system may have no locks. Returns the descriptor, or -1 and errno: EWOULDBLOCK if another process holds the
+/// lock.
+[[nodiscard]] int open_locked(const std::string& path, int flags = 0);
+
+/// Gives a file a new name that is not in use, NAME~. Returns a message. Errors: `OutputError`.
+[[nodiscard]] std::string set_aside(const std::string& path);
 
 /// The output directory or a file in it cannot be written.
 class OutputError : public std::runtime_error {

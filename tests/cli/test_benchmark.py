@@ -95,10 +95,14 @@ class Benchmark(unittest.TestCase):
         self.call("stress", "export", SCENARIO, "--out", self.folder / "again", "--seed", 7, "--jobs", 1)
         for path in self.export.rglob("*.*"):
             self.assertEqual(path.read_bytes(), (self.folder / "again" / path.relative_to(self.export)).read_bytes())
-        for name in ("first", "second"):
-            self.call("stress", "export", SCENARIO, "--out", self.folder / name)
-        seeds = {json.loads((self.folder / name / "key.json").read_text())["seed"] for name in ("first", "second")}
-        self.assertEqual(len(seeds), 2)
+        for name, options in (("first", []), ("second", ["--overwrite"])):
+            (self.folder / name / "cases").mkdir(parents=True)
+            mine = [self.folder / name / file for file in ("key.json", "constants.csv", "cases/000001.csv", "cases/000002-decay.csv")]
+            for path in mine:
+                path.write_text("mine")
+            said = self.call("stress", "export", SCENARIO, "--out", self.folder / name, *options).stderr
+            self.assertEqual(([Path(f"{path}~").read_text() for path in mine], said.count("is kept as")), (["mine"] * 4, 4))
+        self.assertEqual(len({json.loads((self.folder / name / "key.json").read_text())["seed"] for name in ("first", "second")}), 2)
 
     def reentered(self):
         """Answers of resonance_least_squares to the exported files, by the program's own command."""
@@ -419,7 +423,7 @@ class Benchmark(unittest.TestCase):
             self.assertIn(message, result.stderr)
             self.assertIn("bad.csv", result.stderr)
         good = self.write("good.csv", [], ["case"])
-        for answers, message in [([f"{good}"], "answers need a name"), ([f"a={good}", f"a={good}"], "two entries have the same name"),
+        for answers, message in [([f"{good}"], "answers need a name"), ([f" ={good}"], "answers need a name"), ([f"a\x1b[31m={good}"], "answers need a name"), ([f"a={good}", f"a={good}"], "two entries have the same name"),
                                  ([f"resonance_two_point={good}"], "two entries have the same name")]:
             _, result = self.score(*answers, out=f"name{hash(message + answers[0])}", status=3)
             self.assertIn(message, result.stderr)

@@ -113,6 +113,10 @@ def test_an_earlier_export_is_removed_only_on_demand(tmp_path):
         dd.stress_export(SMALL, tmp_path, seed=8)
     dd.stress_export(SMALL, tmp_path, seed=8, overwrite=True)
     assert all(case.decay is None for case in dd.cases(tmp_path))
+    assert not list(tmp_path.rglob("*~"))
+    (tmp_path / "key.json").write_text("mine")
+    with pytest.warns(UserWarning, match="key.json that was there is kept as"):
+        dd.stress_export(SMALL, tmp_path, seed=8, overwrite=True)
 
 
 def test_refusals(tmp_path):

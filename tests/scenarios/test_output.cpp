@@ -1,13 +1,18 @@
 // Tables are converted to JSON row by row; the text must equal that of a tree of JSON objects.
 #include "scenarios/output.hpp"
 
+#include <unistd.h>
+
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <thread>
 
 #include "files.hpp"
+#include "scenarios/results/staged_files.hpp"
 
 using namespace dualdamp;
 using scenarios::CellKind;
@@ -81,7 +86,33 @@ TEST_CASE("output: a file that fails half way leaves the old one and no part of 
                   }),
                   std::bad_alloc);
   CHECK(testing::text_of(folder / "a") == longer + "end");
+  CHECK_THROWS_AS(scenarios::write_files(folder.string(), {{"a", [](std::ostream& out) { out << "new"; }},
+                                                           {"b", [](std::ostream&) { throw std::bad_alloc(); }}}),
+                  std::bad_alloc);
+  CHECK(testing::text_of(folder / "a") == longer + "end");
   CHECK(std::distance(fs::directory_iterator(folder), fs::directory_iterator()) == 1);
   CHECK_THROWS_AS(scenarios::write_files((folder / "a").string(), {}), scenarios::OutputError);
+  fs::remove_all(folder);
+}
+
+TEST_CASE("output: files that several write at once are those of one of them", "[scenarios][output]") {
+  namespace fs = std::filesystem;
+  const fs::path folder = fs::temp_directory_path() / ("dualdamp-at-once-" + std::to_string(::getpid()));
+  fs::create_directories(folder / ".dualdamp.partial");
+  std::ofstream(folder / ".dualdamp.partial" / "a") << "left by a program that was killed";
+  const auto write = [&](int writer) {
+    const auto text = [writer](std::ostream& out) {
+      out << writer << std::flush;
+      std::this_thread::yield();
+    };
+    for (int i = 0; i < 20; ++i) scenarios::write_files(folder.string(), {{"a", text}, {"b", text}, {"c", text}});
+  };
+  {
+    std::vector<std::jthread> writers;
+    for (int writer = 0; writer < 4; ++writer) writers.emplace_back(write, writer);
+  }
+  CHECK(testing::text_of(folder / "a") == testing::text_of(folder / "b"));
+  CHECK(testing::text_of(folder / "a") == testing::text_of(folder / "c"));
+  CHECK(std::distance(fs::directory_iterator(folder), fs::directory_iterator()) == 3);
   fs::remove_all(folder);
 }
