@@ -8,12 +8,13 @@ const charts = [];
 
 const ink = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 /** The colour of a series: a number, the name of a colour of the page, or any colour of CSS. */
-const colour = (which) => (typeof which === "number" ? `var(--c${which % 7})` : which.startsWith("--") ? `var(${which})` : which);
+const colour = (which) => (typeof which === "number" ? `var(--c${which % 14})` : which.startsWith("--") ? `var(${which})` : which);
 
 const isNumber = (value) => value !== null && Number.isFinite(value);
 
 /** The smallest and the largest finite number, with a margin; on a logarithmic axis the margin is a factor. */
-function extent(lists, { log, whole }) {
+function extent(lists, { log, whole, names }) {
+  if (names) return [0.5, names.length + 0.5];
   let low = Infinity;
   let high = -Infinity;
   for (const list of lists) for (const value of list) {
@@ -44,7 +45,7 @@ function scaled(spec) {
   const axisOf = (axis, lists) => {
     const { unit, factor } = axis.asWritten ? { unit: axis.unit, factor: 1 } : readable(axis.unit, largest(lists), axis.column);
     const shown = unit && unit !== "1" ? unit : "";
-    return { unit: shown, factor, text: axis.label + (shown ? ` [${shown}]` : ""), log: axis.log ?? false, whole: axis.whole ?? false };
+    return { unit: shown, factor, text: axis.label + (shown ? ` [${shown}]` : ""), log: axis.log ?? false, whole: axis.whole ?? false, names: axis.names };
   };
   const x = axisOf(spec.x, spec.series.map((s) => s.x));
   const y = axisOf(spec.y, spec.series.map((s) => s.y));
@@ -69,14 +70,16 @@ function decades([low, high]) {
 
 /** The positions of the labels of an axis: about `count` round numbers. */
 function ticksOf(axis, range, count) {
+  if (axis.names) return axis.names.map((_, i) => i + 1).filter((v) => v >= range[0] && v <= range[1]);
   const places = axis.log ? decades(range) : [];
   if (places.length > 2) return places;
   const round = d3.scale.linear().domain(range).ticks(count);
   return axis.whole ? round.filter(Number.isInteger) : round;
 }
 
-/** The labels of an axis, with as many digits as its steps need to differ. */
-function tickTexts(splits) {
+/** The labels of an axis: names, or numbers with as many digits as their steps need to differ. */
+function tickTexts(splits, { names } = {}) {
+  if (names) return splits.map((v) => names[v - 1]);
   const [first, last] = [splits[0], splits[splits.length - 1]];
   const step = Math.abs(last - first) / Math.max(splits.length - 1, 1);
   const digits = Math.min(15, Math.max(6, Math.ceil(Math.log10(Math.max(Math.abs(first), Math.abs(last)) / step)) + 2)) || 6;
@@ -139,16 +142,16 @@ function styleOf(s) {
 /** Axes with their grid; returns the scales and the inner size. */
 function drawAxes(svg, shape, ranges, width, height) {
   const yTicks = ticksOf(shape.y, ranges.y, Math.max(3, Math.round(height / 45)));
-  const yTexts = tickTexts(yTicks);
+  const yTexts = tickTexts(yTicks, shape.y);
   const left = 36 + 7 * Math.max(2, ...yTexts.map((text) => text.length));
   const inner = { left, top: 8, width: width - left - 14, height: height - 8 - 44 };
   const scale = (k, span) => (shape[k].log ? d3.scale.log() : d3.scale.linear()).domain(ranges[k]).range(span);
   const scales = { x: scale("x", [0, inner.width]), y: scale("y", [inner.height, 0]) };
-  const xTicks = ticksOf(shape.x, ranges.x, Math.max(2, Math.round(inner.width / 85)));
+  const xTicks = ticksOf(shape.x, ranges.x, Math.max(3, Math.round(inner.width / 85)));
   const place = svg.append("g").attr("transform", `translate(${left},8)`);
   const axis = (k, orient, ticks, texts, size) => place.append("g").attr("class", "axis").call(
     d3.svg.axis().scale(scales[k]).orient(orient).tickValues(ticks).tickFormat((v, i) => texts[i]).innerTickSize(-size).outerTickSize(0).tickPadding(7));
-  axis("x", "bottom", xTicks, tickTexts(xTicks), inner.height).attr("transform", `translate(0,${inner.height})`);
+  axis("x", "bottom", xTicks, tickTexts(xTicks, shape.x), inner.height).attr("transform", `translate(0,${inner.height})`);
   axis("y", "left", yTicks, yTexts, inner.width);
   const label = (text, transform) => place.append("text").attr("class", "label").attr("transform", transform).text(text);
   label(shape.x.text, `translate(${inner.width / 2},${inner.height + 40})`);
@@ -169,7 +172,7 @@ function nearest(shape, scales, hidden, [left, top]) {
   return best;
 }
 
-const withUnit = (value, { unit }) => short(value) + (unit ? ` ${unit}` : "");
+const withUnit = (value, { unit, names }) => (names ? names[value - 1] : short(value) + (unit ? ` ${unit}` : ""));
 
 /** Zoom and pan. `ranges`: the ranges that the scales show. */
 function navigation(shape, ranges, full, redraw) {
@@ -239,7 +242,8 @@ function fillLegend(legend, shape, hidden, redraw) {
 /** The drawing, as wide as its container. */
 function drawPlot(plot, shape, ranges, hidden, isWide) {
   const width = Math.max(240, plot.clientWidth);
-  const height = Math.round(Math.min(420, Math.max(260, width * (isWide ? 0.4 : 0.62))));
+  const usual = Math.round(Math.min(420, Math.max(260, width * (isWide ? 0.4 : 0.62))));
+  const height = Math.max(usual, 52 + 18 * (shape.y.names?.length ?? 0)); // a line of text for each name
   plot.replaceChildren();
   const svg = d3.select(plot).append("svg").attr({ viewBox: `0 0 ${width} ${height}`, width, height });
   const drawn = drawAxes(svg, shape, ranges, width, height);
@@ -250,7 +254,7 @@ function drawPlot(plot, shape, ranges, hidden, isWide) {
   return drawn;
 }
 
-/** A figure with a chart; spec {title, note, x: {label, unit, log, whole}, y likewise, series, wide}. */
+/** A figure with a chart; spec {title, note, x: {label, unit, log, whole, names}, y likewise, series, wide}; `names` stand at 1, 2, ... */
 function chart(spec) {
   const used = spec.series.filter((s) => s.y.some((v) => v !== null)).map((s, i) => ({ kind: "line", colour: i, ...s }));
   if (used.length === 0) return null;

@@ -149,6 +149,8 @@ function lineTable(estimates) {
   return rows.length ? [grid(['x = a + b Y by', 'slope b', `intercept a [${length.unit}]`, 'G'], rows, {caption: 'Lines'})] : [];
 }
 
+const namesOfCurves = {F_abel: 'F by Abel inversion, which needs no basis'};
+
 /** Curves that came with the estimates: METHOD_NAME.csv, the first column against each of the others. */
 function estimateCurves(estimates) {
   const out = [];
@@ -159,9 +161,9 @@ function estimateCurves(estimates) {
       out.push(chart({
         title: `${name.slice(method.length + 1).replaceAll('_', ' ')}, ${method}`,
         x: {label: x.name, unit: x.unit},
-        y: {label: rest.map((column) => column.name).join(', '), unit: rest[0].unit},
+        y: {label: rest.map(({name}) => name).filter((name) => !(name in namesOfCurves)).join(', '), unit: rest[0].unit},
         series: rest.map((column, i) => ({
-                           label: column.name,
+                           label: namesOfCurves[column.name] ?? column.name,
                            x: x.values,
                            y: column.values,
                            width: 1.1,
@@ -243,28 +245,40 @@ function lawCharts(estimates) {
           return `${short(e.hull95[key][i] * factor, 4)}${unit && ` ${unit}`} (${e.hull_ends[key][i]})`;
         };
         return [['zeta', 'ζ', ''], ['F0', 'F0', unitAt('estimates[].F0', 'N')]].map(
-            ([key, label, unit]) => chart({
-              title: `${label}, law by law`,
-              note: `${allowed.length} of ${e.laws.length} laws are allowed; the hull goes from ${end(key, 0)} to ${end(key, 1)}`,
-              x: {label, unit},
-              y: {label: 'law, best first', unit: '', whole: true},
-              series: allowed.map((law, i) => {
-                const [low, high] = law[`${key}_interval95`];
-                return {label: law.name, x: [low, law[key], high], y: [i + 1, i + 1, i + 1], width: 3, colour: i};
-              })
-            }));
+            ([key, label, unit]) => {
+              const rows = allowed.map((_, i) => allowed.length - i);  // the best law on top
+              return chart({
+                title: `${label}, law by law`,
+                note: `${allowed.length} of ${e.laws.length} laws are allowed; the hull goes from ${end(key, 0)} to ${end(key, 1)}`,
+                x: {label, unit},
+                y: {label: 'law, best first', unit: '', names: allowed.map(({name}) => name).reverse()},
+                series: [
+                  {
+                    label: '95 %',
+                    x: allowed.flatMap((law) => [law[`${key}_interval95`][0], law[key], law[`${key}_interval95`][1], null]),
+                    y: rows.flatMap((row) => [row, row, row, null]),
+                    width: 3,
+                    colour: 5
+                  },
+                  {label: 'best fit of the law', kind: 'points', x: allowed.map((law) => law[key]), y: rows, colour: 1}
+                ]
+              });
+            });
       });
 }
 
 function identifyView(result) {
-  const {estimates} = result;
+  const {estimates, answer} = result;
   // The covariance contains the damping ratio, which does not exist without a spring.
   const known = estimates.filter((e) => e.zeta !== null && e.F0 !== null);
-  const series = known.flatMap((e, i) => {
+  const others = known.filter((e) => e.method !== answer?.method);
+  const series = [...known.filter((e) => e.method === answer?.method), ...others].flatMap((e, i) => {
     const around = ellipse(e);
+    const isAnswer = e.method === answer?.method;
+    const [label, colour] = [isAnswer ? `${e.method} (the answer)` : e.method, isAnswer ? '--ink' : i];
     return [
-      {label: e.method, kind: e.usable ? 'points' : 'open', x: [e.zeta], y: [e.F0], colour: i},
-      ...(around ? [{label: e.method, ...around, width: 1, colour: i}] : [])
+      {label, kind: e.usable ? 'points' : 'open', x: [e.zeta], y: [e.F0], size: isAnswer ? 5 : 3, colour},
+      ...(around ? [{label, ...around, width: isAnswer ? 2.4 : 1, colour}] : [])
     ];
   });
   return [

@@ -217,6 +217,7 @@ class Page(unittest.TestCase):
         close, around_zero = self.ask("formula", "tickTexts([13.999990, 13.999992, 13.999994, 13.999996])", "tickTexts([-0.2, -5e-17, 0.2])")
         self.assertEqual(close, ["13.99999", "13.999992", "13.999994", "13.999996"])
         self.assertEqual(around_zero, ["−0.2", "0", "0.2"])
+        self.assertEqual(self.ask("formula", "tickTexts(ticksOf({ names: ['a', 'b', 'c'] }, [1.5, 3.5], 2), { names: ['a', 'b', 'c'] })"), ["b", "c"])
 
     def test_counts_that_are_all_zero_have_no_negative_axis(self):
         none, some, equal = self.ask("formula", *(f"extent([{values}], {{ whole: true }})" for values in ("[0, 0, null]", "[0, 2]", "[3, 3]")))
