@@ -175,7 +175,7 @@ class Sound(Case):
         self.run_program("laws", "nosuch", "--check", status=2)
         self.run_program("laws", "--check", status=2)
         self.assertIn("--set", self.run_program("laws", "coulomb", "--check", "--set", "kinetic=2 m", status=3).stderr)
-        self.run_program("laws", "coulomb", "--check", status=3)
+        self.assertEqual(self.run_program("laws", "coulomb", "--check", status=3).stderr.splitlines()[0], "coulomb: error: 'system.friction.kinetic' is missing")
         self.run_program("laws", "coulomb", "--check", "--set", "kinetic=2 N", "--stroke", "1 s", status=3)
 
 
@@ -259,8 +259,9 @@ class Isolated(Case):
         self.assertIn("did not end within 0.5 s", document["errors"][0]["message"])
 
     def test_a_law_that_calls_exit_is_no_success(self):
-        for options in ([], ["--isolate-plugins"]):
-            document = self.document("slider.yaml", *options, status=4, fault="calls exit")
+        isolated = ["--isolate-plugins"]
+        for options, fault in (([], "calls exit"), (isolated, "calls exit"), (isolated, "calls _exit")):
+            document = self.document("slider.yaml", *options, status=4, fault=fault)
             self.assertIn("a plugin ended the program", document["errors"][0]["message"])
             self.assertIn(TEST_LAW, document["errors"][0]["message"])
 
