@@ -114,7 +114,7 @@ class Parser {
         ->add_option("--jobs", run_.jobs,
                      "Number of threads (default: all cores); with several files, how many run at the same time "
                      "(default: one)")
-        ->check(CLI::Range(1, max_jobs))
+        ->check(whole_number(max_jobs))
         ->type_name("N");
     run_command_->add_flag("--dry-run", run_.dry_run, "Check the files and print what would be run");
     CLI::Option* resume =
@@ -143,7 +143,7 @@ class Parser {
           ->allow_extra_args(false)
           ->type_name("PATH=VALUE");
       command.add_option("--jobs", options.jobs, "Number of threads (default: all cores)")
-          ->check(CLI::Range(1, max_jobs))
+          ->check(whole_number(max_jobs))
           ->type_name("N");
       add_plugins(command);
     };
@@ -277,7 +277,7 @@ class Parser {
     command
         .add_option("--starts", fit_.starts,
                     "Number of starts of the search (default: 40, or 8 if every parameter has a stated value)")
-        ->check(CLI::Range(1, 10'000))
+        ->check(whole_number(10'000))
         ->type_name("N");
     command.add_flag("--robust", fit_.robust, "Bounds the influence of outliers (Huber)");
     command.add_flag("--no-profile", fit_.no_profile, "Leaves out the intervals by the profile of the likelihood");

@@ -4,6 +4,7 @@
 #include <map>
 #include <vector>
 
+#include "core/numbers.hpp"
 #include "scenarios/results/shown_units.hpp"
 
 namespace dualdamp::cli {
@@ -83,6 +84,15 @@ void add_record_kind(CLI::App& command, bool& loop, std::string& drive) {
       ->check(CLI::IsMember({"y", "force"}))
       ->excludes(is_loop)
       ->type_name("COLUMN");
+}
+
+std::function<std::string(const std::string&)> whole_number(int most) {
+  return [most](const std::string& text) {
+    const bool has_digits_only = text.find_first_not_of("0123456789") == std::string::npos;
+    const double number = core::parse_number(text).value.value_or(0.0);
+    if (has_digits_only && number >= 1.0 && number <= most) return std::string();
+    return "'" + text + "' is no whole number from 1 to " + std::to_string(most);
+  };
 }
 
 void refuse_empty_names(CLI::App& command) {

@@ -1,6 +1,7 @@
 #pragma once
 /// Options that several commands have.
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,9 @@ void add_gains(CLI::App& command, std::vector<std::string>& gains);
 void add_file_options(CLI::App& command, FileOptions& options);
 /// Adds `--loop` and `--drive`: what kind of motions the records of a fit are.
 void add_record_kind(CLI::App& command, bool& loop, std::string& drive);
+
+/// The check of a whole number from 1 to `most`. CLI11 would also take 0x2, +2 and " 2".
+[[nodiscard]] std::function<std::string(const std::string&)> whole_number(int most);
 
 /// Refuses empty positional arguments (files, laws, ...) of this command and of its commands. An unset variable of
 /// a shell gives an empty argument.

@@ -298,12 +298,20 @@ friction::ParameterValues law_parameters(const std::string& law, const std::vect
                                          const std::string& origin) {
   LoadOptions options;
   for (const std::string& assignment : set) options.set.push_back({"system.friction." + assignment, origin});
-  const Scenario around =
-      parse_scenario("schema: dualdamp/1\nsystem: {mass: 1, stiffness: 1, damping: 0, friction: {law: " + law +
-                         "}}\nexcitation: {type: force_harmonic, amplitude: 1, frequency: 1 rad/s}\n"
-                         "analysis: {type: simulate, duration: 1}\n",
-                     origin, options);
-  return law_values(friction::find_law(law)->parameters, Json::parse(around.resolved).at("system").at("friction"));
+  const std::string text =
+      "schema: dualdamp/1\nsystem: {mass: 1, stiffness: 1, damping: 0, friction: {law: " + law +
+      "}}\nexcitation: {type: force_harmonic, amplitude: 1, frequency: 1 rad/s}\n"
+      "analysis: {type: simulate, duration: 1}\n";
+  try {
+    const Scenario around = parse_scenario(text, law, options);
+    return law_values(friction::find_law(law)->parameters,
+                      Json::parse(around.resolved).at("system").at("friction"));
+  } catch (const core::InputError& error) {
+    std::vector<core::Diagnostic> problems = error.diagnostics();
+    for (core::Diagnostic& problem : problems)  // nobody has written the text around the values
+      if (problem.place.file == law) problem.place = {law, 0, 0, {}};
+    throw core::InputError(std::move(problems));
+  }
 }
 
 }  // namespace dualdamp::scenarios

@@ -211,6 +211,7 @@ class Sweep {
 
   /// The scenario of the whole sweep; `expect`: its expected values.
   Scenario scenario(std::optional<Entry> expect) {
+    refuse_sections();
     for (std::size_t point = 0; point < points_.size(); ++point) {
       core::stop_if_cancelled();
       try {
@@ -233,6 +234,35 @@ class Sweep {
                   {points_.base().locate(place), std::move(message), std::move(allowed), std::move(found), {}});
   }
 
+  [[nodiscard]] core::Diagnostic no_number(const SweptKey& key) const {
+    return {points_.base().locate(key.place),
+            "'" + key.path + "' is no number of this scenario",
+            "a key whose value is a number",
+            {},
+            {}};
+  }
+
+  /// Whether the file states a map or a list at this path.
+  static bool is_section(const Node& root, std::string_view path) {
+    const Node* node = &root;
+    while (!path.empty()) {
+      const std::size_t end = std::min(path.find('.'), path.size());
+      const Entry* entry = node->find(path.substr(0, end));
+      if (entry == nullptr) return false;
+      node = &entry->value;
+      path.remove_prefix(std::min(end + 1, path.size()));
+    }
+    return node->kind == Node::Kind::map || node->kind == Node::Kind::sequence;
+  }
+
+  /// A number in the place of a section would only be reported by the keys that are missing then.
+  void refuse_sections() const {
+    std::vector<core::Diagnostic> problems;
+    for (const SweptKey& key : points_.swept().keys)
+      if (is_section(points_.base().root(), key.path)) problems.push_back(no_number(key));
+    if (!problems.empty()) throw_sorted(std::move(problems), points_.name());
+  }
+
   void check(std::size_t point) {
     const Document document = points_.document(point);
     Reading reading = read(document, points_.format());
@@ -241,9 +271,7 @@ class Sweep {
       const SweptKey& key = points_.swept().keys[i];
       const std::optional<double> value = number_at(reading, key.path);
       if (value) columns_[i].si.push_back(*value);
-      if (!value && is_fine)
-        complain(point, key.place, "'" + key.path + "' is no number of this scenario",
-                 "a key whose value is a number");
+      if (!value && is_fine) problems_.add(point, no_number(key));
     }
     if (point > 0 && is_fine && !first_values_.is_null())
       keep_common(first_values_, reading.values, reading.places, "");

@@ -1,5 +1,6 @@
 #include "bench/contest/contest.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <random>
 #include <set>
@@ -9,6 +10,7 @@
 #include "bench/contest/key.hpp"
 #include "bench/stress_test.hpp"
 #include "core/diagnostics.hpp"
+#include "core/units.hpp"
 #include "scenarios/run.hpp"
 
 namespace dualdamp::bench {
@@ -31,6 +33,12 @@ void check_key(const Key& key, const std::string& file, const scenarios::Scenari
   if (key.numbers != exported.numbers)
     refuse(file, "the key was changed after the export",
            "key.json of the export, whose cases are " + std::to_string(exported.numbers.size()));
+}
+
+/// A name is printed, and written to tables.
+bool is_printable(const std::string& name) {
+  const bool has_control = std::ranges::any_of(name, [](char c) { return (c >= 0 && c < ' ') || c == 0x7f; });
+  return !name.empty() && core::trimmed(name) == name && !has_control;
 }
 
 }  // namespace
@@ -61,7 +69,8 @@ scenarios::Scenario scored_scenario(const ContestLoader& load, const std::string
   std::set<std::string> names;
   for (std::size_t i = 0; i < question.methods.size(); ++i) names.insert(question.entrant(i));
   for (const Answers& entry : answers) {
-    if (entry.name.empty()) refuse(entry.file, "answers need a name", "a name");
+    if (!is_printable(entry.name))
+      refuse(entry.file, "answers need a name", "visible characters, and blanks between them", entry.name);
     if (!names.insert(entry.name).second)
       refuse(entry.file, "two entries have the same name", "another name", entry.name);
     question.entries.push_back(read_entry(entry.name, entry.file, key));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <numeric>
 #include <ostream>
@@ -116,11 +117,14 @@ class EntryReader {
   [[nodiscard]] CaseAnswer::Usable usable_of(const std::string& text) const {
     using enum CaseAnswer::Usable;
     if (text.empty()) return missing;
-    for (const char* word : {"1", "true", "True", "yes"})
-      if (text == word) return yes;
-    for (const char* word : {"0", "false", "False", "no"})
-      if (text == word) return no;
-    refuse(path_, line_, "'usable' says neither yes nor no", "1, true, yes, 0, false, no, or nothing", text);
+    std::string lower = text;
+    std::ranges::transform(lower, lower.begin(), [](unsigned char c) { return std::tolower(c); });
+    for (const char* word : {"1", "true", "yes"})
+      if (lower == word) return yes;
+    for (const char* word : {"0", "false", "no"})
+      if (lower == word) return no;
+    refuse(path_, line_, "'usable' says neither yes nor no",
+           "1, true, yes, 0, false, no in small or capital letters, or nothing", text);
   }
 
   void read_row(const std::vector<std::string>& fields, std::vector<bool>& seen) {

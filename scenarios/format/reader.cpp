@@ -165,16 +165,19 @@ class Reader {
     }
   }
 
-  Json wrong_kind(const Node& node, const Field& field, const std::string& path) {
-    complain(node.place, "'" + path + "' is of the wrong kind", describe_values(field, coordinate_), shown(node));
+  Json refused(const Node& node, std::string message, std::string allowed, std::string suggestion = {}) {
+    complain(node.place, std::move(message), std::move(allowed), shown(node), std::move(suggestion));
     return nullptr;
+  }
+
+  Json wrong_kind(const Node& node, const Field& field, const std::string& path) {
+    return refused(node, "'" + path + "' is of the wrong kind", describe_values(field, coordinate_));
   }
 
   Json word(const Node& node, const Field& field, const std::string& path) {
     if (field.words.empty() || std::ranges::find(field.words, node.text) != field.words.end()) return node.text;
-    complain(node.place, "'" + path + "' cannot be '" + shown(node) + "'", core::joined(field.words), shown(node),
-             nearest(node.text, field.words));
-    return nullptr;
+    return refused(node, "'" + path + "' cannot be '" + shown(node) + "'", core::joined(field.words),
+                   nearest(node.text, field.words));
   }
 
   Json truth(const Node& node, const Field& field, const std::string& path) {
@@ -188,8 +191,10 @@ class Reader {
     if (number.is_null()) return nullptr;
     const double value = number.get<double>();
     const double largest = std::max(2e9, std::isfinite(field.range.high) ? field.range.high : 0.0);
-    if (value != std::floor(value) || std::abs(value) > largest) return wrong_kind(node, field, path);
-    return in_range(node, field, path, value, "") ? Json(static_cast<long>(value)) : Json(nullptr);
+    if (value != std::floor(value)) return wrong_kind(node, field, path);
+    if (!in_range(node, field, path, value, "")) return nullptr;
+    if (std::abs(value) <= largest) return static_cast<long>(value);
+    return refused(node, "'" + path + "' is out of range", "-2e9 to 2e9");
   }
 
   Json plain_number(const Node& node, const std::string& path, const std::string& allowed) {
@@ -225,18 +230,13 @@ class Reader {
     Field chosen = field;
     chosen.units = {unit};
     std::string allowed = describe_values(chosen, coordinate_);
-    if (node.quoted && core::parse_number(node.text).value) {
-      complain(node.place, "'" + path + "' is a quoted number", "the number without quotes, or with its unit",
-               shown(node));
-      return nullptr;
-    }
+    if (node.quoted && core::parse_number(node.text).value)
+      return refused(node, "'" + path + "' is a quoted number", "the number without quotes, or with its unit");
     const core::UncertainQuantityText text = core::parse_uncertain_quantity(node.text, unit, coordinate_);
     if (told_.fits_other_only(document_, node, path, unit, coordinate_) && reading_.coordinate)
       allowed += "; " + reading_.coordinate->reason();
-    if (text.uncertainty && !field.takes_uncertainty) {
-      complain(node.place, "'" + path + "' takes no uncertainty", allowed, shown(node));
-      return nullptr;
-    }
+    if (text.uncertainty && !field.takes_uncertainty)
+      return refused(node, "'" + path + "' takes no uncertainty", allowed);
     if (!text.value) {
       const bool is_word = !field.words.empty() && !is_number_like(node.text);
       complain(node.place, "'" + path + "': " + text.fault, allowed, shown(node),

@@ -235,7 +235,8 @@ class Refusals(Case):
 
     def test_wrong_usage(self):
         for arguments in [[], ["run"], ["fly"], ["run", "base.yaml", "--fly"], ["run", "base.yaml", "--jobs", "0"],
-                          ["run", "base.yaml", "--jobs", "two"], ["run", "base.yaml", "--out"], ["identify"],
+                          ["run", "base.yaml", "--jobs", "two"],
+                          *(["run", "base.yaml", "--jobs", number] for number in ("0x2", " 2", "+2", "2.0")), ["run", "base.yaml", "--out"], ["identify"],
                           ["laws", "gravity"], ["methods", "guess"], ["run", "base.yaml", "--resume"],
                           ["run", "base.yaml", "--plugin", "x.so"], ["run", "base.yaml", "--out", ""]]:
             with self.subTest(arguments):

@@ -201,6 +201,8 @@ TEST_CASE("sweep: every value is checked before anything runs", "[scenarios][swe
 TEST_CASE("sweep: what cannot be swept", "[scenarios][sweep]") {
   CHECK(problem_of("sweep: {system.mas: [1 kg]}").message.find("unknown key 'mas'") != std::string::npos);
   CHECK(problem_of("sweep: {title: [1, 2]}").message == "'title' is no number of this scenario");
+  CHECK(problem_of("sweep: {system: [1]}").message == "'system' is no number of this scenario");
+  CHECK(problem_of("sweep: {system.friction: [1]}").message == "'system.friction' is no number of this scenario");
   CHECK(problem_of("sweep: {system.friction.law: [coulomb]}").message.find("takes numbers only") !=
         std::string::npos);
   CHECK(problem_of("sweep: {system.mass: [1 kg, 200 g]}").message.find("different units") != std::string::npos);

@@ -10,6 +10,7 @@
 #include <numeric>
 
 #include "core/diagnostics.hpp"
+#include "scenarios/results/staged_files.hpp"
 
 using namespace dualdamp;
 namespace fs = std::filesystem;
