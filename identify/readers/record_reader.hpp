@@ -6,7 +6,7 @@
 /// fundamental, mean_square_speed, sweep. Numbers are in SI unless the file or the caller states a unit. The
 /// columns decide the kind of the record:
 /// * Y and x: x-Y pairs, with the other columns of a pair if there are any;
-/// * x alone, or t and x where x turns back at every row: extremes of a free vibration;
+/// * x alone, or t and x where x turns back at four rows of five or more: extremes of a free vibration;
 /// * t and any of x, y, v, a, force: histories, one for each label of `sweep`. Times must be evenly spaced, within
 ///   the rounding of the printed numbers and 1 % of a step. Gaps, bursts and jitter are handled with a warning, or
 ///   refused (identify/readers/time_base.hpp).

@@ -92,6 +92,11 @@ TEST_CASE("Rows that turn back are extremes, rows that do not are samples") {
   std::string decay = "t,x\n";
   for (int i = 0; i < 40; ++i) decay += print("%.2f,%.6f\n", 0.01 * i, (i % 2 == 0 ? 1 : -1) * (1.0 - 0.02 * i));
   CHECK(parse_record(decay, "d").record.decay.has_value());
+  // The last of seven rows is noise, or the fourth is missing: the methods say which row does not lie across.
+  const std::string noisy = "t,x\n0,6\n1,-5\n2,4\n3,-3\n4,2\n5,-0.3\n6,-0.4\n";
+  CHECK(parse_record(noisy, "n").record.decay.has_value());
+  const std::string lacking = "t,x\n0,9\n1,-8\n2,7\n4,5\n5,-4\n6,3\n7,-2\n8,1\n9,-0.5\n10,0.3\n11,-0.2\n12,0.1\n";
+  CHECK(parse_record(lacking, "l").record.decay.has_value());
 }
 
 TEST_CASE("Times as instruments print them are evenly spaced") {
