@@ -60,9 +60,12 @@ bool misses(Estimate& estimate, const Ledger& ledger) {
 void judge(Estimate& estimate, const Ledger& ledger) {
   if (!estimate.outcome.ok() || misses(estimate, ledger) || ledger.data.empty() || !estimate.sound) return;
   std::vector<Assumption> violated;
-  for (const LedgerEntry& entry : ledger.entries)
-    if (entry.standing == Standing::violated && rests_on(estimate).contains(entry.assumption))
+  for (const LedgerEntry& entry : ledger.entries) {
+    // A drift that friction over speed can stand for is in a range over laws, which is extended to the fit with it.
+    const bool is_held = estimate.laws && entry.is_like_speed;
+    if (entry.standing == Standing::violated && !is_held && rests_on(estimate).contains(entry.assumption))
       violated.push_back(entry.assumption);
+  }
   const bool contradicted = !estimate.usable;
   const bool clears = !keeps_its_findings(estimate, ledger);
   estimate.usable = violated.empty() && (clears || !contradicted);
@@ -101,11 +104,14 @@ void keep_physical(Estimate& estimate) {
   }
 }
 
-/// The departures of friction that the ledger can relax: a range over laws answers for them.
+/// The departures of friction that the ledger can relax, and a drift that may be one of them: a range over laws
+/// answers for them.
 std::vector<const LedgerEntry*> friction_departures(const Ledger& ledger) {
   std::vector<const LedgerEntry*> found;
-  for (const Assumption assumption : {Assumption::friction_velocity, Assumption::friction_displacement}) {
+  using enum Assumption;
+  for (const Assumption assumption : {friction_velocity, friction_displacement, stationarity}) {
     const LedgerEntry& entry = ledger.entry(assumption);
+    if (assumption == stationarity && !entry.is_like_speed) continue;
     if (entry.standing == Standing::violated && entry.zeta_change && entry.F0_change) found.push_back(&entry);
   }
   return found;

@@ -85,13 +85,24 @@ std::string numbers_of(const Estimate& estimate, core::Coordinate coordinate) {
          ", F0 = " + with_interval(estimate.value.F0, estimate.interval95, &ParameterIntervals::F0, unit("N"));
 }
 
+/// ", explained as well by mass free, which would hardly change zeta and F0": what violates nothing of the
+/// departure of an entry; all explanations of a departure have its p.
+std::string harmless_beside(const LedgerEntry& violated, const Ledger& ledger) {
+  std::vector<std::string> tests;
+  for (const LedgerEntry& entry : ledger.entries)
+    if (entry.standing == Standing::holds && entry.p_value == violated.p_value && *entry.p_value < family_level)
+      tests.push_back(entry.test);
+  if (tests.empty()) return {};
+  return ", explained as well by " + core::joined(tests, " or ") + ", which would hardly change zeta and F0";
+}
+
 /// "These data contradict that ... (cubic stiffness, p = 0.002).", for each departure.
 std::string departures_text(const Ledger& ledger) {
   std::string text;
   for (const std::vector<Assumption>& departure : ledger.departures) {
     const LedgerEntry& first = ledger.entry(departure.front());
     text += " These data contradict that " + statements_of(departure, ", or that ") + " (" + first.test +
-            ", p = " + core::format_number(*first.p_value, 2) + ")";
+            ", p = " + core::format_number(*first.p_value, 2) + harmless_beside(first, ledger) + ")";
     const std::string& wanted = ledger.entry(Assumption::constants).wanted;
     const bool of_constants = std::ranges::count(departure, Assumption::constants) > 0;
     text += of_constants && !wanted.empty() ? ": they fit " + wanted + "." : ".";
@@ -124,18 +135,6 @@ std::string harmless_text(const Ledger& ledger) {
     texts.push_back(entry.test + " (p = " + core::format_number(*entry.p_value, 2) + ")");
   }
   return core::joined(texts, "; ");
-}
-
-std::string trend_text(const std::vector<Estimate>& estimates, core::Coordinate coordinate) {
-  const auto trend = std::ranges::find_if(estimates, [](const Estimate& e) { return e.subsets.size() > 1; });
-  if (trend == estimates.end()) return {};
-  const auto range = [&](double ParameterSet::* member) {
-    return four_digits(trend->subsets.front().value.*member) + " to " +
-           four_digits(trend->subsets.back().value.*member);
-  };
-  return " From " + trend->subsets.front().label + " to " + trend->subsets.back().label +
-         " of the data zeta goes from " + range(&ParameterSet::zeta) + " and F0 from " + range(&ParameterSet::F0) +
-         " " + core::unit_for(coordinate, "N") + ".";
 }
 
 /// The ranges over all laws, and which laws end them, or why they are not to be used.
@@ -230,12 +229,9 @@ std::string why_none(const Identification& all) {
 
 std::string verdict_of(const Identification& all) {
   std::string text = departures_text(all.ledger);
-  const bool of_friction = departs_in_friction(all.ledger);
   if (!all.answer)
-    return (text.empty()
-                ? ""
-                : text.substr(1) + (of_friction ? trend_text(all.estimates, all.ledger.coordinate) : "") + " ") +
-           "No estimate is to be used: " + all.reason + "." + over_laws(all);
+    return (text.empty() ? "" : text.substr(1) + " ") + "No estimate is to be used: " + all.reason + "." +
+           over_laws(all);
   const Estimate& best = all.estimates[*all.answer];
   const bool untested = all.ledger.data.empty();
   const std::string harmless = harmless_text(all.ledger);

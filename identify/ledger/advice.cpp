@@ -120,6 +120,13 @@ constexpr std::array all_means = {
     Means{symmetry, "signed extremes", has_directions},
 };
 
+/// Departures that decays from several amplitudes would tell apart.
+bool drifts_or_has_speed(const std::vector<Assumption>& departure) {
+  return std::ranges::any_of(departure, [](Assumption assumption) {
+    return assumption == stationarity || assumption == friction_velocity;
+  });
+}
+
 /// Departures that a swing that is cut off can pretend.
 bool looks_clipped(const std::vector<Assumption>& departure) {
   return std::ranges::any_of(departure, [](Assumption assumption) {
@@ -129,6 +136,31 @@ bool looks_clipped(const std::vector<Assumption>& departure) {
 }
 
 }  // namespace
+
+Recorded recorded_in(const Record& record) {
+  const auto any_has = [&](const std::vector<std::vector<double> History::*>& signals) {
+    return std::ranges::any_of(record.histories, [&](const History& history) {
+      return std::ranges::any_of(signals, [&](auto signal) { return !(history.*signal).empty(); });
+    });
+  };
+  Recorded recorded{.histories = !record.histories.empty()};
+  recorded.drive = any_has({&History::y, &History::force});
+  recorded.states = record.pairs.has_value();
+  recorded.clipped = std::ranges::any_of(record.histories, &History::is_clipped);
+  recorded.free = recorded.histories ? !recorded.drive : !record.pairs && record.decay;
+  recorded.second_sensor = any_has({&History::v, &History::a});
+  recorded.one_sensor = recorded.free && !recorded.second_sensor;
+  recorded.times = recorded.free && (recorded.histories || !record.decay->times.empty());
+  if (!record.pairs) return recorded;
+  const std::vector<Pair>& pairs = record.pairs->pairs;
+  const auto differ = [&](auto of) {
+    return std::ranges::any_of(pairs, [&](const Pair& pair) { return of(pair) != of(pairs.front()); });
+  };
+  recorded.phases = std::ranges::any_of(pairs, [](const Pair& pair) { return !std::isnan(pair.phase); });
+  recorded.frequencies = differ([](const Pair& pair) { return std::isnan(pair.omega) ? 0.0 : pair.omega; });
+  recorded.sweeps = differ([](const Pair& pair) { return pair.sweep; });
+  return recorded;
+}
 
 std::string would_show(Assumption assumption, const Recorded& recorded) {
   std::vector<std::string> lacking;
@@ -142,8 +174,13 @@ std::string what_would_help(const Ledger& ledger) {
   if (ledger.recorded.clipped && std::ranges::any_of(ledger.departures, looks_clipped))
     helps.emplace_back(
         "first leave out the part of the record that is clipped: clipping looks like friction or drift");
+  const bool is_like_speed = ledger.entry(stationarity).is_like_speed;
   for (const std::vector<Assumption>& departure : ledger.departures) {
-    std::string help = what_would_help(departure.front(), ledger.recorded);
+    std::string help =
+        is_like_speed && drifts_or_has_speed(departure)
+            ? "measure a decay from another amplitude as well: a drift goes with time, friction over "
+              "speed with the amplitude"
+            : what_would_help(departure.front(), ledger.recorded);
     if (std::ranges::find(helps, help) == helps.end()) helps.push_back(std::move(help));
   }
   return core::joined(helps, "; and ");

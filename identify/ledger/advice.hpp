@@ -8,6 +8,8 @@
 
 namespace dualdamp::identify {
 
+[[nodiscard]] Recorded recorded_in(const Record& record);
+
 /// For every departure that was found.
 [[nodiscard]] std::string what_would_help(const Ledger& ledger);
 

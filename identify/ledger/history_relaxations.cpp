@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -32,6 +33,28 @@ void add_constants(HistoryRelaxations& list, const KnownConstants& constants) {
   // Below its resonance a further mode adds to the mass.
   if (!std::isnan(constants.mass))
     add(list, Assumption::one_mode, "inertia of a further mode", {.kind = Kind::constant, .by = By::mass});
+}
+
+/// Free vibrations from about the same amplitude.
+bool are_alike_decays(const std::vector<ForwardTest>& tests) {
+  constexpr double apart = 1.5;  // of amplitudes: the larger one has swings that the other has not
+  double least = std::numeric_limits<double>::infinity();
+  double most = 0.0;
+  for (const ForwardTest& test : tests) {
+    const History& history = *test.history;
+    if (!history.y.empty() || !history.force.empty()) return false;
+    const auto [low, high] = std::ranges::minmax(history.x);
+    least = std::min(least, high - low);
+    most = std::max(most, high - low);
+  }
+  return most < apart * least;
+}
+
+void add_terms(HistoryRelaxations& list, bool are_alike) {
+  for (const HistoryTerm& term : history_terms()) {
+    add(list, term.assumption, std::string(term.test), {.kind = Kind::force, .term = &term});
+    list.relaxations.back().is_like_speed = are_alike && term.assumption == Assumption::stationarity;
+  }
 }
 
 void add_contrasts(HistoryRelaxations& list, std::size_t tests) {
@@ -100,8 +123,7 @@ HistoryRelaxations history_relaxations(const std::vector<ForwardTest>& tests, co
   };
   HistoryRelaxations list;
   add_constants(list, constants);
-  for (const HistoryTerm& term : history_terms())
-    add(list, term.assumption, std::string(term.test), {.kind = Kind::force, .term = &term});
+  add_terms(list, are_alike_decays(tests));
   add_contrasts(list, tests.size());
   const bool beside_x = has(&History::v) || has(&History::a) || has(&History::y) || has(&History::force);
   if (beside_x) add_reading(list, "x", MotionSensor::x);

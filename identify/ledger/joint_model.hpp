@@ -28,6 +28,9 @@ struct Relaxation {
   std::string test;  ///< "natural frequency free", ...: what is set free
   int sign = 0;      ///< of the coefficient in such a departure; 0: either
   Freed freed = Freed::effect;
+  /// A drift of friction or damping in free vibrations from about one amplitude: it falls with time, so that
+  /// friction over speed, of whatever form, has the same effect.
+  bool is_like_speed = false;
 };
 
 /// What was read.

@@ -145,22 +145,33 @@ class Writer {
     const auto any = [&](auto is) { return std::ranges::any_of(departure.explanations, is); };
     const bool stated = any([&](const RelaxationTest& t) { return is_as_stated(t); });
     const bool of_step = is_of_step(departure.explanations.front());
-    const bool harms = !stated && !of_step && any([&](const RelaxationTest& t) { return matters(t); });
+    // The terms of speed have few forms: the drift shows what another form would move.
+    const bool drift_matters =
+        any([&](const RelaxationTest& t) { return model_.relaxations[t.index].is_like_speed && matters(t); });
+    const auto harming = [&](const RelaxationTest& t) {
+      const bool is_of_speed = assumption_of(t) == Assumption::friction_velocity;
+      return !stated && !of_step && (matters(t) || (is_of_speed && drift_matters));
+    };
     std::vector<Assumption> named;
     const std::vector<ChangedConstant> of_joint = changed_constants(departure.explanations.front());
     for (const RelaxationTest& test : departure.explanations) {
       LedgerEntry& entry = ledger.entry(assumption_of(test));
       if (entry.standing == Standing::violated) continue;
+      const bool harms = harming(test);
+      if (!harms && entry.p_value == test.p_value) continue;  // a better explanation has the entry
       set(test, entry);
+      entry.is_like_speed = model_.relaxations[test.index].is_like_speed;
       entry.standing = harms ? Standing::violated : Standing::holds;
       entry.is_of_step = of_step && !stated;
-      entry.reason =
-          harms     ? alternatives(departure, test)
-          : stated  ? "a departure is seen, and lies within the uncertainties that are stated"
-          : of_step ? "the drive steps between two samples, and where between them is not known: a delay of " +
-                          rounded(test.coefficient) + " s, less than their distance of " +
-                          rounded(model_.step_interval) + " s, stands for it"
-                    : "a departure is seen and moves zeta and F0 by less than " + in_percent(options_.least_change);
+      entry.reason = harms    ? alternatives(departure, test)
+                     : stated ? "a departure is seen, and lies within the uncertainties that are stated"
+                     : of_step
+                         ? "the drive steps between two samples, and where between them is not known: a delay of " +
+                               rounded(test.coefficient) + " s, less than their distance of " +
+                               rounded(model_.step_interval) + " s, stands for it"
+                         : "a departure is seen and moves zeta and F0 by less than " +
+                               in_percent(options_.least_change) +
+                               (any(harming) ? " if it is this; " + alternatives(departure, test) : "");
       if (harms && is_uneven(test))
         entry.reason += std::string("; ") + (test.zeta_part == 0.0 ? "F0" : "zeta") +
                         " of a part of the record is off its mean by " + in_percent(unevenness(test));
@@ -354,31 +365,6 @@ void note_nearly_seen(const JointModel& model, const RelaxationTests& tests, Led
     const bool noted = entry.reason.ends_with(note);
     if (entry.standing != Standing::violated && is_nearly_seen(model, test) && !noted) entry.reason += note;
   }
-}
-
-Recorded recorded_in(const Record& record) {
-  const auto any_has = [&](const std::vector<std::vector<double> History::*>& signals) {
-    return std::ranges::any_of(record.histories, [&](const History& history) {
-      return std::ranges::any_of(signals, [&](auto signal) { return !(history.*signal).empty(); });
-    });
-  };
-  Recorded recorded{.histories = !record.histories.empty()};
-  recorded.drive = any_has({&History::y, &History::force});
-  recorded.states = record.pairs.has_value();
-  recorded.clipped = std::ranges::any_of(record.histories, &History::is_clipped);
-  recorded.free = recorded.histories ? !recorded.drive : !record.pairs && record.decay;
-  recorded.second_sensor = any_has({&History::v, &History::a});
-  recorded.one_sensor = recorded.free && !recorded.second_sensor;
-  recorded.times = recorded.free && (recorded.histories || !record.decay->times.empty());
-  if (!record.pairs) return recorded;
-  const std::vector<Pair>& pairs = record.pairs->pairs;
-  const auto differ = [&](auto of) {
-    return std::ranges::any_of(pairs, [&](const Pair& pair) { return of(pair) != of(pairs.front()); });
-  };
-  recorded.phases = std::ranges::any_of(pairs, [](const Pair& pair) { return !std::isnan(pair.phase); });
-  recorded.frequencies = differ([](const Pair& pair) { return std::isnan(pair.omega) ? 0.0 : pair.omega; });
-  recorded.sweeps = differ([](const Pair& pair) { return pair.sweep; });
-  return recorded;
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/random.hpp"
+#include "identify/ledger/drift_or_speed.hpp"
 #include "identify/statistics/decompositions.hpp"
 #include "identify/statistics/distributions.hpp"
 
@@ -421,6 +422,7 @@ RelaxationTests test_relaxations(const JointModel& model, double least_change) {
     if (!rejects && !(result.misfit && model.refit)) break;
     FoundDeparture found = departure_shown(here, taken, result.tests, least_change, result.misfit.has_value());
     if (found.explanations.empty()) break;
+    name_speed_beside_drift(here, result.tests, found);
     RelaxationTest& best = found.explanations.front();
     Taken further = taken;
     further.push_back(best.index);

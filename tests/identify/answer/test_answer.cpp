@@ -136,6 +136,33 @@ TEST_CASE("A range over laws holds the estimate with the departure of friction r
   CHECK(concluded({ranges}, drag).estimates.front().interval95->zeta[0] == 0.0);
 }
 
+TEST_CASE("A drift that may be friction over speed leaves the answer to the range over laws, which then holds it") {
+  Estimate ranges = estimate("any_law", 0.06, 0.7, 0.1);
+  ranges.laws = std::make_shared<const LawIntervals>();
+  Ledger either = ledger({Assumption::stationarity, Assumption::friction_velocity});
+  either.recorded = {.histories = true, .free = true};
+  either.plain = {0.06, 6.0, 0.0007, 0.7};
+  LedgerEntry& drift = either.entry(Assumption::stationarity);
+  drift.zeta_change = -0.3;
+  drift.F0_change = 0.05;
+  CHECK_FALSE(concluded({ranges}, either).answer);
+  drift.is_like_speed = true;
+  const Identification found = concluded({ranges}, either);
+  CHECK(answering(found) == "any_law");
+  CHECK(found.estimates.front().interval95->zeta[0] < 0.7 * 0.06);
+  CHECK(mentions(found.reason, "measure a decay from another amplitude"));
+}
+
+TEST_CASE("A verdict names what explains a departure as well without moving anything") {
+  Ledger drifts = ledger({Assumption::stationarity});
+  LedgerEntry& constants = drifts.entry(Assumption::constants);
+  constants.test = "mass free";
+  constants.p_value = drifts.entry(Assumption::stationarity).p_value;
+  const Identification found = concluded({estimate("joint_fit", 0.06, 0.7, 0.1)}, drifts);
+  CHECK(mentions(found.verdict,
+                 "p = 0.003, explained as well by mass free, which would hardly change zeta and F0)."));
+}
+
 TEST_CASE("Findings of a method decide only where the ledger could test nothing") {
   Estimate contradicted = estimate("acceleration_velocity_displacement", 0.1, 4.0, 0.01);
   contradicted.usable = false;

@@ -52,6 +52,23 @@ TEST_CASE("The stated noise of x makes the intervals of a history, unless its sa
   CHECK(too_small == Approx(own));
 }
 
+TEST_CASE("A drift in decays from one amplitude is like friction over speed, under a force or from two it is not") {
+  const auto like_speed = [](const Record& record, const KnownConstants& constants) {
+    const JointModel model = std::get<JointModel>(history_model(record, constants));
+    for (const Relaxation& relaxation : model.relaxations)
+      CHECK((!relaxation.is_like_speed || relaxation.assumption == Assumption::stationarity));
+    return std::ranges::count_if(model.relaxations, &Relaxation::is_like_speed);
+  };
+  Measured m = measured(Kind::decay, first_seed);
+  CHECK(like_speed(m.record, m.constants) == 2);  // of the friction force, of the damping; not of the zero
+  m.record.histories.push_back(m.record.histories.front());
+  CHECK(like_speed(m.record, m.constants) == 2);
+  for (double& x : m.record.histories.back().x) x *= 1.6;
+  CHECK(like_speed(m.record, m.constants) == 0);
+  const Measured forced = measured(Kind::forced, first_seed);
+  CHECK(like_speed(forced.record, forced.constants) == 0);
+}
+
 TEST_CASE("Constants of a decay that are off by a large factor are charged, and no single fit answers") {
   for (const double factor : {0.25, 0.5, 2.0, 4.0}) {
     CAPTURE(factor);

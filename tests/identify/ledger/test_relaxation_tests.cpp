@@ -5,10 +5,15 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "core/random.hpp"
+#include "identify/ledger/drift_or_speed.hpp"
+#include "identify/ledger/ledger.hpp"
+#include "tests/identify/ledger/laboratory.hpp"
 
 using namespace dualdamp::identify;
+using namespace dualdamp::identify::testing;
 
 namespace {
 
@@ -36,6 +41,43 @@ JointModel line_with(double square, std::uint32_t number) {
 }
 
 }  // namespace
+
+TEST_CASE("Friction over speed is named with a drift that it can stand for, by its term that explains most") {
+  JointModel model;
+  model.relaxations = {{.assumption = Assumption::stationarity, .is_like_speed = true},
+                       {.assumption = Assumption::friction_velocity},
+                       {.assumption = Assumption::friction_velocity},
+                       {.assumption = Assumption::spring}};
+  const std::vector<RelaxationTest> tests = {{.index = 0, .explained = 90.0},
+                                             {.index = 1, .explained = 20.0},
+                                             {.index = 2, .explained = 30.0},
+                                             {.index = 3}};
+  FoundDeparture drift{{tests[0]}};
+  name_speed_beside_drift(model, tests, drift);
+  REQUIRE(drift.explanations.size() == 2);
+  CHECK(drift.explanations[1].index == 2);
+  FoundDeparture both{{tests[1], tests[0]}};
+  name_speed_beside_drift(model, tests, both);
+  CHECK(both.explanations.size() == 2);
+  FoundDeparture spring{{tests[3]}};
+  name_speed_beside_drift(model, tests, spring);
+  CHECK(spring.explanations.size() == 1);
+}
+
+TEST_CASE("An assumption is violated by its own change: explanations that move nothing are harmless beside it") {
+  const Measured m = measured(Kind::response, 145, [](Rig& rig) { rig.saturation = 0.1; });
+  const Ledger ledger = ledger_of(m.record, m.constants);
+  REQUIRE(ledger.departures == std::vector{std::vector{Assumption::friction_velocity}});
+  const double p_value = *ledger.entry(Assumption::friction_velocity).p_value;
+  int harmless = 0;
+  for (const LedgerEntry& entry : ledger.entries) {
+    if (entry.p_value != p_value) continue;
+    const double change = std::max(std::abs(*entry.zeta_change), std::abs(*entry.F0_change));
+    CHECK(ledger.is_violated(entry.assumption) == (change >= LedgerOptions{}.least_change));
+    harmless += ledger.is_violated(entry.assumption) ? 0 : 1;
+  }
+  CHECK(harmless >= 3);
+}
 
 TEST_CASE("All tests of a record together reject once in twenty where nothing is wrong") {
   constexpr std::uint32_t records = 400;
