@@ -370,6 +370,16 @@ std::string failures_of(const std::vector<identify::Estimate>& estimates) {
   return text;
 }
 
+/// "; a larger Y makes the mass slide" where states were left out because it sticks.
+std::string help_for_sticking(const std::vector<identify::Estimate>& estimates) {
+  const auto sticks = [](const identify::Exclusion& left_out) {
+    return left_out.reason.find("the mass sticks") != std::string::npos;
+  };
+  const bool any = std::ranges::any_of(
+      estimates, [&](const identify::Estimate& each) { return std::ranges::any_of(each.excluded, sticks); });
+  return any ? "; a larger Y makes the mass slide" : "";
+}
+
 }  // namespace
 
 Answer answer_of(const identify::Identification& found, const identify::Record& record,
@@ -388,7 +398,7 @@ Answer answer_of(const identify::Identification& found, const identify::Record& 
       answer.warnings.push_back(estimate.method + ": " + warning);
   }
   if (!any) {
-    answer.failure = "no estimate is possible; " + reasons;
+    answer.failure = "no estimate is possible; " + reasons + help_for_sticking(estimates);
     return answer;
   }
   if (!reasons.empty()) answer.warnings.push_back("no estimate by " + reasons);
