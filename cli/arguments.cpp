@@ -59,7 +59,7 @@ class Parser {
     add_report();
     add_lists();
     add_shell();
-    refuse_empty_names(app_);
+    refuse_empty_texts(app_);
   }
 
   [[nodiscard]] CommandTable table() const { return command_table(app_); }

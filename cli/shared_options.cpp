@@ -95,11 +95,11 @@ std::function<std::string(const std::string&)> whole_number(int most) {
   };
 }
 
-void refuse_empty_names(CLI::App& command) {
+void refuse_empty_texts(CLI::App& command) {
+  const auto is_blank = [](const std::string& text) { return text.find_first_not_of(" \t") == std::string::npos; };
   for (CLI::Option* option : command.get_options())
-    if (option->get_positional())
-      option->check([](const std::string& text) { return text.empty() ? "it is empty" : std::string(); });
-  for (CLI::App* inner : command.get_subcommands({})) refuse_empty_names(*inner);
+    option->check([is_blank](const std::string& text) { return is_blank(text) ? "it is empty" : std::string(); });
+  for (CLI::App* inner : command.get_subcommands({})) refuse_empty_texts(*inner);
 }
 
 }  // namespace dualdamp::cli

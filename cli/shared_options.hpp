@@ -28,8 +28,8 @@ void add_record_kind(CLI::App& command, bool& loop, std::string& drive);
 /// The check of a whole number from 1 to `most`. CLI11 would also take 0x2, +2 and " 2".
 [[nodiscard]] std::function<std::string(const std::string&)> whole_number(int most);
 
-/// Refuses empty positional arguments (files, laws, ...) of this command and of its commands. An unset variable of
-/// a shell gives an empty argument.
-void refuse_empty_names(CLI::App& command);
+/// Refuses empty arguments (files, laws, values of options) of this command and of its commands. An unset variable
+/// of a shell gives an empty argument, which would be taken as no statement.
+void refuse_empty_texts(CLI::App& command);
 
 }  // namespace dualdamp::cli

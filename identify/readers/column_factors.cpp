@@ -63,6 +63,12 @@ std::string other_reading(const KnownColumn& known, const std::string& unit, cor
 void check_names(const ReadOptions& options, Problems& problems) {
   const auto check = [&](const std::map<std::string, std::string>& map, const char* option, bool numbers_only) {
     for (const auto& [name, value] : map) {
+      if (trimmed(value).empty())
+        problems.add({{options.name, 0, 0, {}},
+                      std::string("the ") + option + " that is stated for column " + name + " is empty",
+                      name + "=" + (option == std::string_view("unit") ? "UNIT" : "...") + ", or no statement",
+                      {},
+                      {}});
       const KnownColumn* known = known_column(name);
       if (known != nullptr && !(numbers_only && known->unit.empty())) continue;
       std::string names;
@@ -132,6 +138,24 @@ double ColumnFactors::factor_of(KnownColumn known, const std::string& stated, co
                     other_reading(known, unit, options_.coordinate) +
                     (options_.coordinate_reason.empty() ? "" : "; " + options_.coordinate_reason),
                 factor.suggestion);
+}
+
+void ColumnFactors::check_suffix(const KnownColumn& known, const std::string& name, const std::string& unit,
+                                 bool has_output, const core::Diagnostic& where) {
+  const std::size_t mark = name.find_last_of("_-.");
+  const bool is_suffix = mark != std::string::npos && std::string_view(name).substr(mark + 1) == unit;
+  if (!is_suffix || (unit != "in" && unit != "m") || find_for(options_.units, known) != nullptr) return;
+  const std::string column(known.name);
+  const std::string stated = options_.words(core::Setting::unit, column, "UNIT");
+  if (unit == "in" && has_output) {
+    refuse(where, "the end of '" + name + "' may mean inches or an input",
+           "the unit, as " + stated + " or in square brackets");
+    return;
+  }
+  std::string warning = "the end of '" + name + "' is read as the unit of column " + column +
+                        (unit == "in" ? ", inches" : ", metres") +
+                        "; if it belongs to the name, state the unit: " + stated;
+  if (std::ranges::find(warnings_, warning) == warnings_.end()) warnings_.push_back(std::move(warning));
 }
 
 double ColumnFactors::scaled(const KnownColumn& known, const std::string& scale, const std::string& unit,

@@ -37,6 +37,11 @@ class ColumnFactors {
   /// the problems, with place and text from `where`.
   double factor_of(KnownColumn known, const std::string& stated, const core::Diagnostic& where);
 
+  /// Warns of a unit that is read from the end of a name without brackets and may be none: the mass of `x_m`, the
+  /// input of `x_in`; once for all tests. `_in` is a problem beside an output, `x_out`.
+  void check_suffix(const KnownColumn& known, const std::string& name, const std::string& unit, bool has_output,
+                    const core::Diagnostic& where);
+
   /// The units of all columns. Adds one warning for all columns without a unit.
   ColumnUnits take_units();
 

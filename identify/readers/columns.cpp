@@ -254,6 +254,12 @@ void split_unit(Heading& heading, const KnownColumn& known) {
   if (last != std::string::npos) heading.name.resize(last + 1);
 }
 
+bool is_output(std::string_view name) {
+  constexpr std::string_view out = "out";
+  const std::size_t mark = name.find_last_of(marks);
+  return mark != std::string_view::npos && is_alike(name.substr(mark + 1), out);
+}
+
 std::string ignored(std::string_view what, const std::string& name, const core::SettingWords& words) {
   std::string text = std::string(what) + " '" + name + "' is not known and is ignored";
   const KnownColumn* uncertain = column_of_uncertainty(name);

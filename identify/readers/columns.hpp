@@ -76,6 +76,9 @@ void choose_unit(Heading& heading, const KnownColumn& known);
 /// `Weg_mm`. The name of `Weg_[mm]` becomes `Weg`.
 void split_unit(Heading& heading, const KnownColumn& known);
 
+/// Whether the name is that of an output, `x_out`: beside it, `x_in` is an input.
+[[nodiscard]] bool is_output(std::string_view name);
+
 /// The warning about an unknown column, variable or field. If it seems to hold the uncertainty of each reading, the
 /// warning tells how one for all readings is stated.
 [[nodiscard]] std::string ignored(std::string_view what, const std::string& name, const core::SettingWords& words);

@@ -55,7 +55,7 @@ std::vector<core::Diagnostic> Problems::diagnostics() const {
     for (const int line : group.lines) lines += (lines.empty() ? "" : ", ") + std::to_string(line);
     all.back().message +=
         "; the same in " + std::to_string(group.others) + " more row" + (group.others == 1 ? "" : "s");
-    if (group.first.place.line > 0)
+    if (group.first.place.line > 0 && !group.lines.empty())
       all.back().message += " (line" + std::string(group.others == 1 ? " " : "s ") + lines +
                             (group.others > group.lines.size() ? ", ...)" : ")");
   }

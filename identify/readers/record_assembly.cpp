@@ -32,6 +32,7 @@ class Assembly {
 
   Record run() {
     Record record;
+    if (runs_backwards()) return record;
     if (table_.find("Y") != nullptr)
       record.pairs = pairs();
     else if (holds_extremes())
@@ -45,6 +46,18 @@ class Assembly {
   [[nodiscard]] const std::vector<double>* values(std::string_view name) const {
     const DataColumn* column = table_.find(name);
     return column == nullptr ? nullptr : &column->values;
+  }
+
+  /// Adds a problem for times most of which decrease. Each of them would begin a test.
+  [[nodiscard]] bool runs_backwards() {
+    const std::vector<double>* t = values("t");
+    constexpr std::size_t fewest = 3;
+    if (t == nullptr || t->size() < fewest || values("Y") != nullptr) return false;
+    std::size_t back = 0;
+    for (std::size_t row = 1; row < t->size(); ++row) back += (*t)[row] < (*t)[row - 1] ? 1 : 0;
+    if (2 * back <= t->size()) return false;
+    complain(1, "t", "the time runs backwards", "rows in the order in which they were measured");
+    return true;
   }
 
   [[nodiscard]] core::Diagnostic shown(std::size_t row, std::string_view name) const {
@@ -243,9 +256,25 @@ class Assembly {
   /// a problem.
   bool check_signals() {
     if (!check_channels(table_, is_imposed_, problems_, warnings_)) return false;
+    if (holds_placeholders()) return false;
     return std::ranges::all_of(std::array{"x", "y", "v", "a"}, [this](std::string_view name) {
       const std::vector<double>* signal = values(name);
       return signal == nullptr || check_range(name, *signal);
+    });
+  }
+
+  /// Adds a problem for a motion of the mass that jumps to a number of the logger. A drive may jump.
+  bool holds_placeholders() {
+    return std::ranges::any_of(std::array{"x", "v", "a"}, [this](const char* name) {
+      const std::vector<double>* signal = values(name);
+      const std::vector<std::size_t> rows =
+          signal == nullptr ? std::vector<std::size_t>{} : placeholders_in(*signal);
+      complain(rows, name,
+               "column " + std::string(name) +
+                   " holds a number far from all others, again and again the same: what a logger writes where it "
+                   "measured nothing",
+               "the file without these rows");
+      return !rows.empty();
     });
   }
 
@@ -312,8 +341,8 @@ class Assembly {
     return starts;
   }
 
-  /// Removes rows that a logger wrote twice after an interruption. More than 5 % of such rows are bursts and are
-  /// kept.
+  /// Removes rows that a logger wrote twice after an interruption, or a joined table all over. In bursts, and with
+  /// coarse stamps, some rows of one time differ: all are kept.
   void drop_doubled_rows() {
     const std::vector<double>& t = *values("t");
     std::vector<std::size_t> doubled;
@@ -324,8 +353,7 @@ class Assembly {
       if (!same) return;
       doubled.push_back(row);
     }
-    constexpr double most = 0.05;
-    if (doubled.empty() || static_cast<double>(doubled.size()) > most * static_cast<double>(t.size())) return;
+    if (doubled.empty()) return;
     warnings_.push_back(std::to_string(doubled.size()) + " row" + (doubled.size() == 1 ? " appears" : "s appear") +
                         " twice with the same time and the same values; the repetition is left out");
     source_row_.resize(t.size());

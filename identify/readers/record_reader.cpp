@@ -1,13 +1,16 @@
 #include "identify/readers/record_reader.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <system_error>
 #include <utility>
 
+#include "core/numbers.hpp"
 #include "core/provenance.hpp"
 #include "identify/readers/data_table.hpp"
 #include "identify/readers/formats/csv_reader.hpp"
@@ -16,6 +19,7 @@
 #include "identify/readers/formats/universal_file_reader.hpp"
 #include "identify/readers/record_assembly.hpp"
 #include "identify/readers/text.hpp"
+#include "identify/statistics/median.hpp"
 
 namespace dualdamp::identify {
 
@@ -37,10 +41,16 @@ struct Foreign {
 };
 
 using namespace std::string_view_literals;
-constexpr std::array<Foreign, 9> foreign_formats = {
+constexpr std::array<Foreign, 15> foreign_formats = {
     {{"PK\x03\x04"sv, "the file is a workbook or an archive (zip)", "the sheet saved as CSV"},
      {"\xD0\xCF\x11\xE0"sv, "the file is an old Excel workbook", "the sheet saved as CSV"},
      {"\x1F\x8B"sv, "the file is compressed (gzip)", "the file unpacked"},
+     {"\x28\xB5\x2F\xFD"sv, "the file is compressed (zstd)", "the file unpacked"},
+     {"\xFD\x37\x7A\x58\x5A"sv, "the file is compressed (xz)", "the file unpacked"},
+     {"7z\xBC\xAF"sv, "the file is an archive (7z)", "the file unpacked"},
+     {"RIFF"sv, "the file is a sound or a video (RIFF, WAV)", "the samples with their times as CSV or .mat"},
+     {"PAR1"sv, "the file is a Parquet table", "the table as CSV"},
+     {"\x93NUMPY"sv, "the file is a NumPy array", "the array saved by numpy.savetxt or scipy.io.savemat"},
      {"TDSm"sv, "the file is a LabVIEW TDMS file", "the channels saved as CSV, .mat or universal file"},
      {"\x89HDF"sv, "the file is HDF5, but no MATLAB file", "a file saved by MATLAB with -v7.3"},
      {"%PDF"sv, "the file is a PDF document", "the data as CSV"},
@@ -97,6 +107,16 @@ std::string load(const std::string& path, const std::string& name) {
   return bytes;
 }
 
+/// Refuses what is stated about the text of a CSV file and would be ignored here. `format`: of the file.
+void refuse_statements_on_text(const ReadOptions& options, const std::string& format) {
+  const auto refuse = [&](core::Setting setting, const std::string& value) {
+    refuse_file(options.name, options.words(setting, {}, value) + " is stated, and the file is " + format,
+                "no such statement: it is about the text of a CSV file");
+  };
+  if (options.decimal != '.') refuse(core::Setting::decimal, std::string(1, options.decimal));
+  if (options.no_header) refuse(core::Setting::no_header, {});
+}
+
 /// The columns of a data file of any format.
 struct TableFile {
   DataTable table;
@@ -109,6 +129,7 @@ TableFile parse_table(std::string_view text, const ReadOptions& options, Problem
   refuse_at_sight(text.substr(0, sample_size), options.name);
   TableFile file{.table = {}, .text = nullptr, .sha256 = core::sha256(text)};
   if (is_universal_file(text)) {
+    refuse_statements_on_text(options, "a universal file");
     file.table = parse_universal_file(text, options, problems, warnings);
     return file;
   }
@@ -124,6 +145,7 @@ TableFile read_table(const std::string& path, const ReadOptions& options, Proble
   std::error_code error;
   if (!fs::is_regular_file(path, error))
     refuse_file(options.name, "a MATLAB file cannot be read from a pipe", "the name of a file");
+  refuse_statements_on_text(options, "a MATLAB file");
   check_mat(bytes, options.name);
   return {read_mat(path, options, problems, warnings), nullptr, core::sha256(bytes)};
 }
@@ -139,7 +161,8 @@ void refuse_unused(const TableFile& file, const ReadOptions& options, Problems& 
       problems.add(
           {{options.name, 0, 0, {}},
            std::string("a ") + option + " is stated for column " + column + ", and the file has no such column",
-           "the columns that were read: " + core::joined(there, ", "),
+           "the columns that were read: " + core::joined(there, ", ") + "; or one of another name, as " +
+               options.words(core::Setting::column, column, "NAME"),
            column + "=" + text,
            {}});
     }
@@ -194,8 +217,35 @@ void check_times(const DataTable& table, Problems& problems) {
   problems.add(std::move(problem), faults.size() - 1, {});
 }
 
+/// A few steps of time that are much longer than the others. Times of a signal need not be even.
+void warn_of_gaps(const std::vector<double>& t, std::vector<std::string>& warnings) {
+  constexpr std::size_t fewest = 16;
+  constexpr double most_gaps = 0.05;
+  if (t.size() < fewest) return;
+  std::vector<double> steps;
+  for (std::size_t row = 1; row < t.size(); ++row) steps.push_back(t[row] - t[row - 1]);
+  const double usual = upper_median(steps);
+  constexpr double even = 0.1;
+  constexpr double long_of_even = 1.5;
+  constexpr double long_of_others = 4.0;
+  const auto others =
+      std::ranges::count_if(steps, [&](double step) { return !(std::abs(step - usual) <= even * usual); });
+  const auto many = static_cast<std::ptrdiff_t>(most_gaps * static_cast<double>(steps.size()));
+  const double longest = (others <= many ? long_of_even : long_of_others) * usual;
+  const auto gaps = std::ranges::count_if(steps, [longest](double step) { return step > longest; });
+  if (gaps == 0 || gaps > many) return;
+  const auto widest = static_cast<std::size_t>(std::ranges::max_element(steps) - steps.begin());
+  constexpr int digits = 6;
+  const auto time = [&](std::size_t row) { return core::format_number(t[row], digits); };
+  warnings.push_back("the samples have " + std::to_string(gaps) + (gaps == 1 ? " gap" : " gaps, the longest") +
+                     " from t = " + time(widest) + " s to " + time(widest + 1) + " s, " +
+                     core::format_number(steps[widest] / usual, 3) +
+                     " usual steps: a drive is interpolated across it");
+}
+
 /// The signal from a table that was read with the option `only`.
-MeasuredSignal signal_of(TableFile file, std::string_view column, const std::string& name, Problems& problems) {
+MeasuredSignal signal_of(TableFile file, std::string_view column, const std::string& name, Problems& problems,
+                         std::vector<std::string> warnings) {
   problems.throw_if_any();
   for (const std::string_view wanted : {std::string_view("t"), column})
     if (file.table.find(wanted) == nullptr)
@@ -208,7 +258,9 @@ MeasuredSignal signal_of(TableFile file, std::string_view column, const std::str
   check_times(file.table, problems);
   check_magnitudes(file.table, problems);
   problems.throw_if_any();
+  warn_of_gaps(file.table.find("t")->values, warnings);
   MeasuredSignal result;
+  result.warnings = std::move(warnings);
   result.sha256 = std::move(file.sha256);
   for (DataColumn& found : file.table.columns) {
     if (found.known->name == "t") result.times = std::move(found.values);
@@ -251,9 +303,7 @@ MeasuredSignal read_signal(const std::string& path, std::string_view column, con
   Problems problems;
   std::vector<std::string> warnings;
   TableFile file = read_table(path, chosen, problems, warnings);
-  MeasuredSignal signal = signal_of(std::move(file), column, chosen.name, problems);
-  signal.warnings = std::move(warnings);
-  return signal;
+  return signal_of(std::move(file), column, chosen.name, problems, std::move(warnings));
 }
 
 MeasuredSignal parse_signal(std::string_view text, std::string_view column, const ReadOptions& options) {
@@ -261,9 +311,7 @@ MeasuredSignal parse_signal(std::string_view text, std::string_view column, cons
   Problems problems;
   std::vector<std::string> warnings;
   TableFile file = parse_table(text, chosen, problems, warnings);
-  MeasuredSignal signal = signal_of(std::move(file), column, chosen.name, problems);
-  signal.warnings = std::move(warnings);
-  return signal;
+  return signal_of(std::move(file), column, chosen.name, problems, std::move(warnings));
 }
 
 }  // namespace dualdamp::identify

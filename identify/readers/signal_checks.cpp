@@ -239,6 +239,31 @@ Clipping without_sticks(const Clipping& clipping, std::span<const double> x, std
   return left.places < fewest_places ? Clipping{} : left;
 }
 
+std::vector<std::size_t> placeholders_in(std::span<const double> signal) {
+  constexpr std::size_t fewest = 16;
+  constexpr double most = 0.1;
+  constexpr double far = 5.0;
+  if (signal.size() < fewest) return {};
+  const auto [lowest, highest] = std::ranges::minmax(signal);
+  double low = highest;
+  double high = lowest;
+  for (const double value : signal) {
+    if (value == lowest || value == highest) continue;
+    low = std::min(low, value);
+    high = std::max(high, value);
+  }
+  for (const double value : {lowest, highest}) {
+    const double distance = value == lowest ? low - value : value - high;
+    if (!(high > low && distance > far * (high - low))) continue;
+    std::vector<std::size_t> rows;
+    for (std::size_t i = 0; i < signal.size(); ++i)
+      if (signal[i] == value) rows.push_back(i);
+    if (rows.size() > 1 && static_cast<double>(rows.size()) < most * static_cast<double>(signal.size()))
+      return rows;
+  }
+  return {};
+}
+
 bool is_constant(std::span<const double> signal) {
   return std::ranges::adjacent_find(signal, std::ranges::not_equal_to{}) == signal.end();
 }

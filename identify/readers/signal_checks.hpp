@@ -45,6 +45,11 @@ struct Clipping {
 [[nodiscard]] Clipping without_sticks(const Clipping& clipping, std::span<const double> x,
                                       std::span<const double> drive, std::size_t fewest_places);
 
+/// The samples with the number that a logger writes where it measured nothing or too much: -9999, 9.9e37. It is the
+/// largest or the smallest value, appears at least twice and in less than a tenth of the samples, and is further
+/// from all others than five times their range. Samples of a motion come and go through values between.
+[[nodiscard]] std::vector<std::size_t> placeholders_in(std::span<const double> signal);
+
 [[nodiscard]] bool is_constant(std::span<const double> signal);
 
 }  // namespace dualdamp::identify

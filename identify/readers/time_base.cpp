@@ -57,6 +57,7 @@ class StampReader {
       return fault(back, "the time does not increase",
                    "a time after the row above; several tests need labels in a column sweep");
     const bool even = is_even(all_);
+    if (even && holds_few_doubles()) return with_few_doubles();
     if (even && !has_long_step()) return rows(all_, {});
     // A few long steps are missing samples. Many long steps come from times that are rounded to about a step, if a
     // line explains them.
@@ -234,6 +235,46 @@ class StampReader {
 
   [[nodiscard]] TimeBase without_gaps(Part longest) const {
     return is_too_short(longest) ? torn(longest) : rows(longest, gap_warning(longest));
+  }
+
+  /// A coarse clock repeats a stamp where two samples fall into one of its steps. A row that does not belong there
+  /// repeats it too, but with it the samples beside are not even.
+  [[nodiscard]] bool holds_few_doubles() const {
+    constexpr double most = 0.1;
+    const auto doubles = std::ranges::count(steps(all_), 0.0);
+    return doubles > 0 && static_cast<double>(doubles) < most * static_cast<double>(all_.size() - 1);
+  }
+
+  [[nodiscard]] TimeBase with_few_doubles() const {
+    double with = 0.0;
+    double without = 0.0;
+    std::size_t doubles = 0;
+    for (std::size_t row = 1; row < t_.size(); ++row) {
+      if (t_[row] != t_[row - 1]) continue;
+      ++doubles;
+      with += roughness_beside(row, t_.size());
+      without += roughness_beside(row, row);
+    }
+    constexpr double clearly = 10.0;
+    if (with > clearly * without)
+      return fault(first_double(), "the time does not increase: it appears twice, with other values",
+                   "one row for each time; several tests need labels in a column sweep");
+    if (without > clearly * with) return rows(all_, {});
+    return rows(all_, std::to_string(doubles) + (doubles == 1 ? " time appears" : " times appear") +
+                          " twice with other values: the samples are taken as evenly spaced, " +
+                          seconds(even_step(all_)) + " apart");
+  }
+
+  /// Mean square distance of the samples beside a row from cubics through their neighbours, without row `left_out`.
+  [[nodiscard]] double roughness_beside(std::size_t row, std::size_t left_out) const {
+    constexpr std::size_t reach = 4;
+    std::vector<double> near;
+    for (std::size_t i = row < reach ? 0 : row - reach; i < std::min(row + reach, stamps_.signal.size()); ++i)
+      if (i != left_out) near.push_back(stamps_.signal[i]);
+    double sum = 0.0;
+    for (std::size_t i = 2; i + 2 < near.size(); ++i)
+      sum += std::pow((4.0 * (near[i - 1] + near[i + 1]) - near[i - 2] - near[i + 2]) / 6.0 - near[i], 2);
+    return near.size() > 4 ? sum / static_cast<double>(near.size() - 4) : 0.0;
   }
 
   /// Number of stamps that appear several times.

@@ -128,11 +128,20 @@ std::optional<PhaseFault> phase_fault(const std::vector<Pair>& pairs, const Know
                                       bool from_histories, const core::SettingWords& words) {
   const Balance balance = balance_of(pairs, constants);
   if (balance.phases == 0) return std::nullopt;
-  double largest = 0.0;
-  for (const Pair& pair : pairs)
-    if (!std::isnan(pair.phase)) largest = std::max(largest, std::abs(pair.phase));
-  const std::string range = "the phases, up to " + brief(largest) + " rad";
   constexpr double most = 4.0 * std::numbers::pi;
+  double largest = 0.0;
+  std::vector<const Pair*> beyond;
+  for (const Pair& pair : pairs) {
+    if (std::isnan(pair.phase)) continue;
+    largest = std::max(largest, std::abs(pair.phase));
+    if (std::abs(pair.phase) > most) beyond.push_back(&pair);
+  }
+  const std::string range = "the phases, up to " + brief(largest) + " rad";
+  if (!beyond.empty() && !from_histories && 2 * std::ssize(beyond) < balance.phases)
+    return PhaseFault{"the phase of pair " + std::to_string(beyond.front()->number) + ", " +
+                          brief(beyond.front()->phase / degree) + " deg, is no lag" +
+                          (beyond.size() > 1 ? "; so are " + std::to_string(beyond.size() - 1) + " more" : ""),
+                      "a phase from 0 to 180 deg, or an empty field where none was measured"};
   if (largest > most && !from_histories)
     return PhaseFault{range + ", are not lags in radians; the phases may be degrees", their_unit(words, "deg")};
   constexpr double bad = 0.4;

@@ -24,7 +24,9 @@ class Ignored(case.Case):
         self.write("base.yaml", BASE)
 
     def test_empty_names(self):
-        for arguments in (["run", ""], ["check", ""], ["identify", ""], ["fit", "", "x.csv"], ["report", ""], ["laws", ""], ["new", ""]):
+        for arguments in (["run", ""], ["check", ""], ["identify", ""], ["fit", "", "x.csv"], ["report", ""], ["laws", ""], ["new", ""],
+                          *(["identify", "x.csv", option, text] for option in ("--mass", "--frequency", "--decimal", "--sigma-x", "--coordinate") for text in ("", " ")),
+                          ["run", "base.yaml", "--set", ""], ["fit", "x.csv", "--stiffness", ""]):
             with self.subTest(arguments):
                 self.assertIn("it is empty", self.run_program(*arguments, status=2).stderr)
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <charconv>
 #include <map>
+#include <optional>
 #include <utility>
 
 #include "core/units.hpp"
@@ -26,6 +27,10 @@ class HeaderReader {
 
   CsvHeader run() {
     if (layout_.header.number == 0 ? !read_first_row() : !read_headings()) return {};
+    if (line_.number > 0 && is_row_of_numbers() && !names_any()) {
+      refuse_row_of_numbers();
+      return {};
+    }
     fields_.resize(headings_.size());
     for (const auto& [name, called] : options_.columns)
       if (const KnownColumn* known = known_column(name)) rename(*known, called);
@@ -91,6 +96,31 @@ class HeaderReader {
     return false;
   }
 
+  /// Whether a heading names a column by itself, or is a text by which the caller names one.
+  [[nodiscard]] bool names_any() const {
+    return std::ranges::any_of(headings_, [this](Heading heading) {
+      if (is_like_number(heading.text)) return false;
+      return named_column(heading) != nullptr || std::ranges::any_of(options_.columns, [&](const auto& entry) {
+               return is_called(heading, entry.second);
+             });
+    });
+  }
+
+  /// Whether it holds numbers as a row of data does; `Channel 0: force` does not.
+  [[nodiscard]] bool is_row_of_numbers() const {
+    const auto numbers =
+        std::ranges::count_if(headings_, [](const Heading& heading) { return is_like_number(heading.text); });
+    return layout_.is_headless && (is_like_number(headings_.front().text) || 2 * numbers >= std::ssize(headings_));
+  }
+
+  /// As a header, the first row of the data would be lost.
+  void refuse_row_of_numbers() {
+    complain(1, "the first row holds numbers instead of the names of the columns",
+             std::string(allowed_columns) + "; or " + options_.words(core::Setting::no_header) + " with " +
+                 options_.words(core::Setting::column, "x", "2"),
+             excerpt(line_.text));
+  }
+
   /// Refuses a unit in the heading that differs from the one in the row of units.
   void refuse_other_unit(const Heading& heading, const std::string& below) {
     Heading named = heading;
@@ -118,16 +148,20 @@ class HeaderReader {
     }
   }
 
+  /// The index of a column that the caller states by its number; nothing if the text is no such number.
+  [[nodiscard]] std::optional<std::size_t> number_in(const std::string& called) const {
+    std::size_t number = 0;
+    const auto [end, fault] = std::from_chars(called.data(), called.data() + called.size(), number);
+    const bool is_whole = fault == std::errc{} && end == called.data() + called.size();
+    return is_whole && number >= 1 && number <= headings_.size() ? std::optional(number - 1) : std::nullopt;
+  }
+
   /// The heading that the caller names by its text, by its number, or by the name before its unit.
   [[nodiscard]] std::vector<std::size_t> find(const std::string& called, const KnownColumn& known) const {
     std::vector<std::size_t> found;
     for (std::size_t i = 0; i < headings_.size(); ++i)
       if (is_called(headings_[i], called)) found.push_back(i);
-    std::size_t number = 0;
-    const auto [end, fault] = std::from_chars(called.data(), called.data() + called.size(), number);
-    if (found.empty() && fault == std::errc{} && end == called.data() + called.size() && number >= 1 &&
-        number <= headings_.size())
-      found.push_back(number - 1);
+    if (const auto place = number_in(called); found.empty() && place) found.push_back(*place);
     if (!found.empty()) return found;
     for (std::size_t i = 0; i < headings_.size(); ++i) {
       Heading heading = headings_[i];
@@ -147,6 +181,13 @@ class HeaderReader {
   /// The column for which the caller states this heading.
   void rename(const KnownColumn& known, const std::string& called) {
     const std::vector<std::size_t> found = find(called, known);
+    if (const auto place = number_in(called);
+        place && found.size() == 1 && found.front() != *place && line_.number > 0) {
+      complain(1, "'" + called + "' is the heading of a column and the number of another one",
+               "headings that are names; then " + options_.words(core::Setting::column, known.name, "NAME"),
+               "column " + std::to_string(found.front() + 1) + " with the heading '" + called + "'");
+      return;
+    }
     if (is_taken(known)) {
       problems_.add(
           {{options_.name, 0, 0, {}}, "column " + std::string(known.name) + " is asked for twice", {}, {}, {}});
@@ -227,6 +268,9 @@ class HeaderReader {
       else
         split_unit(heading, known);
     }
+    const bool holds_stamps =
+        known.name == "t" && begins_with_stamp(static_cast<std::size_t>(&field - fields_.data()));
+    if (holds_stamps && heading.unit.empty()) heading.unit = "s";
     core::Diagnostic where;
     where.place = at(heading.column);
     where.found = excerpt(heading.text);
@@ -234,7 +278,21 @@ class HeaderReader {
       where.place = {options_.name, layout_.units->number, 1, excerpt(layout_.units->text)};
       where.found = excerpt(heading.unit);
     }
+    factors_.check_suffix(known, excerpt(heading.text), heading.unit,
+                          std::ranges::any_of(headings_, is_output, &Heading::text), where);
     field.factor = factors_.factor_of(known, excerpt(heading.unit), where);
+    if (holds_stamps && field.factor != 1.0)
+      complain(heading.column, "column t holds time stamps, and a unit or a scale is stated for it",
+               "none, or " + options_.words(core::Setting::unit, "t", "s"), excerpt(heading.text));
+  }
+
+  /// Whether the field of the first row is a time of day, which states hours, minutes and seconds itself.
+  [[nodiscard]] bool begins_with_stamp(std::size_t index) const {
+    const auto row = layout_.rows().next();
+    const std::vector<std::string> fields =
+        row ? fields_of(row->text, layout_.separator) : std::vector<std::string>();
+    return index < fields.size() && fields[index].find(':') != std::string::npos &&
+           read_clock(fields[index], options_.decimal).has_value();
   }
 
   void report_missing() {
@@ -248,14 +306,13 @@ class HeaderReader {
     if (is_transposed())
       complain(1, "rows and columns are exchanged: the names are in the first field of each row",
                "the names of the columns in one row and a row for each sample", excerpt(line_.text));
-    else if (layout_.is_headless && line_.number > 0)
-      complain(1, "there is no column x: the first row holds numbers instead of the names of the columns",
-               std::string(allowed_columns) + "; or " + options_.words(core::Setting::no_header) + " with " +
-                   options_.words(core::Setting::column, "x", "2"),
-               excerpt(line_.text));
     else
-      complain(1, "there is no column x; there are the columns " + names(), std::string(allowed_columns) + other,
-               excerpt(line_.text), suggestion());
+      complain(1,
+               "there is no column x; there are the columns " + names() +
+                   (layout_.lines_left ? ", and no other header in the first " + std::to_string(most_header_lines) +
+                                             " lines of the file"
+                                       : std::string()),
+               std::string(allowed_columns) + other, excerpt(line_.text), suggestion());
   }
 
   [[nodiscard]] bool is_transposed() const {

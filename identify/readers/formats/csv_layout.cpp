@@ -12,10 +12,6 @@ namespace dualdamp::identify {
 
 namespace {
 
-/// Number of lines that are searched for the header, without comments and blank lines.
-constexpr std::size_t most_lines = 200;
-/// The same, with comments and blank lines.
-constexpr int most_blank_lines = 10'000;
 /// Largest number of lines between a header and its rows: units, descriptions.
 constexpr std::size_t most_between = 3;
 
@@ -69,7 +65,7 @@ class Search {
     Lines lines = start_;
     SourceLine comment;
     SourceLine line;
-    while (!lines.at_end() && lines_.size() < most_lines && line.number < most_blank_lines) {
+    while (!lines.at_end() && line.number < most_header_lines) {
       const Lines before = lines;
       line = lines.next();
       if (line.number == 1 && line.text.size() == 5 && line.text.starts_with("sep=")) {
@@ -82,6 +78,7 @@ class Search {
         lines_.push_back({line, before, comment});
       }
     }
+    lines_left_ = !lines.at_end();
   }
 
   [[nodiscard]] std::vector<char> candidates(std::string_view header) const {
@@ -202,6 +199,7 @@ class Search {
     Layout layout{
         .separator = separator_of(line.text), .header = line, .lines = lines_[i].before, .lines_above = i};
     layout.is_headless = holds_numbers(fields_of(line.text, layout.separator));
+    layout.lines_left = lines_left_;
     (void)layout.lines.next();
     return with_separator(std::move(layout));
   }
@@ -219,6 +217,7 @@ class Search {
   Lines start_;
   std::vector<Candidate> lines_;
   char stated_separator_ = 0;
+  bool lines_left_ = false;
 };
 
 }  // namespace

@@ -37,6 +37,9 @@ class Rows {
   std::size_t empty_rows_ = 0;
 };
 
+/// Number of lines that are searched for the header.
+inline constexpr int most_header_lines = 10'000;
+
 struct Layout {
   char separator = ',';
   SourceLine header = {};                ///< number 0: the file has none
@@ -45,6 +48,7 @@ struct Layout {
       {};                       ///< lines between the header and the first row, units among them
   Lines lines = Lines({});      ///< at the first row
   std::size_t lines_above = 0;  ///< skipped above the header; comments and blank lines do not count
+  bool lines_left = false;      ///< the file has lines beyond those that were searched for a header
   bool is_headless = false;     ///< the first line is a row of numbers, stated by the caller or recognised
 
   [[nodiscard]] Rows rows() const { return {lines, separator, header.text, below_header}; }

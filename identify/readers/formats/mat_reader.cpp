@@ -98,12 +98,13 @@ class Reader {
       if (!variable) break;
       const std::string name = to_utf8(variable->name == nullptr ? "" : variable->name);
       listing_.push_back(name + " (" + describe(*variable) + ")");
+      has_output_ = has_output_ || is_output(name);
       if (variable->class_type != MAT_C_STRUCT && !is_wanted(name) && !(is_matrix(*variable) && wants_numbered())) {
         if (options_.only.empty()) unknown_variables_.push_back(name);
         continue;
       }
       if (is_73 && variable->class_type == MAT_C_EMPTY && lacks_class(path_, variable->name)) {
-        refuse_foreign(name);
+        problems_.add(foreign_variable(file_, name));
         continue;
       }
       if (size_of(*variable) > most_mat_values)
@@ -112,14 +113,6 @@ class Reader {
       if (matvar_t* again = with_signed_texts(file.get(), *variable)) variable.reset(again);
       variables_.push_back(std::move(variable));
     }
-  }
-
-  void refuse_foreign(const std::string& name) {
-    complain("variable '" + name +
-                 "' has no attribute MATLAB_class: another program than MATLAB wrote it into the "
-                 "HDF5 file, and MATLAB itself could not read it",
-             "scipy.io.savemat, which writes MATLAB 5 files; or, of h5py, dataset.attrs['MATLAB_class'] = "
-             "numpy.bytes_('double'); or a CSV file");
   }
 
   /// The unit that the name states, if it is used as this column: `x_mm`, `weg_mm`.
@@ -263,6 +256,7 @@ class Reader {
   TestColumns test(const Scope& scope) {
     TestColumns result;
     std::optional<double> step;
+    has_output_ = has_output_ || std::ranges::any_of(scope, is_output, &Entry::name);
     for (const Entry& entry : scope) {
       const auto& [known, unit] = column_of(entry.name);
       if (is_sampling(entry.name)) {
@@ -349,6 +343,7 @@ class Reader {
     where.found = "variable '" + to_utf8(entry.name) + "'";
     if (std::ranges::any_of(test.columns, [&](const DataColumn& column) { return column.known == &known; }))
       return complain("column " + std::string(known.name) + " appears twice", {}, where.found);
+    factors_.check_suffix(known, to_utf8(entry.name), unit, has_output_, where);
     // `omega` means rad/s; the word "frequency" does not state a unit.
     const double factor = factors_.factor_of(known, unit.empty() && entry.name == "omega" ? "rad/s" : unit, where);
     for (double& value : *values) value *= factor;
@@ -418,6 +413,7 @@ class Reader {
   std::vector<Variable> variables_;
   std::optional<std::vector<LabelRun>> row_labels_;
   std::size_t label_count_ = 0;
+  bool has_output_ = false;  ///< a variable or field is named `x_out`
 };
 
 }  // namespace

@@ -183,8 +183,27 @@ bool lacks_class(const std::string& path, const std::string& variable) {
   const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
   if (file < 0) return false;
   const htri_t has = H5Aexists_by_name(file, variable.c_str(), "MATLAB_class", H5P_DEFAULT);
+  bool is_foreign = has == 0;
+  if (has > 0) {
+    const hid_t attribute = H5Aopen_by_name(file, variable.c_str(), "MATLAB_class", H5P_DEFAULT, H5P_DEFAULT);
+    const hid_t type = H5Aget_type(attribute);
+    is_foreign = H5Tget_class(type) == H5T_STRING && H5Tget_strpad(type) != H5T_STR_NULLTERM;
+    H5Tclose(type);
+    H5Aclose(attribute);
+  }
   H5Fclose(file);
-  return has == 0;
+  return is_foreign;
+}
+
+core::Diagnostic foreign_variable(const std::string& file, const std::string& name) {
+  return {{file, 0, 0, {}},
+          "variable '" + name +
+              "' has no attribute MATLAB_class, or not as a text that ends with a zero byte: another program than "
+              "MATLAB wrote it into the HDF5 file, and MATLAB itself could not read it",
+          "scipy.io.savemat, which writes MATLAB 5 files; or, of h5py, dataset.attrs.create('MATLAB_class', "
+          "numpy.bytes_('double'), dtype='S7'); or a CSV file",
+          {},
+          {}};
 }
 
 void refuse_unread_mat(const std::string& file, IsolatedEnd end) {

@@ -8,6 +8,7 @@
 #include <string>
 #include <string_view>
 
+#include "core/diagnostics.hpp"
 #include "identify/readers/isolated.hpp"
 
 namespace dualdamp::identify {
@@ -22,8 +23,12 @@ void check_mat(std::string_view bytes, const std::string& file);
 /// Lets HDF5 check the end of the file. matio reads a file that HDF5 cannot open as a file without variables.
 [[nodiscard]] bool is_whole_hdf5(const std::string& path);
 
-/// An HDF5 variable that MATLAB did not write: the attribute that states the MATLAB class is missing.
+/// An HDF5 variable that MATLAB did not write: the attribute that states the MATLAB class is missing, or is a text
+/// without the zero byte at its end, of which matio drops the last letter.
 [[nodiscard]] bool lacks_class(const std::string& path, const std::string& variable);
+
+/// The problem that `lacks_class` finds.
+[[nodiscard]] core::Diagnostic foreign_variable(const std::string& file, const std::string& name);
 
 /// Throws `core::InputError`: the file is damaged or cut off.
 [[noreturn]] void refuse_damaged_mat(const std::string& file);

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "identify/readers/record_reader.hpp"
+#include "tests/identify/readers/data_files.hpp"
 #include "tests/identify/readers/refusals.hpp"
 
 using namespace dualdamp;
@@ -72,4 +73,31 @@ TEST_CASE("An acceleration in the place of the base's displacement is told what 
   };
   CHECK(mentions(refused("g"), "its acceleration is the column 'force' with the scale -m"));
   CHECK_FALSE(mentions(refused("V"), "acceleration"));
+}
+
+TEST_CASE("An empty unit, scale or name of a column is refused") {
+  const std::string text = "t [s],x [mm]\n0,1\n1,-2\n2,3\n";
+  for (const char* blank : {"", " "}) {
+    const auto refused = [&](ReadOptions options) {
+      options.name = "data.csv";
+      return refusal([&] { (void)parse_record(text, options); });
+    };
+    CHECK(mentions(refused({.units = {{"x", blank}}}), "the unit that is stated for column x is empty"));
+    CHECK(mentions(refused({.columns = {{"x", blank}}}), "the column that is stated for column x is empty"));
+    CHECK(mentions(refused({.scales = {{"x", blank}}}), "the scale that is stated for column x is empty"));
+  }
+}
+
+TEST_CASE("What is stated about the text of a CSV file is refused for other files") {
+  const std::string universal = uff58({.label = "x", .unit = "mm", .values = ramp(20)});
+  const auto refused = [&](ReadOptions options) {
+    options.name = "data.uff";
+    return refusal([&] { (void)parse_record(universal, options); });
+  };
+  CHECK(refused({}) == "accepted");
+  CHECK(mentions(refused({.decimal = ','}), "is stated, and the file is a universal file"));
+  CHECK(mentions(refused({.no_header = true}), "is stated, and the file is a universal file"));
+  const TemporaryFile file("statements.mat", mat4("dt", {0.01}) + mat4("x", ramp(20)));
+  CHECK(mentions(refusal([&] { (void)identify::read_record(file.path(), {.decimal = ','}); }),
+                 "is stated, and the file is a MATLAB file"));
 }

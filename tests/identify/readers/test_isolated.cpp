@@ -137,7 +137,7 @@ MatContent two_tests() {
 }
 
 template <typename Sent>
-std::string bytes_of(const Sent& sent) {
+std::string bytes_sent(const Sent& sent) {
   std::string bytes;
   send(sent, [&bytes](std::span<const char> more) { bytes.append(more.data(), more.size()); });
   return bytes;
@@ -146,7 +146,7 @@ std::string bytes_of(const Sent& sent) {
 }  // namespace
 
 TEST_CASE("Content that went over a pipe is what was sent") {
-  const auto back = receive(bytes_of(two_tests()));
+  const auto back = receive(bytes_sent(two_tests()));
   REQUIRE(back.has_value());
   REQUIRE(back->tests.size() == 2);
   CHECK(back->tests[1].label == "b");
@@ -161,7 +161,7 @@ TEST_CASE("Content that went over a pipe is what was sent") {
   problem.message = "bad";
   problem.found = "this";
   try {
-    (void)receive(bytes_of(std::vector{problem}));
+    (void)receive(bytes_sent(std::vector{problem}));
     FAIL("problems were taken for content");
   } catch (const dualdamp::core::InputError& error) {
     CHECK(error.diagnostics().at(0).message == "bad");
@@ -170,18 +170,18 @@ TEST_CASE("Content that went over a pipe is what was sent") {
 }
 
 TEST_CASE("Content of a sender gone astray is refused") {
-  const std::string whole = bytes_of(two_tests());
+  const std::string whole = bytes_sent(two_tests());
   for (std::size_t size = 0; size < whole.size(); ++size) CHECK_FALSE(receive(whole.substr(0, size)).has_value());
   CHECK_FALSE(receive(whole + "x").has_value());
   MatContent ragged = two_tests();
   ragged.tests[0].columns[1].values.push_back(1.0);
-  CHECK_FALSE(receive(bytes_of(ragged)).has_value());
+  CHECK_FALSE(receive(bytes_sent(ragged)).has_value());
   MatContent empty = two_tests();  // a list without room has no address, which undefined behaviour begins with
   for (DataColumn& column : empty.tests[0].columns) column.values.clear();
-  CHECK_FALSE(receive(bytes_of(empty)).has_value());
+  CHECK_FALSE(receive(bytes_sent(empty)).has_value());
   MatContent beyond = two_tests();
   beyond.row_labels->back().first_row = 6;
-  CHECK_FALSE(receive(bytes_of(beyond)).has_value());
+  CHECK_FALSE(receive(bytes_sent(beyond)).has_value());
   // Lengths of any size, wherever they stand: refused or read, and never more memory than the bytes can fill.
   for (std::size_t at = 0; at + 8 <= whole.size(); at += 4) {
     std::string wild = whole;

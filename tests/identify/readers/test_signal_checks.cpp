@@ -171,3 +171,20 @@ TEST_CASE("signal checks: a plateau that begins where the drive stops or turns i
     CHECK(identify::without_sticks(found, x, with_noise(drive, 1e-3), 2).places == found.places);
   }
 }
+
+TEST_CASE("a number of the logger among the samples is found by its distance and its repetition") {
+  std::vector<double> motion(200);
+  for (std::size_t i = 0; i < motion.size(); ++i) motion[i] = 40.0 * std::cos(0.1 * static_cast<double>(i));
+  CHECK(identify::placeholders_in(motion).empty());
+  std::vector<double> spike = motion;
+  spike[50] = 1e4;
+  CHECK(identify::placeholders_in(spike).empty());  // a spike, which the methods handle
+  std::vector<double> missing = motion;
+  missing[50] = missing[120] = -9999.0;
+  CHECK(identify::placeholders_in(missing) == std::vector<std::size_t>{50, 120});
+  missing[70] = missing[71] = 9.9e37;  // and too much
+  CHECK_FALSE(identify::placeholders_in(missing).empty());
+  std::vector<double> clipped = motion;
+  for (double& x : clipped) x = std::min(x, 30.0);
+  CHECK(identify::placeholders_in(clipped).empty());
+}

@@ -120,6 +120,18 @@ TEST_CASE("Degrees read as radians are called degrees, though their sines are th
   CHECK(mentions(faults_in(record, constants), "the phases may be degrees"));
 }
 
+TEST_CASE("One phase that is no lag is named with its pair") {
+  // -999 stands for a phase that was not measured.
+  const KnownConstants constants{1.0, 1000.0, std::sqrt(1000.0)};
+  PairRecord record;
+  for (const double phase : {92.0, 91.0, -999.0, 90.5}) {
+    Pair pair{1e-3, 8e-3, "", static_cast<int>(record.pairs.size()) + 1};
+    pair.phase = phase * pi / 180.0;
+    record.pairs.push_back(pair);
+  }
+  CHECK(mentions(faults_in(record, constants), "the phase of pair 3, -999 deg, is no lag"));
+}
+
 TEST_CASE("Of the causes of a wrong phase all that fit are named, and no others") {
   const auto turned = [](double phase, const KnownConstants& constants, double x) {
     PairRecord record;

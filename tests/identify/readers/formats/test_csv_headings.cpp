@@ -93,3 +93,59 @@ TEST_CASE("headings: words in brackets need a unit from elsewhere, and may be a 
   }
   CHECK(mentions(refusal([] { (void)read("x [mm] peak"); }), "words behind its square brackets"));
 }
+
+TEST_CASE("headings: a first row of numbers is no header, whatever the columns are called") {
+  const ReadOptions numbered{.columns = {{"t", "1"}, {"x", "2"}}, .name = "data.csv"};
+  std::string rows;
+  for (int i = 0; i < 20; ++i) rows += std::to_string(i) + "," + std::to_string(40 + i) + "\n";
+  for (const std::string above : {"", "# t,x\n# s,mm\n"}) {
+    CAPTURE(above);
+    CHECK(mentions(refusal([&] { (void)identify::parse_record(above + rows, numbered); }),
+                   "the first row holds numbers instead of the names of the columns"));
+    CHECK(mentions(refusal([&] { (void)identify::parse_signal(above + rows, "x", numbered); }),
+                   "the first row holds numbers"));
+  }
+  ReadOptions told = numbered;
+  told.no_header = true;
+  CHECK(identify::parse_record(rows, told).record.histories.at(0).x.size() == 20);
+}
+
+TEST_CASE("headings: a number that is the heading of another column is refused") {
+  std::string text = "t,1,2\n";
+  for (int i = 0; i < 20; ++i) text += std::to_string(i) + "," + std::to_string(40 + i) + ",7\n";
+  const ReadOptions second{.columns = {{"x", "2"}}, .name = "data.csv"};
+  CHECK(mentions(refusal([&] { (void)identify::parse_record(text, second); }),
+                 "'2' is the heading of a column and the number of another one"));
+}
+
+TEST_CASE("headings: the end of x_in and x_m may be no unit") {
+  const auto told = [](const std::string& heading, const ReadOptions& options = {}) {
+    return read(heading, options).warnings;
+  };
+  REQUIRE(told("x_in").size() == 1);
+  CHECK(mentions(told("x_in")[0], "the end of 'x_in' is read as the unit of column x, inches"));
+  CHECK(mentions(told("x_m").at(0), "the end of 'x_m' is read as the unit of column x, metres"));
+  CHECK(told("x_mm").empty());
+  CHECK(told("x in mm").empty());
+  std::string text = "t [s],x_in,x_out\n";
+  for (int i = 0; i < 20; ++i) text += std::to_string(i) + "," + std::to_string(40 + i) + ",7\n";
+  ReadOptions options{.name = "data.csv"};
+  CHECK(mentions(refusal([&] { (void)identify::parse_record(text, options); }), "may mean inches or an input"));
+  options.columns = {{"x", "x_out"}};
+  CHECK(refusal([&] { (void)identify::parse_record(text, options); }) != "accepted");  // x_out is constant
+  options.columns.clear();
+  options.units = {{"x", "mm"}};
+  CHECK(first(identify::parse_record(text, options)) == Approx(0.04));
+}
+
+TEST_CASE("headings: a header below a thousand lines is found") {
+  std::string text;
+  for (int i = 0; i < 1000; ++i) text += "Channel " + std::to_string(i) + ": sensor info\n";
+  text += "t [s],x [mm]\n";
+  for (int i = 0; i < 20; ++i) text += std::to_string(i) + "," + std::to_string(40 + i) + "\n";
+  CHECK(first(identify::parse_record(text, "data.csv")) == Approx(0.04));
+  std::string above;
+  for (int i = 0; i < 10; ++i) above += text.substr(0, text.find("t [s]"));
+  CHECK(mentions(refusal([&] { (void)identify::parse_record(above + text, "data.csv"); }),
+                 "and no other header in the first 10000 lines of the file"));
+}

@@ -1,0 +1,116 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <cstdio>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "identify/readers/record_reader.hpp"
+#include "tests/identify/readers/data_files.hpp"
+#include "tests/identify/readers/refusals.hpp"
+
+using namespace dualdamp;
+using namespace dualdamp::identify::testing;
+using identify::MeasuredRecord;
+using identify::parse_record;
+using identify::parse_signal;
+using identify::ReadOptions;
+
+namespace {
+
+double vibration(double t) { return 40.0 * std::exp(-t) * std::cos(38.8 * t); }
+
+std::string row(double t, double x, int decimals = 3) { return print("%.*f,%.6f\n", decimals, t, x); }
+
+/// 2000 samples at `rate` [Hz]. `also`: what follows each row.
+std::string recorded(double rate, const std::function<std::string(int, double)>& also) {
+  std::string text = "t [s],x [mm]\n";
+  for (int i = 0; i < 2000; ++i) {
+    const double t = i / rate;
+    text += row(t, vibration(t)) + also(i, t);
+  }
+  return text;
+}
+
+std::string nothing(int, double) { return {}; }
+
+MeasuredRecord read(const std::string& text) { return parse_record(text, "data.csv"); }
+
+}  // namespace
+
+TEST_CASE("time stamps: a time that appears twice with other values is refused at the resolution of the step") {
+  for (const int twice : {50, 1000, 1990}) {
+    const std::string text = recorded(
+        1000.0, [twice](int i, double t) { return i == twice ? row(t, vibration(t) + 0.05) : std::string(); });
+    const std::string said = refusal([&] { (void)read(text); });
+    CHECK(mentions(said, "it appears twice, with other values"));
+    CHECK(mentions(said, "data.csv:" + std::to_string(twice + 3)));
+  }
+}
+
+TEST_CASE("time stamps: a coarse clock that repeats itself is read as even samples") {
+  for (const double rate : {1000.5, 1024.0, 1100.0, 2000.0, 4000.0}) {
+    CAPTURE(rate);
+    const MeasuredRecord file = read(recorded(rate, nothing));
+    REQUIRE(file.record.histories.size() == 1);
+    CHECK(file.record.histories[0].x.size() == 2000);
+    // 1 ms over the record, shared by both ends
+    CHECK(file.record.histories[0].sample_rate == Approx(rate).epsilon(1e-3 * rate / 2000.0));
+    for (const std::string& warning : file.warnings) CHECK(warning.find("other values") == std::string::npos);
+  }
+}
+
+TEST_CASE("time stamps: rows that are written twice are used once, however many they are") {
+  for (const int share : {1, 10, 400}) {
+    CAPTURE(share);
+    const MeasuredRecord file = read(recorded(
+        1000.0, [share](int i, double t) { return i % share == 0 ? row(t, vibration(t)) : std::string(); }));
+    REQUIRE(file.record.histories.size() == 1);
+    CHECK(file.record.histories[0].x.size() == 2000);
+    CHECK(file.record.histories[0].sample_rate == Approx(1000.0));
+    REQUIRE(file.warnings.size() == 1);
+    CHECK(mentions(file.warnings[0], std::to_string(2000 / share) + " rows appear twice"));
+  }
+}
+
+TEST_CASE("time stamps: a unit or a scale of times of day is refused") {
+  const auto text = [](const std::string& heading) {
+    std::string rows = heading + ",x [mm]\n";
+    for (int i = 0; i < 40; ++i) rows += print("2026-11-22T12:30:%06.3f,%.6f\n", 0.01 * i, vibration(0.01 * i));
+    return rows;
+  };
+  const auto refused = [&](const std::string& heading, ReadOptions options) {
+    options.name = "data.csv";
+    return refusal([&] { (void)parse_record(text(heading), options); });
+  };
+  CHECK(mentions(refused("t [ms]", {}), "column t holds time stamps"));
+  CHECK(mentions(refused("t", {.units = {{"t", "ms"}}}), "column t holds time stamps"));
+  CHECK(mentions(refused("t", {.scales = {{"t", "2"}}}), "column t holds time stamps"));
+  CHECK(refused("t [s]", {}) == "accepted");
+  CHECK(refused("t [ms]", {.units = {{"t", "s"}}}) == "accepted");
+  CHECK(read(text("t")).warnings.empty());  // no unit is assumed
+}
+
+TEST_CASE("time stamps: times that run backwards are refused") {
+  std::string text = "t [s],x [mm]\n";
+  for (int i = 100; i > 0; --i) text += row(0.01 * i, vibration(0.01 * i));
+  CHECK(mentions(refusal([&] { (void)read(text); }), "the time runs backwards"));
+  CHECK(mentions(refusal([&] { (void)parse_signal(text, "x", {.name = "data.csv"}); }), "does not increase"));
+}
+
+TEST_CASE("time stamps: a gap in the samples of a drive is told") {
+  const auto gaps_of = [](const std::function<bool(int)>& is_there, double jitter) {
+    std::string text = "t [s],y [mm]\n";
+    for (int i = 0; i < 400; ++i)
+      if (is_there(i)) text += row(0.002 * i + jitter * std::sin(i), vibration(0.002 * i), 5);
+    return parse_signal(text, "y", {.name = "data.csv"}).warnings;
+  };
+  const auto all = [](int) { return true; };
+  CHECK(gaps_of(all, 0.0).empty());
+  CHECK(gaps_of(all, 0.0005).empty());
+  CHECK(gaps_of([](int i) { return i < 20 || i % 8 == 0; }, 0.0).empty());  // another rate, not a gap
+  const auto one = gaps_of([](int i) { return i < 100 || i > 103; }, 0.0);
+  REQUIRE(one.size() == 1);
+  CHECK(mentions(one[0], "the samples have 1 gap from t = 0.198 s to 0.208 s, 5 usual steps"));
+  CHECK(gaps_of([](int i) { return i < 100 || i > 140; }, 0.0005).size() == 1);
+}
