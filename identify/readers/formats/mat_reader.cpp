@@ -224,7 +224,11 @@ class Reader {
     }
     add_slices(whole);
     // A struct that has all that is asked for has its own times, too.
-    if (structs.size() == 1 && whole.empty()) return std::move(structs.front());
+    const bool is_whole = structs.size() == 1 && std::ranges::all_of(fields, [&](const Entry& asked) {
+                            return std::ranges::find(structs.front().front(), asked.name, &Entry::name) !=
+                                   structs.front().front().end();
+                          });
+    if (is_whole && whole.empty()) return std::move(structs.front());
     std::ranges::move(fields, std::back_inserter(whole));
     if (holds_data(whole)) return {whole};
     if (structs.size() == 1) return std::move(structs.front());

@@ -242,6 +242,16 @@ TEST_CASE("Parts of matrices, fields of structs and names of the caller's are co
   }
 }
 
+TEST_CASE("A motion in one struct and its times in another one are read together") {
+  std::vector<double> times = ramp(40);
+  for (double& t : times) t *= 0.02;
+  Matlab file("two_structs.mat", MAT_FT_MAT5);
+  const std::string path = file.add_struct("run", {ramp(40)}).add_struct("clock", {times}).path();
+  const History history = read_record(path, {.columns = {{"x", "run.x"}, {"t", "clock.x"}}}).record.histories.at(0);
+  CHECK(history.x == ramp(40));
+  CHECK(history.sample_rate == Approx(50.0));
+}
+
 TEST_CASE("Parts of a matrix within a struct are columns, beside the sample rate in the struct or in the file") {
   std::vector<double> table = ramp(40);
   std::vector<double> second = ramp(40);
