@@ -383,13 +383,20 @@ std::vector<core::Diagnostic> gross_faults(const Record& record, const KnownCons
 
 std::vector<std::string> odd_readings(const Record& record, const KnownConstants& constants) {
   double largest = 0.0;
-  for (const History& history : record.histories)
-    if (!history.x.empty())
-      largest = std::max(largest, 0.5 * (std::ranges::max(history.x) - std::ranges::min(history.x)));
+  const auto include = [&largest](const std::vector<double>& x) {
+    if (!x.empty()) largest = std::max(largest, 0.5 * (std::ranges::max(x) - std::ranges::min(x)));
+  };
+  for (const History& history : record.histories) include(history.x);
+  if (record.decay) include(record.decay->extremes);
   constexpr double two_turns = 2.0 * core::two_pi;
   if (constants.coordinate == core::Coordinate::angle && largest > two_turns)
     return {"x swings by " + shown(largest) + " rad to each side, " + shown(0.5 * largest / std::numbers::pi) +
             " turns: if these are degrees, forces are 57 times too large"};
+  const double speed = constants.natural_frequency() * largest;
+  constexpr double fastest = 1000.0;
+  if (constants.coordinate == core::Coordinate::displacement && speed > fastest)
+    return {"x swings by " + shown(largest) + " m to each side, at the natural frequency with " + shown(speed) +
+            " m/s: its unit or its scale may be wrong"};
   if (!record.pairs) return {};
   const std::optional<ResonanceLine> line = resonance_line(record.pairs->pairs, constants);
   if (!line || !is_odd(line->zeta)) return {};

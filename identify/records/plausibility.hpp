@@ -31,7 +31,7 @@ namespace dualdamp::identify {
                                                          const core::SettingWords& words = {});
 
 /// Warnings about unusual, but possible readings: pairs at resonance with a damping ratio below 2e-4 or above 20,
-/// angles beyond two turns.
+/// angles beyond two turns, speeds of a motion above 1000 m/s.
 [[nodiscard]] std::vector<std::string> odd_readings(const Record& record, const KnownConstants& constants);
 
 }  // namespace dualdamp::identify

@@ -234,6 +234,19 @@ TEST_CASE("Numbers of samples for times, hertz for rad/s, and damping that hardl
   CHECK(odd_readings({.pairs = rig.record}, rig.constants).size() == 1);
 }
 
+TEST_CASE("A motion faster than 1000 m/s in its stated unit gets a warning") {
+  const KnownConstants constants{1.0, 1500.0, unknown};
+  const DecayRecord decay{{0.04, -0.03, 0.02}, {}};
+  CHECK(odd_readings({.decay = decay}, constants).empty());
+  DecayRecord in_megametres = decay;
+  for (double& x : in_megametres.extremes) x *= 1e9;
+  REQUIRE(odd_readings({.decay = in_megametres}, constants).size() == 1);
+  CHECK(mentions(odd_readings({.decay = in_megametres}, constants)[0], "its unit or its scale may be wrong"));
+  History history{.sample_rate = 1000.0};
+  history.x = in_megametres.extremes;
+  CHECK(odd_readings({.histories = {history}}, constants).size() == 1);
+}
+
 TEST_CASE("A force of the wrong sign takes work out of the motion, and is refused") {
   const double m = 2.0;
   const double w = 2.0 * pi * 5.0;
