@@ -409,6 +409,7 @@ std::variant<JointModel, std::string> amplitude_model(const Record& record, cons
   KnownDeviations stated{known.sigma_x / unit, known.sigma_Y / unit};
   double ratio = 1.0;
   while (points.size() >= fewest) {
+    if (std::string lack = lacks_levels(points); !lack.empty()) return lack;
     const SteadyStates states(points, true, stated);
     const AmplitudeFit fit = best_fit(states, {first_guess(points), states.none_relaxed()}, {});
     if (!std::isfinite(fit.deviance)) return "no damping ratio and friction force fit the steady states";

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "identify/methods/amplitudes/input_levels.hpp"
 #include "identify/models/sticking.hpp"
 #include "sim/analytic/den_hartog.hpp"
 
@@ -42,6 +43,13 @@ std::vector<SteadyPoint> points_of(const std::vector<Pair>& states, const KnownC
                       static_cast<int>(label - labels.begin()), pair.number});
   }
   return points;
+}
+
+std::string lacks_levels(const std::vector<SteadyPoint>& points) {
+  std::vector<Datum> pairs;
+  pairs.reserve(points.size());
+  for (const SteadyPoint& point : points) pairs.push_back({.Y = point.Y, .x = point.x, .r = point.r});
+  return lacks_levels(pairs);
 }
 
 PlainFriction first_guess(const std::vector<SteadyPoint>& points) {

@@ -64,6 +64,9 @@ struct AmplitudeTerm {
 /// The terms, by assumption.
 [[nodiscard]] std::span<const AmplitudeTerm> amplitude_terms();
 
+/// input_levels.hpp, of these states.
+[[nodiscard]] std::string lacks_levels(const std::vector<SteadyPoint>& points);
+
 /// Leaves out the states that stick at this friction, each with a sentence. Returns whether there are any.
 bool drop_sticking(std::vector<SteadyPoint>& points, const PlainFriction& friction,
                    std::vector<std::string>& left_out);

@@ -10,6 +10,7 @@
 #include "core/constants.hpp"
 #include "core/numbers.hpp"
 #include "identify/methods/amplitudes/bootstrap.hpp"
+#include "identify/methods/amplitudes/input_levels.hpp"
 #include "identify/methods/amplitudes/line_estimate.hpp"
 #include "identify/models/sticking.hpp"
 #include "identify/statistics/least_squares.hpp"
@@ -334,10 +335,7 @@ std::string fault_of(const AmplitudeLaw& law, const std::vector<Exclusion>& excl
       fault += "; pair " + std::to_string(excluded.front().number) + ": " + excluded.front().reason;
     return fault;
   }
-  const auto same = [&](const Datum& datum) {
-    return datum.Y == law.pairs().front().Y && datum.r == law.pairs().front().r;
-  };
-  return std::ranges::all_of(law.pairs(), same) ? "the pairs are all of one input and one frequency" : "";
+  return lacks_levels(law.pairs());
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "core/constants.hpp"
+#include "identify/methods/amplitudes/input_levels.hpp"
 #include "identify/methods/amplitudes/steady_states.hpp"
 #include "identify/models/force_parameters.hpp"
 #include "identify/records/history_energy.hpp"
@@ -138,6 +139,10 @@ Estimate of_histories(const Record& record, const KnownConstants& constants, con
 Estimate of_states(const Record& record, const KnownConstants& constants, Estimate estimate) {
   const std::optional<std::vector<Pair>> states = take_states(record, constants, true, estimate);
   if (!states) return estimate;
+  if (std::string lack = lacks_levels(*states); !lack.empty()) {
+    refuse(estimate, std::move(lack));
+    return estimate;
+  }
   const bool approximate = std::ranges::any_of(
       *states, [](const Pair& pair) { return std::isnan(pair.fundamental) || std::isnan(pair.mean_square_speed); });
   const auto own = [&](const ParameterSet& value) {

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "identify/methods/amplitudes/fundamental_laws.hpp"
+#include "identify/methods/amplitudes/input_levels.hpp"
 #include "identify/methods/amplitudes/steady_states.hpp"
 #include "identify/models/force_parameters.hpp"
 #include "identify/statistics/decompositions.hpp"
@@ -248,9 +249,13 @@ void add_curves(const std::vector<Datum>& points, const MonomialFit& fit, Estima
   estimate.curves.push_back(std::move(friction));
 }
 
-std::string few(std::size_t left, const Estimate& estimate) {
-  std::string reason = "two steady states of different speeds are needed, and " + std::to_string(left) +
-                       (left == 1 ? " is" : " are") + " left";
+/// Why no line goes through the friction of these states; empty when one does.
+std::string lack_of_states(const std::vector<Pair>& states, bool has_line, const Estimate& estimate) {
+  std::string reason = lacks_levels(states);
+  if (states.size() < 2 || (reason.empty() && !has_line))
+    reason = "two steady states of different speeds are needed, and " + std::to_string(states.size()) +
+             (states.size() == 1 ? " is" : " are") + " left";
+  if (reason.empty()) return reason;
   if (!estimate.excluded.empty())
     reason +=
         "; pair " + std::to_string(estimate.excluded.front().number) + ": " + estimate.excluded.front().reason;
@@ -270,8 +275,8 @@ std::optional<ForceLine> fit_sliding(std::vector<Pair>& states, const KnownConst
   });
   while (true) {
     std::optional<ForceLine> line = force_line(friction_points(states, constants), coulomb_share);
-    if (!line) {
-      refuse(estimate, few(states.size(), estimate));
+    if (std::string lack = lack_of_states(states, line.has_value(), estimate); !lack.empty()) {
+      refuse(estimate, std::move(lack));
       return std::nullopt;
     }
     set_estimate(estimate, *line, constants);

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/numbers.hpp"
+#include "identify/methods/amplitudes/input_levels.hpp"
 #include "identify/statistics/statistics.hpp"
 #include "sim/analytic/den_hartog.hpp"
 
@@ -150,7 +151,7 @@ std::string fault_of(const std::vector<Datum>& pairs, std::size_t total, const s
       fault += "; pair " + std::to_string(excluded.front().number) + ": " + excluded.front().reason;
     return fault;
   }
-  if (nearly_equal(pairs, [](const Datum& d) { return d.Y; })) return "the input amplitudes are all equal";
+  if (std::string fault = lacks_levels(pairs); !fault.empty()) return fault;
   if (nearly_equal(pairs, [](const Datum& d) { return d.x; })) return "the output amplitudes are all equal";
   return {};
 }

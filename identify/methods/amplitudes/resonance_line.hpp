@@ -73,8 +73,8 @@ using LineFrom = std::function<std::optional<Line>(std::size_t first)>;
 [[nodiscard]] std::size_t first_sliding_pair(const ResonanceData& data, const LineFrom& line_from,
                                              Estimate& estimate);
 
-/// Why no line goes through these pairs: fewer than two, equal inputs, equal outputs; empty when one does. `total`
-/// counts the pairs of the record, `excluded` says where the others went.
+/// Why no line goes through these pairs: fewer than two, one level of the input, equal outputs; empty when one
+/// does. `total` counts the pairs of the record, `excluded` says where the others went.
 [[nodiscard]] std::string fault_of(const std::vector<Datum>& pairs, std::size_t total,
                                    const std::vector<Exclusion>& excluded);
 
