@@ -47,6 +47,8 @@ bool misses(Estimate& estimate, const Ledger& ledger) {
   if (!estimate.sound) return false;
   if (const std::string none = estimate.laws ? no_law_fits(*estimate.laws) : std::string(); !none.empty())
     estimate.reason = none;
+  else if (!ledger.force_excess.empty())
+    estimate.reason = ledger.force_excess;
   else if (ledger.misfit && !estimate.laws)
     estimate.reason = misfit_size(*ledger.misfit);
   else if (const std::string negative = negative_friction(ledger); !negative.empty() && !estimate.laws)
@@ -162,6 +164,16 @@ bool finds_departure(const Estimate& estimate) {
          (estimate.interval95 && !estimate.findings.empty());
 }
 
+/// Readings that no law of the library fits are not those of Coulomb and viscous friction, which is one of them.
+void share_misfit_of_laws(std::vector<Estimate>& estimates) {
+  for (const Estimate& ranges : estimates) {
+    const std::string none = ranges.laws ? no_law_fits(*ranges.laws) : std::string();
+    if (none.empty()) continue;
+    for (Estimate& estimate : estimates)
+      if (estimate.usable && !estimate.laws) estimate.usable = false, estimate.reason = none;
+  }
+}
+
 /// Where the ledger tested nothing, what one method finds against the law counts against all that rest on it.
 void share_findings(std::vector<Estimate>& estimates) {
   const auto finder = std::ranges::find_if(estimates, finds_departure);
@@ -213,6 +225,7 @@ Identification concluded(std::vector<Estimate> estimates, Ledger ledger) {
     judge(all.estimates.back(), all.ledger);
   }
   if (all.ledger.data.empty()) share_findings(all.estimates);
+  if (has_few_readings(all.ledger)) share_misfit_of_laws(all.estimates);
   std::vector<std::string> reached_by;
   for (Estimate& estimate : all.estimates)
     if (estimate.laws) reached_by = extend_to_relaxed(estimate, all.ledger);

@@ -101,8 +101,11 @@ std::string departures_text(const Ledger& ledger) {
   std::string text;
   for (const std::vector<Assumption>& departure : ledger.departures) {
     const LedgerEntry& first = ledger.entry(departure.front());
-    text += " These data contradict that " + statements_of(departure, ", or that ") + " (" + first.test +
-            ", p = " + core::format_number(*first.p_value, 2) + harmless_beside(first, ledger) + ")";
+    text += " These data contradict that " + statements_of(departure, ", or that ") + " (" +
+            (first.p_value ? first.test + ", p = " + core::format_number(*first.p_value, 2) +
+                                 harmless_beside(first, ledger)
+                           : ledger.force_excess) +
+            ")";
     const std::string& wanted = ledger.entry(Assumption::constants).wanted;
     const bool of_constants = std::ranges::count(departure, Assumption::constants) > 0;
     text += of_constants && !wanted.empty() ? ": they fit " + wanted + "." : ".";
@@ -223,6 +226,10 @@ std::string why_none(const Identification& all) {
   const auto usable = std::ranges::find_if(all.estimates, &Estimate::usable);
   if (usable != all.estimates.end())
     return "the usable estimates have no intervals and do not agree; what would help: more data";
+  if (has_few_readings(all.ledger))
+    for (const Estimate& ranges : all.estimates)
+      if (const std::string none = ranges.laws ? no_law_fits(*ranges.laws) : std::string(); !none.empty())
+        return none + "; what would help: check mass, stiffness, frequency and units, or take more readings";
   if (std::string untested = why_untested(all); !untested.empty()) return untested;
   return there->method + ": " + there->reason;
 }

@@ -1,6 +1,5 @@
 #include "identify/ledger/ledger.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -13,11 +12,11 @@
 #include "identify/ledger/amplitude_model.hpp"
 #include "identify/ledger/decay_model.hpp"
 #include "identify/ledger/estimate/joint_estimate.hpp"
+#include "identify/ledger/force_balance.hpp"
 #include "identify/ledger/history_model.hpp"
 #include "identify/ledger/relaxation_tests.hpp"
 #include "identify/ledger/stated_noise.hpp"
 #include "identify/statistics/decompositions.hpp"
-#include "identify/statistics/distributions.hpp"
 #include "identify/statistics/least_squares.hpp"
 #include "identify/statistics/statistics.hpp"
 
@@ -367,9 +366,7 @@ void note_nearly_seen(const JointModel& model, const RelaxationTests& tests, Led
   }
 }
 
-}  // namespace
-
-Ledger ledger_of(const Record& record, const KnownConstants& constants, const LedgerOptions& options) {
+Ledger tested_ledger(const Record& record, const KnownConstants& constants, const LedgerOptions& options) {
   Ledger ledger;
   ledger.coordinate = constants.coordinate;
   ledger.recorded = recorded_in(record);
@@ -396,13 +393,20 @@ Ledger ledger_of(const Record& record, const KnownConstants& constants, const Le
   const bool is_friction = std::ranges::any_of(ledger.departures, [](const std::vector<Assumption>& named) {
     return std::ranges::any_of(named, [](Assumption a) { return is_of_friction(a) && a != Assumption::symmetry; });
   });
-  const bool has_spring = constants.stiffness > 0.0 && constants.mass > 0.0;
-  if (is_friction || !has_spring || ledger.misfit) return ledger;
+  if (is_friction || !(constants.stiffness > 0.0 && constants.mass > 0.0) || ledger.misfit) return ledger;
   ledger.joint = joint_estimate(model, tests);
   ledger.unseen = unseen_friction(model, tests, *ledger.joint);
   for (const FoundDeparture& departure : tests.departures)
     ledger.relaxed.push_back(model.relaxations[departure.explanations.front().index].test);
   note_nearly_seen(model, tests, ledger);
+  return ledger;
+}
+
+}  // namespace
+
+Ledger ledger_of(const Record& record, const KnownConstants& constants, const LedgerOptions& options) {
+  Ledger ledger = tested_ledger(record, constants, options);
+  charge_force_balance(record, constants, options.uncertainties, ledger);
   return ledger;
 }
 

@@ -104,6 +104,9 @@ struct Ledger {
   std::vector<std::string> warnings;  ///< about the readings and what is stated of them, each a sentence
   /// The joint model misses the record, whatever is relaxed: no single assumption explains it.
   std::optional<Misfit> misfit = {};
+  /// Steady states that need more force than their drive gives, a sentence (force_balance.hpp). No estimate with
+  /// the constants as stated describes them.
+  std::string force_excess = {};
   std::vector<std::string> relaxed;  ///< tests of the relaxations that the joint estimate has free
   /// Estimate of the joint model with the departures relaxed. Nothing without a model, without mass and stiffness,
   /// or if a departure that matters may be one of friction over speed or displacement, or beside a misfit.

@@ -198,6 +198,18 @@ TEST_CASE("Where the ledger tested nothing a departure that one method finds lea
   CHECK(answering(concluded({finder, blind}, nothing)) == "recursive_least_squares");
 }
 
+TEST_CASE("Where the ledger tested nothing and no law fits a few states, nothing answers") {
+  auto of_laws = std::make_shared<LawIntervals>();
+  of_laws->inflation = 240.0;
+  Estimate ranges = estimate("any_law", 0.1, 4.0, 0.5);
+  ranges.laws = of_laws;
+  Ledger few = ledger({});
+  few.data.clear();
+  const Identification found = concluded({estimate("harmonic_balance", 0.1, 4.0, 0.9), ranges}, few);
+  CHECK_FALSE(found.answer);
+  CHECK(mentions(found.reason, "no law of the library fits"));
+}
+
 TEST_CASE("A ledger of extremes does not clear what a method found in the history") {
   Estimate contradicted = estimate("output_error", 1.1, 4.0, 0.01);
   contradicted.usable = false;
