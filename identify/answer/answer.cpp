@@ -84,11 +84,13 @@ void correct(Estimate& estimate) {
   if (!estimate.outcome.ok() || !estimate.interval95) return;
   const MethodEntry* method = find_method(estimate.method);
   const bool always = method != nullptr && method->needs == RecordKind::history;
-  for (const ReportedParameter& parameter : reported_parameters) {
-    double& value = estimate.value.*parameter.value;
-    const auto& [low, high] = (*estimate.interval95).*parameter.interval;
-    if (always || value < low || value > high) value = 0.5 * (low + high);
-  }
+  const auto to_middle = [always](double& value, const Interval& interval) {
+    if (always || value < interval[0] || value > interval[1]) value = 0.5 * (interval[0] + interval[1]);
+  };
+  for (const ReportedParameter& parameter : reported_parameters)
+    to_middle(estimate.value.*parameter.value, (*estimate.interval95).*parameter.interval);
+  for (FurtherParameter& other : estimate.others)
+    if (other.interval95) to_middle(other.value, *other.interval95);
 }
 
 /// An answer is not negative, nor does its interval reach below zero, the nearest value that friction can have.
@@ -157,9 +159,10 @@ bool excluded(Estimate& estimate, const std::optional<Estimate>& joint) {
 }
 
 /// Did the method find against the law of friction? A method that claims no interval says so among its findings,
-/// and says nothing about the law.
+/// and says nothing about the law. One with a fault of its own, or that
+/// finds as much in motions of its law, does not tell.
 bool finds_departure(const Estimate& estimate) {
-  if (!estimate.outcome.ok() || estimate.laws) return false;
+  if (!estimate.outcome.ok() || estimate.laws || !estimate.sound || estimate.misreads_its_law) return false;
   return (estimate.lack_of_fit && estimate.lack_of_fit->fired) ||
          (estimate.interval95 && !estimate.findings.empty());
 }

@@ -53,6 +53,13 @@ std::string why_untested(const Identification& all) {
   return all.ledger.entries.front().reason;
 }
 
+/// What would help where the histories themselves could not be tested; empty otherwise.
+std::string what_would_test(const Ledger& ledger) {
+  if (!ledger.data.empty() || !ledger.recorded.histories || ledger.entries.empty()) return {};
+  return "; what would help: a longer record, or one of more swings, in which the assumptions can be tested (" +
+         ledger.entries.front().reason + ")";
+}
+
 std::string with_interval(double value, const std::optional<ParameterIntervals>& intervals,
                           Interval ParameterIntervals::* member, const std::string& unit) {
   std::string text = four_digits(value) + unit;
@@ -231,7 +238,7 @@ std::string why_none(const Identification& all) {
       if (const std::string none = ranges.laws ? no_law_fits(*ranges.laws) : std::string(); !none.empty())
         return none + "; what would help: check mass, stiffness, frequency and units, or take more readings";
   if (std::string untested = why_untested(all); !untested.empty()) return untested;
-  return there->method + ": " + there->reason;
+  return there->method + ": " + there->reason + what_would_test(all.ledger);
 }
 
 std::string verdict_of(const Identification& all) {

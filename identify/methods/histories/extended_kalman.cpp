@@ -187,13 +187,18 @@ ParameterReading reading_of(const FilterRun& run, const KnownConstants& constant
           Eigen::Vector4d(0.0, error(3), 0.0, error(2))};
 }
 
-void judge(const FilterRun& run, const std::optional<FilterRun>& wider, Estimate& estimate,
+/// `of_law`: the largest surprise by a synthetic motion of the estimated law.
+void judge(const FilterRun& run, double of_law, const std::optional<FilterRun>& wider, Estimate& estimate,
            std::vector<std::string>& faults) {
   constexpr double surprising = 2.0;
-  if (run.surprise > surprising)
+  if (run.surprise > surprising) {
+    estimate.misreads_its_law = run.surprise <= of_law;
     estimate.findings.push_back("the filter misses the motion by " +
-                                core::format_number(std::sqrt(run.surprise), 2) +
-                                " times what it expects: the law, a constant or the noise is wrong");
+                                core::format_number(std::sqrt(run.surprise), 2) + " times what it expects: " +
+                                (estimate.misreads_its_law
+                                     ? "it misses motions of its own law by as much, so it does not converge here"
+                                     : "the law, a constant or the noise is wrong"));
+  }
   const double F0 = estimate.value.F0;
   const double c = estimate.value.c;
   const double change =
@@ -231,12 +236,15 @@ Estimate extended_kalman(const Record& record, const KnownConstants& constants, 
     refuse(estimate, std::move(fault));
     return estimate;
   }
+  double of_law = 0.0;
   const auto again = [&](const Record& drawn) -> std::optional<ParameterReading> {
     const History& noisy = drawn.histories.front();
     const Scales its = scales_of(noisy, options);
     const FilterRun other =
         run_filter(noisy, ignorance(noisy, its, constants), setting_for(its, width_for(its), noisy, constants));
-    return fault_of_run(other, its).empty() ? std::optional(reading_of(other, constants)) : std::nullopt;
+    if (!fault_of_run(other, its).empty()) return std::nullopt;
+    of_law = std::max(of_law, other.surprise);
+    return reading_of(other, constants);
   };
   const Eigen::Vector4d& end = run.end.state;
   set_estimate(estimate, {constants.mass, end[3], constants.stiffness, end[2]},
@@ -253,7 +261,7 @@ Estimate extended_kalman(const Record& record, const KnownConstants& constants, 
          {}});
   std::vector<std::string> faults;
   judge_force_signs(estimate, 0.0, 0.0, faults);
-  judge(run, wider, estimate, faults);
+  judge(run, of_law, wider, estimate, faults);
   conclude(estimate, faults,
            "the state after " + std::to_string(history->x.size()) +
                " samples, sign of the velocity smoothed over " + core::format_number(width, 3) + " " +

@@ -198,6 +198,22 @@ TEST_CASE("Where the ledger tested nothing a departure that one method finds lea
   CHECK(answering(concluded({finder, blind}, nothing)) == "recursive_least_squares");
 }
 
+TEST_CASE("A method that does not trust itself does not accuse the others") {
+  // Short decays of plain friction were left without an answer by a filter that misses its own law as well, and by
+  // a line of forces that depends on its cut-off.
+  Estimate finder = estimate("extended_kalman", 0.1, 4.0, 0.05);
+  finder.usable = false;
+  finder.findings = {"the filter misses the motion by 8 times what it expects"};
+  const Estimate good = estimate("output_error", 0.12, 4.0, 0.01);
+  Ledger nothing = ledger({});
+  nothing.data.clear();
+  nothing.recorded.histories = true;
+  CHECK_FALSE(concluded({finder, good}, nothing).answer);
+  SECTION("with a fault of its own") { finder.sound = false; }
+  SECTION("that finds as much in motions of its law") { finder.misreads_its_law = true; }
+  CHECK(answering(concluded({finder, good}, nothing)) == "output_error");
+}
+
 TEST_CASE("Where the ledger tested nothing and no law fits a few states, nothing answers") {
   auto of_laws = std::make_shared<LawIntervals>();
   of_laws->inflation = 240.0;
@@ -208,6 +224,13 @@ TEST_CASE("Where the ledger tested nothing and no law fits a few states, nothing
   const Identification found = concluded({estimate("harmonic_balance", 0.1, 4.0, 0.9), ranges}, few);
   CHECK_FALSE(found.answer);
   CHECK(mentions(found.reason, "no law of the library fits"));
+}
+
+TEST_CASE("A further parameter lies within its interval, as the others do") {
+  Estimate shifted = estimate("acceleration_velocity_displacement", 0.1, 4.0, 0.05);
+  shifted.others.push_back({"offset", "N", 0.0577, 0.01, Interval{-0.228, -0.190}});
+  const Identification found = concluded({shifted}, ledger({}));
+  CHECK(found.estimates.front().others.front().value == Approx(-0.209));
 }
 
 TEST_CASE("A ledger of extremes does not clear what a method found in the history") {
