@@ -103,8 +103,7 @@ void keep_physical(Estimate& estimate) {
           " in SI units), and is reported as zero: the data cannot distinguish it from zero");
     value = value < 0.0 ? 0.0 : value;
     if (!estimate.interval95) continue;
-    double& low = ((*estimate.interval95).*parameter.interval)[0];
-    low = low < 0.0 ? 0.0 : low;
+    for (double& end : (*estimate.interval95).*parameter.interval) end = end < 0.0 ? 0.0 : end;
   }
 }
 
@@ -190,7 +189,8 @@ void share_findings(std::vector<Estimate>& estimates) {
   }
 }
 
-/// The interval of the answer and what is not excluded beyond it. A range over laws holds departures already.
+/// The interval of the answer, which is not below zero, and what is not excluded beyond it. A range over laws holds
+/// departures already.
 std::optional<UnseenRange> range_of(const Estimate& best, const Ledger& ledger) {
   if (!best.interval95 || (!best.laws && !ledger.unseen)) return std::nullopt;
   UnseenRange range{.ends = *best.interval95};
@@ -198,7 +198,7 @@ std::optional<UnseenRange> range_of(const Estimate& best, const Ledger& ledger) 
   for (const ReportedParameter& parameter : reported_parameters) {
     Interval& own = range.ends.*parameter.interval;
     const Interval& other = ledger.unseen->ends.*parameter.interval;
-    own = {std::min(own[0], other[0]), std::max(own[1], other[1])};
+    own = {std::min(own[0], std::max(0.0, other[0])), std::max(own[1], other[1])};
   }
   const auto name_ends = [&](Interval ParameterIntervals::* member, auto by) {
     for (std::size_t end = 0; end < 2; ++end)

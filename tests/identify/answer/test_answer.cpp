@@ -233,6 +233,22 @@ TEST_CASE("A further parameter lies within its interval, as the others do") {
   CHECK(found.estimates.front().others.front().value == Approx(-0.209));
 }
 
+TEST_CASE("No interval and no range ends below zero, and no interval is reversed") {
+  Estimate best = estimate("joint_fit", 0.001, 0.01, 0.1);
+  best.value.zeta = -1e-12;
+  best.interval95->zeta = {-2e-12, -5e-13};
+  Ledger few = ledger({});
+  few.unseen = UnseenRange{.ends = {{-0.17, 0.38}, {-17.0, 38.0}, {-0.005, 0.01}, {-4.8, 6.0}}};
+  const Identification found = concluded({best}, few);
+  REQUIRE(found.answer);
+  const Interval& zeta = found.estimates[*found.answer].interval95->zeta;
+  CHECK(zeta[0] == 0.0);
+  CHECK(zeta[1] >= zeta[0]);
+  REQUIRE(found.range);
+  for (const ReportedParameter& parameter : reported_parameters)
+    CHECK((found.range->ends.*parameter.interval)[0] == 0.0);
+}
+
 TEST_CASE("A ledger of extremes does not clear what a method found in the history") {
   Estimate contradicted = estimate("output_error", 1.1, 4.0, 0.01);
   contradicted.usable = false;
