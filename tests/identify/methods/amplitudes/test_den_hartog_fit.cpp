@@ -220,7 +220,7 @@ TEST_CASE("Pairs that allow no fit of the exact law are refused with the reason"
   };
   refused(Record{}, table_1_constants, "no x-Y pairs");
   refused(pairs({{0.1, 0.2}}), table_1_constants, "2 pairs are needed, and 1 is left");
-  refused(pairs({{0.1, 0.2}, {0.1, 0.21}}), table_1_constants, "one input and one frequency");
+  refused(pairs({{0.1, 0.2}, {0.1, 0.21}}), table_1_constants, "one level");
   refused(pairs(table_1), {1.0, 100.0, unknown}, "needs the forcing frequency");
   refused(pairs(table_1), {unknown, 100.0, 10.0}, "needs the mass");
 }
