@@ -12,7 +12,7 @@
 using namespace dualdamp::identify;
 using namespace dualdamp::identify::testing;
 
-TEST_CASE("Extremes hardly tell a zero that drifts from damping of its own in each direction, and name both") {
+TEST_CASE("Extremes hardly tell a zero that drifts from damping of its own in each direction: both explain it") {
   // If one half swing loses more than the next, the middle of both moves by a share of the amplitude. Over the
   // number of the extreme this is a curve that a straight line nearly follows; the alternating part acts as another
   // zeta and release.
@@ -37,7 +37,10 @@ TEST_CASE("Extremes hardly tell a zero that drifts from damping of its own in ea
     CAPTURE(seed);
     CHECK(beside(symmetry, wider) < 0.25 * beside(symmetry, joint.base));
     const Ledger ledger = ledger_of(m.record, m.constants);
-    if (ledger.is_violated(Assumption::symmetry) && ledger.is_violated(Assumption::stationarity)) ++both;
+    // A zero that drifts hardly moves zeta and F0: it explains the departure and violates nothing.
+    const bool explained =
+        ledger.entry(Assumption::stationarity).p_value == ledger.entry(Assumption::symmetry).p_value;
+    if (ledger.is_violated(Assumption::symmetry) && explained) ++both;
   }
   CHECK(both >= 3);
 }

@@ -206,9 +206,14 @@ void count_verdict(const Row& row, std::uint64_t seed, Counts& counts) {
       found.ledger.entries, [](const LedgerEntry& entry) { return entry.p_value.value_or(1.0) < family_level; });
   counts.friction +=
       std::ranges::any_of(assumptions(), [&](Assumption a) { return is_of_friction(a) && violated(a); });
+  // What explains a departure has its p, whether it moves anything or not.
+  const auto explains = [&](Assumption assumption, const std::vector<Assumption>& departure) {
+    return found.ledger.entry(assumption).p_value == found.ledger.entry(departure.front()).p_value;
+  };
   // Friction alone is charged if no other assumption is named with it.
   counts.blamed += std::ranges::any_of(found.ledger.departures, [&](const std::vector<Assumption>& departure) {
-    return std::ranges::all_of(departure, is_of_friction);
+    return std::ranges::none_of(assumptions(),
+                                [&](Assumption a) { return !is_of_friction(a) && explains(a, departure); });
   });
   if (found.ledger.joint && found.ledger.joint->interval95) {
     ++counts.joint;
@@ -218,7 +223,8 @@ void count_verdict(const Row& row, std::uint64_t seed, Counts& counts) {
   counts.off += is_off ? 1 : 0;
   counts.off_rejected += is_off && any ? 1 : 0;
   for (const Assumption assumption : assumptions()) {
-    if (!violated(assumption)) continue;
+    const auto explained_so = [&](const auto& departure) { return explains(assumption, departure); };
+    if (std::ranges::none_of(found.ledger.departures, explained_so)) continue;
     ++counts.named[std::string(name_of(assumption))];
     if (is_off) ++counts.named_off[std::string(name_of(assumption))];
   }
