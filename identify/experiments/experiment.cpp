@@ -32,6 +32,8 @@ std::unique_ptr<Experiment> Experiment::thinned() const { return nullptr; }
 
 std::unique_ptr<Experiment> Experiment::tied(double /*strength*/) const { return nullptr; }
 
+std::unique_ptr<Experiment> Experiment::balanced() const { return nullptr; }
+
 std::vector<std::string> Experiment::objections(const sim::Model& /*model*/,
                                                 const RecordValues& /*of_record*/) const {
   return {};

@@ -69,7 +69,7 @@ class FrictionLoop final : public Experiment {
       if (stuck_[i]) signal.stuck.push_back(i - edge_);
     }
     signals.push_back(std::move(signal));
-    record_others = {RecordParameter::offset, RecordParameter::travel};
+    record_others = {RecordParameter::offset, RecordParameter::travel, RecordParameter::offset_force};
     if (history.x.empty()) record_of_place = {RecordParameter::offset};
   }
 
@@ -77,7 +77,7 @@ class FrictionLoop final : public Experiment {
                              Eigen::VectorXd& outputs) const override {
     const sim::Oscillator& o = model.oscillator;
     const double offset = of_record[RecordParameter::offset];
-    std::vector<double> force(x_.size());
+    std::vector<double> force(x_.size(), of_record[RecordParameter::offset_force]);
     const bool holds = std::ranges::any_of(model.friction, &friction::Law::holds_mass);
     constexpr long samples_of_unit = 8;
     *work += static_cast<long>(x_.size()) / samples_of_unit;
@@ -115,7 +115,7 @@ class FrictionLoop final : public Experiment {
       for (std::size_t i = begin; i < end; ++i) {
         Instant now = instant(i, offset);
         now.v = 0.0;
-        double held = force_[i] - inertia;
+        double held = force_[i] - of_record[RecordParameter::offset_force] - inertia;
         double limit = 0.0;
         if (model.oscillator.stiffness > 0.0) held += sim::spring_force(model.oscillator, offset - x_[i]);
         for (const friction::Law& law : model.friction) {

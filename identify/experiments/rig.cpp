@@ -30,7 +30,8 @@ constexpr std::array<RecordParameterEntry, record_parameter_count> record_parame
      {RecordParameter::release, "release", "s"},
      {RecordParameter::offset_v, "offset_v", "m/s"},
      {RecordParameter::offset_a, "offset_a", "m/s^2"},
-     {RecordParameter::travel, "travel", "m"}}};
+     {RecordParameter::travel, "travel", "m"},
+     {RecordParameter::offset_force, "offset_force", "N"}}};
 
 const RecordParameterEntry& entry_of(RecordParameter which) {
   return *std::ranges::find(record_parameters, which, &RecordParameterEntry::which);

@@ -32,8 +32,8 @@ struct RigLaw {
 };
 
 /// The parameters of a single record.
-enum class RecordParameter { position, velocity, offset, release, offset_v, offset_a, travel };
-inline constexpr std::size_t record_parameter_count = 7;
+enum class RecordParameter { position, velocity, offset, release, offset_v, offset_a, travel, offset_force };
+inline constexpr std::size_t record_parameter_count = 8;
 [[nodiscard]] std::string name_of(RecordParameter which);
 [[nodiscard]] std::string unit_of(RecordParameter which);  ///< SI
 /// The parameter with this name; nothing if no record has such a parameter.

@@ -66,6 +66,7 @@ Guess guess_of(const FitParameter& parameter, const DataScale& s) {
       return {parameter.unit == "s"       ? time
               : parameter.unit == "m/s"   ? s.speed
               : parameter.unit == "m/s^2" ? s.speed / time
+              : parameter.unit == "N"     ? s.force
                                           : s.length,
               1.0};
     default:

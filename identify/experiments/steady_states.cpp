@@ -6,6 +6,7 @@
 #include "core/constants.hpp"
 #include "friction_models/law_fault.hpp"
 #include "identify/experiments/experiment.hpp"
+#include "identify/experiments/harmonic_balance.hpp"
 #include "sim/orbits/steady_state_near.hpp"
 
 namespace dualdamp::identify {
@@ -64,6 +65,10 @@ class SteadyStates final : public Experiment {
     std::vector<std::pair<double, double>> list;
     for (const Level& level : levels_) list.emplace_back(level.Y, level.omega);
     return list;
+  }
+
+  [[nodiscard]] std::unique_ptr<Experiment> balanced() const override {
+    return harmonic_balance(*this, with_phase_);
   }
 
   [[nodiscard]] std::unique_ptr<Neighbours> neighbours(const sim::Model& model, const RecordValues&,

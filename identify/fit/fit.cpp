@@ -57,7 +57,11 @@ void describe_signals(const FitProblem& problem, const Eigen::VectorXd& weights,
     const Eigen::VectorXd measured = problem.measured().segment(rows.begin, size);
     FittedSignal signal{.rows = rows, .rms = problem.rms(misses, rows), .freedom = freedoms[s]};
     signal.range = rms(measured.array() - measured.mean());
-    if (problem.signal(rows).noise > 0.0) {
+    // Residuals far below the roughness of samples: it is that of the motion between too few samples, no noise.
+    constexpr double least_noise_units = 0.5;
+    const bool is_too_rough = !problem.signal(rows).is_stated && problem.signal(rows).is_sampled &&
+                              signal.rms < least_noise_units * problem.signal(rows).noise;
+    if (problem.signal(rows).noise > 0.0 && !is_too_rough) {
       signal.noise = problem.signal(rows).noise;
       signal.noise_units = signal.rms / signal.noise;
       sum += signal.noise_units * signal.noise_units * static_cast<double>(size);
@@ -114,12 +118,10 @@ struct Request {
   const FitOptions& options;
 };
 
-core::Outcome cut_short(long most_work) {
-  return {
-      core::OutcomeKind::not_identifiable,
-      "search cut short: the motions took more than " + std::to_string(most_work) +
-          " steps. Data that do not determine a parameter lead the search to values of it that make a law stiff: "
-          "state values or bounds, or free fewer parameters"};
+std::string cut_short(long most_work) {
+  return "search cut short: the motions took more than " + std::to_string(most_work) +
+         " steps. Data that do not determine a parameter lead the search to values of it that make a law stiff: "
+         "state values or bounds, or free fewer parameters";
 }
 
 /// The search ended where the motion cannot be simulated for values close to the estimate, most often at the end of
@@ -265,8 +267,8 @@ Fit fit_rig(const Rig& rig, std::vector<FitParameter> parameters, const Experime
       stepped_parameters(problem, problem.coordinates(Eigen::Map<const Eigen::VectorXd>(
                                       sizes.data(), static_cast<Eigen::Index>(sizes.size())))));
   std::optional<SearchResult> found = search_parameters(problem, parameters, sizes, search);
-  if (problem.is_exhausted()) {
-    result.outcome = cut_short(options.most_work);
+  if (!found && problem.is_exhausted()) {
+    result.outcome = {core::OutcomeKind::not_identifiable, cut_short(options.most_work)};
     return result;
   }
   if (!found) {
@@ -276,7 +278,10 @@ Fit fit_rig(const Rig& rig, std::vector<FitParameter> parameters, const Experime
                                                                (fault.empty() ? "" : ": " + fault)};
     return result;
   }
-  if (options.seeks_loads) seek_loads(task, *found, scale.length, search, options.most_work, result.warnings);
+  if (found->is_cut_short)
+    result.warnings.push_back(cut_short(options.most_work) + ". The estimates are the best until then");
+  else if (options.seeks_loads)
+    seek_loads(task, *found, scale.length, search, options.most_work, result.warnings);
   constexpr int most_rounds = 4;
   for (int round = 1;; ++round) {
     Fit described = result;

@@ -75,7 +75,7 @@ FitProblem::FitProblem(const FitProblem& whole, Experiments parts)
       coordinates_(whole.coordinates_),
       stepped_(whole.stepped_),
       known_(whole.known_),
-      most_work_(whole.most_work_) {
+      limit_(whole.limit_) {
   for (std::size_t e = 0; e < parts_.size(); ++e)
     if (parts_[e]) experiments_[e] = parts_[e].get();
   number_rows();
@@ -89,18 +89,23 @@ FitProblem FitProblem::roughly(const Accuracy& accuracy) const {
   return rough;
 }
 
-std::optional<FitProblem> FitProblem::first_part(double share) const {
+std::optional<FitProblem> FitProblem::with_parts(const PartOf& part_of) const {
   Experiments parts;
-  for (const Experiment* experiment : experiments_) parts.push_back(experiment->first_part(share));
+  for (const Experiment* experiment : experiments_) parts.push_back(part_of(*experiment));
   if (std::ranges::none_of(parts, [](const auto& part) { return part != nullptr; })) return std::nullopt;
   return FitProblem(*this, std::move(parts));
 }
 
+std::optional<FitProblem> FitProblem::first_part(double share) const {
+  return with_parts([share](const Experiment& experiment) { return experiment.first_part(share); });
+}
+
 std::optional<FitProblem> FitProblem::tied(double strength) const {
-  Experiments parts;
-  for (const Experiment* experiment : experiments_) parts.push_back(experiment->tied(strength));
-  if (std::ranges::none_of(parts, [](const auto& part) { return part != nullptr; })) return std::nullopt;
-  return FitProblem(*this, std::move(parts));
+  return with_parts([strength](const Experiment& experiment) { return experiment.tied(strength); });
+}
+
+std::optional<FitProblem> FitProblem::balanced() const {
+  return with_parts([](const Experiment& experiment) { return experiment.balanced(); });
 }
 
 void FitProblem::number_rows() {
@@ -137,7 +142,7 @@ long FitProblem::work() const {
 }
 
 bool FitProblem::within_limit(std::size_t e, const std::function<bool()>& motions) const {
-  const long left = std::max(0L, *most_work_ - work());
+  const long left = std::max(0L, limit_->most - work());
   const sim::WorkLimit limit(left);
   const bool ok = guarded(motions);
   if (!limit.is_exceeded()) return ok;
@@ -149,7 +154,11 @@ bool FitProblem::within_limit(std::size_t e, const std::function<bool()>& motion
 void FitProblem::limit(long most) const {
   constexpr long largest = std::numeric_limits<long>::max();
   const long begun = work();
-  *most_work_ = most < largest - begun ? begun + most : largest;
+  *limit_ = {begun, most < largest - begun ? begun + most : largest};
+}
+
+void FitProblem::extend(double share) const {
+  limit_->most = work() + static_cast<long>(share * static_cast<double>(limit_->most - limit_->begun));
 }
 
 Eigen::VectorXd FitProblem::counted(const Eigen::VectorXd& misses, const SignalRows& rows) const {

@@ -9,6 +9,8 @@
 /// Newton's method from the orbit of the unchanged model.
 
 #include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
 #include <functional>
 #include <limits>
 #include <memory>
@@ -27,6 +29,13 @@ struct SearchCoordinate {
   double size = 1.0;  ///< one unit of the coordinate; a factor e if it is a logarithm
   double low = 0.0;   ///< in coordinates
   double high = 0.0;
+
+  [[nodiscard]] bool is_low_end(double q) const { return q <= low + near_end * std::max(1.0, std::abs(low)); }
+  [[nodiscard]] bool is_high_end(double q) const { return q >= high - near_end * std::max(1.0, std::abs(high)); }
+  [[nodiscard]] bool is_end(double q) const { return is_low_end(q) || is_high_end(q); }
+
+ private:
+  static constexpr double near_end = 1e-6;
 };
 
 /// Accuracy of the motions, and step of the differences in each coordinate.
@@ -62,7 +71,7 @@ class FitProblem {
   FitProblem(const Rig& rig, const std::vector<FitParameter>& parameters, const Experiments& experiments,
              const std::vector<double>& sizes, std::vector<RecordValues> known = {});
 
-  // `this` must outlive the problems returned by roughly(), first_part() and tied().
+  // `this` must outlive the problems returned by roughly(), first_part(), tied() and balanced().
 
   /// The same with less accurate motions of fewer samples.
   [[nodiscard]] FitProblem roughly(const Accuracy& accuracy) const;
@@ -70,11 +79,15 @@ class FitProblem {
   [[nodiscard]] std::optional<FitProblem> first_part(double share) const;
   /// With models tied to the measured motions; nothing if there is no motion.
   [[nodiscard]] std::optional<FitProblem> tied(double strength) const;
+  /// With the motion of steady states held as it was measured; nothing if there are no steady states.
+  [[nodiscard]] std::optional<FitProblem> balanced() const;
 
   /// Begins to count the work of the motions (`Experiment::work`), also those of the problems made from this one.
   /// Beyond `most` there are no motions any more, and a single motion ends there.
   void limit(long most) const;
-  [[nodiscard]] bool is_exhausted() const { return work() > *most_work_; }
+  [[nodiscard]] bool is_exhausted() const { return work() > limit_->most; }
+  /// Allows this share of the limit beyond it.
+  void extend(double share) const;
 
   /// Sets which parameters act in steps (`steps.hpp`): their derivatives are zero. All others if nothing is set.
   void set_stepped(std::vector<bool> stepped) { stepped_ = std::move(stepped); }
@@ -146,6 +159,9 @@ class FitProblem {
   void mend_jumps(const Eigen::VectorXd& below, const Eigen::VectorXd& above, Eigen::VectorXd& slope) const;
   [[nodiscard]] std::optional<sim::Model> model_at(const Eigen::VectorXd& values) const;
   FitProblem(const FitProblem& whole, Experiments parts);
+  /// The same with what `part_of` makes from the experiments; nothing if it makes nothing from any of them.
+  using PartOf = std::function<std::unique_ptr<Experiment>(const Experiment&)>;
+  [[nodiscard]] std::optional<FitProblem> with_parts(const PartOf& part_of) const;
   void number_rows();
   [[nodiscard]] long work() const;
   /// The answer of `motions` of experiment `e`, of which none runs past the limit of the work. False beyond it, or
@@ -165,8 +181,12 @@ class FitProblem {
   Eigen::VectorXd measured_;
   Eigen::VectorXd counted_;
   Eigen::Index rows_ = 0;
-  /// Of `work`; of all problems made from one.
-  std::shared_ptr<long> most_work_ = std::make_shared<long>(std::numeric_limits<long>::max());
+  /// Of `work`, from `begun` to `most`; of all problems made from one.
+  struct Limit {
+    long begun = 0;
+    long most = std::numeric_limits<long>::max();
+  };
+  std::shared_ptr<Limit> limit_ = std::make_shared<Limit>();
 };
 
 /// A problem with all that it refers to.

@@ -13,16 +13,18 @@ namespace dualdamp::identify {
 namespace {
 
 constexpr std::array zeros_of_sensors = {RecordParameter::offset, RecordParameter::offset_v,
-                                         RecordParameter::offset_a};
+                                         RecordParameter::offset_a, RecordParameter::offset_force};
 
 /// The signal whose zero this is.
 std::string signal_of(RecordParameter which) {
-  return which == RecordParameter::offset_v ? "v" : which == RecordParameter::offset_a ? "a" : "x";
+  return which == RecordParameter::offset_v       ? "v"
+         : which == RecordParameter::offset_a     ? "a"
+         : which == RecordParameter::offset_force ? "force"
+                                                  : "x";
 }
 
 bool has_zero(const Experiment& experiment, RecordParameter which) {
-  return experiment.kind == ExperimentKind::history &&
-         std::ranges::find(experiment.signals, signal_of(which), &Signal::name) != experiment.signals.end() &&
+  return std::ranges::find(experiment.signals, signal_of(which), &Signal::name) != experiment.signals.end() &&
          std::ranges::find(experiment.record_others, which) != experiment.record_others.end();
 }
 

@@ -182,15 +182,16 @@ std::string foreign_noise_warning(const Experiment& experiment, const FittedSign
 /// The mean of the residuals, in its standard errors, from which on a zero is off.
 constexpr double most_mean_errors = 4.0;
 
-/// The zero of a signal of a history; of a loop that of x. Nothing if it is sought.
+/// The zero of a signal of a history, or of the force of a loop. Nothing if it is sought.
 std::optional<RecordParameter> open_zero(const Experiments& experiments, const FittedSignal& fitted,
                                          const Fit& fit) {
   const std::string& name = signal_of(experiments, fitted).name;
   const ExperimentKind kind = experiments[fitted.rows.experiment]->kind;
   if (kind != ExperimentKind::history && kind != ExperimentKind::loop) return std::nullopt;
-  const RecordParameter zero = name == "v"   ? RecordParameter::offset_v
-                               : name == "a" ? RecordParameter::offset_a
-                                             : RecordParameter::offset;
+  const RecordParameter zero = name == "v"       ? RecordParameter::offset_v
+                               : name == "a"     ? RecordParameter::offset_a
+                               : name == "force" ? RecordParameter::offset_force
+                                                 : RecordParameter::offset;
   const bool is_sought = std::ranges::any_of(fit.parameters, [&](const FittedParameter& found) {
     return found.parameter.owner == Owner::record && found.parameter.index == fitted.rows.experiment &&
            found.parameter.record_parameter == zero;
@@ -198,12 +199,11 @@ std::optional<RecordParameter> open_zero(const Experiments& experiments, const F
   return is_sought ? std::nullopt : std::optional(zero);
 }
 
-/// The zero of a signal of a history that its residuals speak of; nothing if they do not, or if it is sought.
-/// `gain`: of this zero.
+/// The zero of a signal of a history or a loop that its residuals speak of; nothing if they do not, or if it is
+/// sought. `gain`: of this zero.
 std::optional<RecordParameter> zero_off(const Experiments& experiments, const FittedSignal& fitted, double gain,
                                         const Fit& fit) {
   constexpr double third = 1.0 / 3.0;
-  if (experiments[fitted.rows.experiment]->kind != ExperimentKind::history) return std::nullopt;
   const bool is_mean = std::abs(fitted.mean_score) >= most_mean_errors &&
                        (is_noise(fitted.p_value) || 2.0 * fitted.mean * fitted.mean >= fitted.rms * fitted.rms);
   if (!is_mean && (is_noise(fitted.p_value) || gain < third)) return std::nullopt;
@@ -222,8 +222,41 @@ std::string zero_warning(const FittedSignal& fitted, RecordParameter zero, doubl
          name_of(zero);
 }
 
+/// Correlation of each residual with the next one.
+double lag_one_correlation(const Eigen::VectorXd& residuals) {
+  const Eigen::Index count = residuals.size() - 1;
+  if (count < 1 || residuals.squaredNorm() == 0.0) return 0.0;
+  return residuals.head(count).dot(residuals.tail(count)) / residuals.squaredNorm();
+}
+
+/// Whether the residuals of samples change slowly at frequencies that the signal lacks, as a harmonic of it does.
+/// The test for noise does not look there. Noise that has passed a filter is correlated as well.
+bool is_slow(const Signal& signal, const FittedSignal& fitted) {
+  constexpr double half = 0.5;
+  return signal.is_sampled && !signal.filter && lag_one_correlation(fitted.misses) > half;
+}
+
+/// A drift of the force of a loop, in its unit over the record, if a line through the residuals takes away a third
+/// of their sum of squares; else zero.
+double drift_of(const Experiment& experiment, const FittedSignal& fitted) {
+  const Eigen::Index count = fitted.misses.size();
+  if (experiment.kind != ExperimentKind::loop || count < least_test_samples) return 0.0;
+  const Eigen::VectorXd line = Eigen::VectorXd::LinSpaced(count, -0.5, 0.5);
+  const Eigen::VectorXd rest = fitted.misses.array() - fitted.misses.mean();
+  const double slope = -line.dot(rest) / line.squaredNorm();
+  constexpr double third = 1.0 / 3.0;
+  return slope * slope * line.squaredNorm() >= third * fitted.misses.squaredNorm() ? slope : 0.0;
+}
+
+std::string drift_warning(double drift, const Signal& signal, const std::string& subject) {
+  return subject + " lie along a line that changes by " + core::format_number(drift, 3) + " " + signal.unit +
+         " in the record: the zero of the sensor drifts, or the friction does (modifier 'drift'). Take the drift out "
+         "of the force, or fit parts of the record";
+}
+
 /// The zero among the possible causes; empty if it is sought.
 std::string open_zero_cause(const Experiments& experiments, const FittedSignal& fitted, const Fit& fit) {
+  if (drift_of(*experiments[fitted.rows.experiment], fitted) != 0.0) return "the zero of the sensor drifts, ";
   const std::optional<RecordParameter> zero = open_zero(experiments, fitted, fit);
   if (!zero) return {};
   return "the zero of the sensor is off ('free' with " + name_of(*zero) + " seeks it), ";
@@ -263,46 +296,73 @@ std::vector<double> zero_gains_of(const FitProblem& problem, const Eigen::Vector
   return gains;
 }
 
+namespace {
+
+/// Residuals of samples that hold motion, or of other readings that are too large or too similar.
+std::string not_noise_warning(const Experiment& experiment, const Experiments& experiments,
+                              const FittedSignal& fitted, const Fit& fit, const std::string& subject) {
+  std::string text = subject;
+  if (fitted.noise_units > 1.0) text += ", " + core::format_number(fitted.noise_units, 3) + " times the noise,";
+  return text +
+         (signal_of(experiments, fitted).is_sampled
+              ? " are not noise: they hold motion that the fitted rig does not have."
+              : " are not noise: they are too large or too similar from reading to reading.") +
+         " The law is not that of the rig, a constant is wrong, " +
+         (has_recorded_drive(experiment, fit) ? "the measured drive has noise, to which the rig responds, " : "") +
+         (is_undriven(experiment, fit)
+              ? "the mass was held or pushed at first, while the fit takes all samples for free motion, "
+              : "") +
+         open_zero_cause(experiments, fitted, fit) +
+         "or the search missed the best fit (try more starts, bounds, stated values); the intervals hold only for "
+         "the right law";
+}
+
+/// The noise by the roughness of a signal, if the fit did not use it: the residuals are far below it.
+std::string coarse_samples_warning(const Signal& signal, const FittedSignal& fitted, const std::string& subject) {
+  return subject + " are " + core::format_number(fitted.rms / signal.noise, 2) +
+         " times the noise that the roughness of the samples shows: this is the motion between too few samples of a "
+         "period, and 'noise_units' is left out. State the noise (sigma_" +
+         signal.name + ")";
+}
+
+void warn_of_signal(const Experiments& experiments, bool robust, double zero_gain, const FittedSignal& fitted,
+                    Fit& fit) {
+  const Experiment& experiment = *experiments[fitted.rows.experiment];
+  const Signal& signal = signal_of(experiments, fitted);
+  const std::string subject = residuals_of(experiments, fitted);
+  const ScatterBesideStated scatter = scatter_beside_stated(fitted);
+  if (scatter != ScatterBesideStated::as_stated)
+    fit.warnings.push_back(stated_noise_warning(fitted, signal, subject) +
+                           (scatter == ScatterBesideStated::less
+                                ? "; the intervals use it and are too wide by up to the same factor"
+                                : "; the intervals are widened in proportion to the residuals"));
+  const Eigen::VectorXd measured =
+      Eigen::Map<const Eigen::VectorXd>(signal.measured.data(), static_cast<Eigen::Index>(signal.measured.size()));
+  if (signal.noise > 0.0 && std::isnan(fitted.noise) && !is_rounding(fitted.misses, measured))
+    fit.warnings.push_back(coarse_samples_warning(signal, fitted, subject));
+  const double drift = drift_of(experiment, fitted);
+  const std::optional<RecordParameter> zero =
+      drift == 0.0 ? zero_off(experiments, fitted, zero_gain, fit) : std::nullopt;
+  if (drift != 0.0) fit.warnings.push_back(drift_warning(drift, signal, subject));
+  if (zero) fit.warnings.push_back(zero_warning(fitted, *zero, zero_gain, subject));
+  constexpr double far = 3.0;
+  const bool is_far = is_noise(fitted.p_value) && scatter == ScatterBesideStated::as_stated && signal.is_sampled &&
+                      !robust && fitted.noise_units > far && !zero && drift == 0.0;
+  if (is_far && !is_slow(signal, fitted))
+    fit.warnings.push_back(foreign_noise_warning(experiment, fitted, fit, subject));
+  // For readings that are not samples, `stated_noise_warning` has already reported residuals above the stated
+  // noise.
+  const bool is_told = !signal.is_sampled && scatter == ScatterBesideStated::more;
+  if ((!is_noise(fitted.p_value) && !is_told) || (is_far && is_slow(signal, fitted)))
+    fit.warnings.push_back(not_noise_warning(experiment, experiments, fitted, fit, subject));
+}
+
+}  // namespace
+
 void warn_of_residuals(const Experiments& experiments, bool robust, const std::vector<double>& zero_gains,
                        Fit& fit) {
-  for (std::size_t s = 0; s < fit.signals.size(); ++s) {
-    const FittedSignal& fitted = fit.signals[s];
-    const Signal& signal = signal_of(experiments, fitted);
-    const std::string subject = residuals_of(experiments, fitted);
-    if (scatter_beside_stated(fitted) != ScatterBesideStated::as_stated)
-      fit.warnings.push_back(stated_noise_warning(fitted, signal, subject) +
-                             (scatter_beside_stated(fitted) == ScatterBesideStated::less
-                                  ? "; the intervals use it and are too wide by up to the same factor"
-                                  : "; the intervals are widened in proportion to the residuals"));
-    const std::optional<RecordParameter> zero = zero_off(experiments, fitted, zero_gains[s], fit);
-    if (zero) fit.warnings.push_back(zero_warning(fitted, *zero, zero_gains[s], subject));
-    // For readings that are not samples, `stated_noise_warning` has already reported residuals above the stated
-    // noise.
-    constexpr double far = 3.0;
-    if (is_noise(fitted.p_value) && scatter_beside_stated(fitted) == ScatterBesideStated::as_stated &&
-        signal.is_sampled && !robust && fitted.noise_units > far && !zero)
-      fit.warnings.push_back(foreign_noise_warning(*experiments[fitted.rows.experiment], fitted, fit, subject));
-    if (is_noise(fitted.p_value) ||
-        (!signal.is_sampled && scatter_beside_stated(fitted) == ScatterBesideStated::more))
-      continue;
-    std::string text = subject;
-    if (fitted.noise_units > 1.0) text += ", " + core::format_number(fitted.noise_units, 3) + " times the noise,";
-    text +=
-        std::string(signal.is_sampled
-                        ? " are not noise: they hold motion that the fitted rig does not have."
-                        : " are not noise: they are too large or too similar from reading to reading.") +
-        " The law is not that of the rig, a constant is wrong, " +
-        (has_recorded_drive(*experiments[fitted.rows.experiment], fit)
-             ? "the measured drive has noise, to which the rig responds, "
-             : "") +
-        (is_undriven(*experiments[fitted.rows.experiment], fit)
-             ? "the mass was held or pushed at first, while the fit takes all samples for free motion, "
-             : "") +
-        open_zero_cause(experiments, fitted, fit) +
-        "or the search missed the best fit (try more starts, bounds, stated values); the intervals hold only for the "
-        "right law";
-    fit.warnings.push_back(std::move(text));
-  }
+  for (std::size_t s = 0; s < fit.signals.size(); ++s)
+    warn_of_signal(experiments, robust, zero_gains[s], fit.signals[s], fit);
 }
 
 }  // namespace dualdamp::identify

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include "core/constants.hpp"
@@ -234,6 +235,16 @@ std::optional<LeastSquaresFit> search_growing(std::vector<Eigen::VectorXd> point
   return search_whole(points, search, problem);
 }
 
+/// Steady states near the end of a search with their motion held as it was measured; nothing without steady states.
+std::vector<Eigen::VectorXd> balanced_starts(const std::vector<Eigen::VectorXd>& points, const FitProblem& problem,
+                                             const SearchOptions& options) {
+  constexpr std::size_t tried = 6;
+  constexpr std::size_t wanted = 1;
+  const std::optional<FitProblem> balanced = problem.balanced();
+  if (!balanced) return {};
+  return best_of(improved(points, tried, *balanced, options), Search(*balanced, options), wanted);
+}
+
 /// Searches with the first parts of the motions. If two of them do not end at the same sum of squares, or if there
 /// are no motions, also searches from several starts with all readings.
 std::optional<LeastSquaresFit> search_roughly(const std::vector<Eigen::VectorXd>& points, const Search& search,
@@ -254,6 +265,7 @@ std::optional<LeastSquaresFit> search_roughly(const std::vector<Eigen::VectorXd>
   if (options.scale.friction > 0.0 && std::ranges::find(starts, points.front()) == starts.end() &&
       std::isfinite(search.squares(points.front())))
     starts.push_back(points.front());
+  std::ranges::move(balanced_starts(points, problem, options), std::back_inserter(starts));
   constexpr int few = 8;
   for (const Eigen::VectorXd& start : starts)
     take_better(search.improve(start, rough, starts.size() > 1 ? few : 100), search, problem, best);
@@ -368,18 +380,26 @@ std::optional<SearchResult> search_parameters(const FitProblem& problem,
         std::ranges::any_of(ended, [&](const LeastSquaresFit& other) { return is_same_place(*found, other); }))
       return;
     if (found) ended.push_back(*found);
+    // What is found when the work ends is finished with some more.
+    constexpr double some_more = 0.25;
+    const bool is_cut_short = problem.is_exhausted();
+    if (is_cut_short && (!found || best)) return;
+    if (is_cut_short) problem.extend(some_more);
     Search search(problem, options);
     if (found) found = finish(scan(std::move(*found), search, problem), search, problem, several_weights);
     if (found && (!best || alike.squares(found->parameters) < alike.squares(best->coordinates)))
       best = search.result(*found);
+    if (best) best->is_cut_short = is_cut_short || problem.is_exhausted();
   };
-  const auto is_at_end = [&] { return best && !holds_motion(*best, problem); };
+  const auto is_cut_short = [&] { return problem.is_exhausted() || (best && best->is_cut_short); };
+  const auto is_at_end = [&] { return is_cut_short() || (best && !holds_motion(*best, problem)); };
   take(search_roughly(points, rough_search, rough_problem, options));
   // From a distant start, as for a mass without a stated value, the first parts need more steps.
   if (best && !is_at_end()) take(search_growing({best->coordinates}, 0.1, rough_search, rough_problem, options));
   // Both searches may end in the same false minimum. Tied models approach the minimum on another way; they cost
   // most of the time of a fit.
   if (!is_at_end()) take(search_tied(points, rough_search, rough_problem, options));
+  if (best && problem.is_exhausted()) best->is_cut_short = true;
   return best;
 }
 

@@ -7,6 +7,7 @@
 /// * If these two do not end at the same sum of squares, more searches begin with all readings.
 /// * If the residuals are not noise, the first parts are fitted once more from the best result.
 /// * If they are still not noise, a search begins with models tied to the measured motion (`tie.hpp`).
+/// Steady states are also searched for from the best harmonic balance (`harmonic_balance.hpp`).
 /// The first steps have a looser tolerance and fewer samples.
 
 #include <Eigen/Core>
@@ -32,6 +33,7 @@ struct SearchResult {
   Eigen::VectorXd weights;         ///< of each row of the problem: 1/deviation, smaller for outliers
   Eigen::VectorXd unbounded;       ///< the same without the bound of outliers
   std::vector<double> deviations;  ///< of each signal
+  bool is_cut_short = false;       ///< the limit of the work was reached; this is the best until then
 };
 
 /// `sizes`: of each parameter, as in the problem. Nothing if the rig has no such motion at any start.

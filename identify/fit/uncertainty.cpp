@@ -61,9 +61,8 @@ class Uncertainty {
   /// Whether a parameter is at a bound, and whether it counts among those with an effect.
   void judge_bound(Eigen::Index i) {
     const SearchCoordinate& c = end_.problem.coordinates()[static_cast<std::size_t>(i)];
-    constexpr double near = 1e-6;
-    const bool low = end_.q[i] <= c.low + near * std::max(1.0, std::abs(c.low));
-    const bool high = end_.q[i] >= c.high - near * std::max(1.0, std::abs(c.high));
+    const bool low = c.is_low_end(end_.q[i]);
+    const bool high = c.is_high_end(end_.q[i]);
     fit_.parameters[static_cast<std::size_t>(i)].at_bound = low || high;
     // At the end of a logarithmic range, most parameters have no effect any more: up to the largest value of the
     // search they change the readings by less than their noise. One with an effect widens the intervals of the

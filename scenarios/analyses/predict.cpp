@@ -84,8 +84,8 @@ std::vector<identify::FitParameter> fitted_zeros(const Json& analysis, std::vect
     const std::optional<identify::RecordParameter> found = identify::find_record_parameter(name.get<std::string>());
     if (!found || !identify::name_of(*found).starts_with("offset"))
       faults.push_back({"zeros", "'" + name.get<std::string>() +
-                                     "' in 'analysis.zeros' is no zero: offset, offset_v "
-                                     "and offset_a are those of x, v and a"});
+                                     "' in 'analysis.zeros' is no zero: offset, offset_v, offset_a "
+                                     "and offset_force are those of x, v, a and force"});
     else
       zeros.push_back(
           {.name = identify::name_of(*found), .owner = identify::Owner::record, .record_parameter = *found});

@@ -347,6 +347,8 @@ std::vector<FitParameter> parameters_for(const identify::Rig& rig, const identif
     add_new(std::move(parameter), parameters);
   }
   for (const std::string& lack : lacking) faults.push_back({"laws", lack});
+  if (is_free("damping") && is_free("damping_ratio"))
+    faults.push_back({"free", "'damping' and 'damping_ratio' are the same constant: free one of them"});
   const std::vector<FitParameter> all = identify::parameters_of(rig);
   std::vector<FitParameter> of_records;
   for (const std::string& name : sought.free) {
@@ -356,8 +358,9 @@ std::vector<FitParameter> parameters_for(const identify::Rig& rig, const identif
     if (!fault.empty()) {
       std::string names;
       for (const FitParameter& parameter : all) names += (names.empty() ? "" : ", ") + parameter.name;
-      faults.push_back(
-          {"free", fault + "; there are " + names + ", position, velocity, travel, offset, offset_v, offset_a"});
+      faults.push_back({"free", fault + "; there are " + names +
+                                    ", position, velocity, travel, offset, offset_v, offset_a, "
+                                    "offset_force"});
     }
     for (FitParameter& parameter : found) add_new(std::move(parameter), parameters);
   }

@@ -120,3 +120,56 @@ TEST_CASE("fit: a search finds along its trail the steady states that are found 
     CHECK(near->lead() == (law == "dahl"));
   }
 }
+
+namespace {
+
+/// 1 kg and 1000 N/m just below resonance, with a law whose force falls or rises with the speed.
+identify::Rig rig_of_speed(const std::string& law, const friction::ParameterValues& values) {
+  identify::Rig rig;
+  rig.known.oscillator = {.mass = 1.0, .stiffness = 1000.0, .damping = 0.8};
+  rig.known.excitation.type = sim::ExcitationType::base_harmonic;
+  rig.laws.push_back({friction::find_law(law), values});
+  return rig;
+}
+
+identify::Experiments amplitudes_of(const identify::Rig& rig) {
+  std::vector<std::pair<double, double>> levels;
+  for (int i = 0; i < 6; ++i) levels.emplace_back(2e-3 * (1 + i), 30.79);
+  identify::Record record = test::steady_states_of(rig, levels, 5e-5, 2e-3, 4);
+  for (identify::Pair& pair : record.pairs->pairs) pair.phase = identify::unknown;
+  std::string fault;
+  return identify::experiments_of(record, {.name = "pairs"}, fault);
+}
+
+}  // namespace
+
+TEST_CASE("fit: amplitudes under a force that rises with speed end at the best fit", "[identify][fit][pairs]") {
+  // The energy line of these amplitudes has a negative friction. From starts by it, the search had ended at 115
+  // times the noise, with a coefficient of zero.
+  const identify::Rig truth = rig_of_speed("viscous_power", {{"coefficient", 4.0}, {"exponent", 2.0}});
+  const identify::Fit fit = fit_of(truth, amplitudes_of(truth));
+  REQUIRE(fit.outcome.ok());
+  CHECK(fit.signals.front().rms < 1e-4);
+  CHECK(test::fitted(fit, "exponent").value == Approx(2.0).epsilon(0.1));
+  CHECK(test::fitted(fit, "coefficient").value == Approx(4.0).epsilon(0.05));
+}
+
+TEST_CASE("fit: harmonic balance along measured amplitudes predicts them", "[identify][fit][pairs]") {
+  // A sine is the motion but for the third harmonic of the friction, 2.5 % of the spring's force at the lowest
+  // level.
+  for (const auto& [law, values] : {std::pair<std::string, friction::ParameterValues>{
+                                        "viscous_power", {{"coefficient", 4.0}, {"exponent", 2.0}}},
+                                    {"coulomb", {{"kinetic", 1.0}}},
+                                    {"dahl", {{"kinetic", 1.0}, {"sigma0", 3000.0}}}}) {
+    CAPTURE(law);
+    const identify::Rig truth = rig_of_speed(law, values);
+    const identify::Experiments experiments = amplitudes_of(truth);
+    const auto balanced = experiments.front()->balanced();
+    REQUIRE(balanced != nullptr);
+    Eigen::VectorXd outputs;
+    REQUIRE(balanced->predict(*identify::model_of(truth), {}, outputs));
+    for (std::size_t i = 0; i < experiments.front()->signals.front().measured.size(); ++i)
+      CHECK(outputs[static_cast<Eigen::Index>(i)] ==
+            Approx(experiments.front()->signals.front().measured[i]).epsilon(0.03));
+  }
+}
