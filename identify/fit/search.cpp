@@ -380,16 +380,24 @@ std::optional<SearchResult> search_parameters(const FitProblem& problem,
         std::ranges::any_of(ended, [&](const LeastSquaresFit& other) { return is_same_place(*found, other); }))
       return;
     if (found) ended.push_back(*found);
-    // What is found when the work ends is finished with some more.
-    constexpr double some_more = 0.25;
-    const bool is_cut_short = problem.is_exhausted();
-    if (is_cut_short && (!found || best)) return;
-    if (is_cut_short) problem.extend(some_more);
-    Search search(problem, options);
-    if (found) found = finish(scan(std::move(*found), search, problem), search, problem, several_weights);
-    if (found && (!best || alike.squares(found->parameters) < alike.squares(best->coordinates)))
-      best = search.result(*found);
-    if (best) best->is_cut_short = is_cut_short || problem.is_exhausted();
+    if (!found) return;
+    const auto end = [&] {
+      Search search(problem, options);
+      const std::optional<LeastSquaresFit> ended_search =
+          finish(scan(*found, search, problem), search, problem, several_weights);
+      return ended_search ? std::optional(search.result(*ended_search)) : std::nullopt;
+    };
+    std::optional<SearchResult> result;
+    if (!problem.is_exhausted()) result = end();
+    const bool is_cut = problem.is_exhausted();
+    if (is_cut && !best) {
+      // The first place that was found is finished, with as much work again.
+      problem.extend(1.0);
+      result = end();
+    }
+    if (result && (!best || alike.squares(result->coordinates) < alike.squares(best->coordinates)))
+      best = std::move(result);
+    if (best) best->is_cut_short = is_cut;
   };
   const auto is_cut_short = [&] { return problem.is_exhausted() || (best && best->is_cut_short); };
   const auto is_at_end = [&] { return is_cut_short() || (best && !holds_motion(*best, problem)); };

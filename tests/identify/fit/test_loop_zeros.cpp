@@ -97,3 +97,30 @@ TEST_CASE("residuals: roughness of too few samples of a period is no noise", "[i
   REQUIRE(fit.warnings.size() >= 1);
   CHECK_THAT(fit.warnings.front(), Catch::Contains("'noise_units' is left out"));
 }
+
+TEST_CASE("fit: a search that is cut short gives the best estimates until then", "[identify][fit]") {
+  const identify::Record record = test::history_of(test::rig_with(test::law_case_of("dahl")), {.duration = 1.0}, 5);
+  const auto fit_within = [&](long most_work, long& work) {
+    identify::Rig rig = test::rig_with(test::law_case_of("dahl"));
+    std::string fault;
+    const identify::Experiments experiments = identify::experiments_of(record, {.name = "record"}, fault);
+    std::vector<identify::FitParameter> sought = test::sought_in(rig, {"kinetic", "sigma0", "damping"}, 1.15);
+    for (const RecordParameter each : experiments.front()->record_free)
+      sought.push_back(identify::parameter_of_record(*experiments.front(), 0, each, true));
+    Fit fit = identify::fit_rig(rig, sought, experiments,
+                                {.profile = false, .seeks_loads = false, .most_work = most_work});
+    work = *experiments.front()->work;
+    return fit;
+  };
+  long whole = 0;
+  const Fit full = fit_within(400'000'000, whole);
+  REQUIRE(full.outcome.ok());
+  long spent = 0;
+  const Fit cut = fit_within(whole / 2, spent);
+  REQUIRE(cut.outcome.ok());
+  REQUIRE(!cut.warnings.empty());
+  CHECK_THAT(cut.warnings.front(), Catch::Contains("cut short") && Catch::Contains("the best until then"));
+  CHECK(test::fitted(cut, "kinetic").value == Approx(test::fitted(full, "kinetic").value).epsilon(0.05));
+  const Fit none = fit_within(whole / 1000, spent);
+  CHECK_FALSE(none.outcome.ok());
+}
