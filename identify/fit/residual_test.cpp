@@ -245,7 +245,7 @@ double drift_of(const Experiment& experiment, const FittedSignal& fitted) {
   const Eigen::VectorXd rest = fitted.misses.array() - fitted.misses.mean();
   const double slope = -line.dot(rest) / line.squaredNorm();
   constexpr double third = 1.0 / 3.0;
-  return slope * slope * line.squaredNorm() >= third * fitted.misses.squaredNorm() ? slope : 0.0;
+  return slope * slope * line.squaredNorm() >= third * rest.squaredNorm() ? slope : 0.0;
 }
 
 std::string drift_warning(double drift, const Signal& signal, const std::string& subject) {

@@ -50,7 +50,7 @@ TEST_CASE("fit: the zero of the force of a loop is told, and sought if it is fre
 }
 
 TEST_CASE("fit: a drift of the force of a loop is named", "[identify][fit][loop]") {
-  const Fit fit = fit_of_loop("coulomb", loop_with_zero("coulomb", -0.1, 0.2), false);
+  const Fit fit = fit_of_loop("coulomb", loop_with_zero("coulomb", 0.0, 0.2), false);
   REQUIRE(fit.warnings.size() >= 1);
   CHECK_THAT(fit.warnings.front(), Catch::Contains("changes by 0.2") && Catch::Contains("drifts"));
   for (const std::string& warning : fit.warnings) CHECK_THAT(warning, !Catch::Contains("offset"));
