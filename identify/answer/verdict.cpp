@@ -109,9 +109,9 @@ std::string departures_text(const Ledger& ledger) {
   for (const std::vector<Assumption>& departure : ledger.departures) {
     const LedgerEntry& first = ledger.entry(departure.front());
     text += " These data contradict that " + statements_of(departure, ", or that ") + " (" +
-            (first.p_value ? first.test + ", p = " + core::format_number(*first.p_value, 2) +
-                                 harmless_beside(first, ledger)
-                           : ledger.force_excess) +
+            (first.p_value
+                 ? first.test + ", p = " + core::format_number(*first.p_value, 2) + harmless_beside(first, ledger)
+                 : ledger.force_excess) +
             ")";
     const std::string& wanted = ledger.entry(Assumption::constants).wanted;
     const bool of_constants = std::ranges::count(departure, Assumption::constants) > 0;

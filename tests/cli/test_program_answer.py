@@ -30,6 +30,9 @@ class ProgramAnswer(unittest.TestCase):
         self.assertIn(result.returncode, (0, 4), result.stderr)  # 4: no answer
         return result
 
+    def identified(self, data, options):
+        return json.loads(self.call("identify", data, *options, "--out", tempfile.mkdtemp(dir=self.folder), "--json").stdout)["result"]
+
     def test_it_is_that_of_identify_without_a_range_over_laws(self):
         own = [SCENARIO, "--set", "analysis.answer=true", "--set", "analysis.severities=[0.3]", "--set", "analysis.seeds=2",
                "--set", "expect=[{value: cases.failed, equals: 0}]"]
@@ -42,7 +45,11 @@ class ProgramAnswer(unittest.TestCase):
         for place, row in zip(json.loads((export / "key.json").read_text())["numbers"], table(export / "constants.csv")):
             data = export / f"cases/{int(row['case']):06d}.csv"
             constants = ["--mass", f"{row['mass [kg]']} kg", "--stiffness", f"{row['stiffness [N/m]']} N/m"]
-            answer = json.loads(self.call("identify", data, *constants, "--out", self.folder / row["case"], "--json").stdout)["result"]["answer"]
+            result = self.identified(data, constants)
+            answer = result["answer"]
+            if answer is None:  # the misfit of the range over laws may be why
+                others = [e["method"] for e in result["estimates"] if e["method"] != "any_law"]
+                answer = self.identified(data, [*constants, *(a for name in others for a in ("--method", name))])["answer"]
             estimate = lines[place]["estimates"][-1]
             answered_by.append(answer["method"] if answer else None)
             stands_by_one = answer is not None and answer["method"] != "any_law"

@@ -153,16 +153,6 @@ TEST_CASE("A drift that may be friction over speed leaves the answer to the rang
   CHECK(mentions(found.reason, "measure a decay from another amplitude"));
 }
 
-TEST_CASE("A verdict names what explains a departure as well without moving anything") {
-  Ledger drifts = ledger({Assumption::stationarity});
-  LedgerEntry& constants = drifts.entry(Assumption::constants);
-  constants.test = "mass free";
-  constants.p_value = drifts.entry(Assumption::stationarity).p_value;
-  const Identification found = concluded({estimate("joint_fit", 0.06, 0.7, 0.1)}, drifts);
-  CHECK(mentions(found.verdict,
-                 "p = 0.003, explained as well by mass free, which would hardly change zeta and F0)."));
-}
-
 TEST_CASE("Findings of a method decide only where the ledger could test nothing") {
   Estimate contradicted = estimate("acceleration_velocity_displacement", 0.1, 4.0, 0.01);
   contradicted.usable = false;
@@ -281,17 +271,6 @@ TEST_CASE("Advice fits the kind of record") {
   CHECK(mentions(advice({stationarity}, {}), "labels"));
 }
 
-TEST_CASE("Who disagrees with the answer is named, and without estimates nothing is said") {
-  const Identification found = concluded(
-      {estimate("den_hartog_fit", 0.12, 4.0, 0.01), estimate("resonance_deming", 0.1, 4.0, 0.02)}, ledger({}));
-  CHECK(mentions(found.verdict, "resonance_deming disagrees: zeta = 0.1 "));
-  Estimate none = estimate("free_decay", 0.1, 4.0, 0.01);
-  none.outcome = {dualdamp::core::OutcomeKind::not_identifiable, "no data"};
-  none.usable = none.sound = false;
-  CHECK(concluded({none}, ledger({})).verdict.empty());
-  CHECK(concluded({}, ledger({})).verdict.empty());
-}
-
 TEST_CASE("An estimate that the joint fit of all data excludes cannot be used, and the joint fit answers") {
   Ledger with_joint = ledger({});
   with_joint.joint = estimate("joint_fit", 0.1, 4.0, 0.01);
@@ -307,20 +286,6 @@ TEST_CASE("An estimate that the joint fit of all data excludes cannot be used, a
   // A joint fit that cannot be used excludes nothing.
   with_joint.joint->usable = false;
   CHECK(concluded({estimate("energy_balance", 0.14, 4.0, 0.02)}, with_joint).estimates[0].usable);
-}
-
-TEST_CASE("A departure that is seen and does no harm stands in the verdict") {
-  Ledger seen = ledger({});
-  for (const Assumption assumption : {Assumption::sensors, Assumption::symmetry}) {
-    LedgerEntry& entry = seen.entry(assumption);
-    entry.test = assumption == Assumption::sensors ? "zero of x free" : "friction force of its own";
-    entry.p_value = 1e-20;
-  }
-  const Identification found = concluded({estimate("energy_balance", 0.1, 4.0, 0.02)}, seen);
-  CHECK(mentions(
-      found.verdict,
-      "small departures that hardly change zeta and F0: friction force of its own or zero of x free (p = 1e-20)"));
-  CHECK_FALSE(mentions(found.verdict, "do not contradict any"));
 }
 
 TEST_CASE("A joint fit more uncertain than its value leaves the answer to a range over laws that says more") {
@@ -363,31 +328,6 @@ TEST_CASE("No answer has negative friction") {
   CHECK(of_positive.value.zeta == 0.06);
   CHECK(of_positive.interval95->zeta == std::array<double, 2>{0.0, vague.interval95->zeta[1]});
   CHECK(of_positive.interval95->F0[0] == 0.0);
-}
-
-TEST_CASE("The verdict states the range of the answer where it exceeds the interval") {
-  Ledger tested = ledger({});
-  tested.joint = estimate("joint_fit", 0.1, 4.0, 0.01);
-  tested.unseen = UnseenRange{.ends = *tested.joint->interval95, .zeta_by = {"drag", ""}, .F0_by = {}};
-  tested.unseen->ends.zeta[0] = 0.08;
-  const Identification found = concluded({*tested.joint, *tested.joint}, tested);
-  REQUIRE(found.range);
-  CHECK(found.range->ends.zeta == Interval{0.08, 0.101});
-  CHECK(mentions(found.verdict, "The tests of these data do not exclude zeta from 0.08 (drag) to 0.101."));
-  // An interval that reaches as far by itself needs no such sentence.
-  tested.unseen->ends.zeta[0] = 0.0995;
-  CHECK_FALSE(mentions(concluded({*tested.joint, *tested.joint}, tested).verdict, "tests of these data"));
-}
-
-TEST_CASE("An answer of as many readings as unknowns says that they leave no freedom") {
-  Estimate exact = estimate("free_decay", 0.06, 2.0, 0.01);
-  exact.interval95.reset();
-  exact.used = {1, 2, 3, 4};
-  Ledger nothing = ledger({});
-  nothing.data.clear();
-  CHECK(mentions(concluded({exact}, nothing).verdict, "from 4 readings that leave no freedom for an interval"));
-  exact.used = {1, 2, 3, 4, 5};
-  CHECK_FALSE(mentions(concluded({exact}, nothing).verdict, "no freedom"));
 }
 
 TEST_CASE("Clearly negative friction is named as the cause, before what one method says of itself") {

@@ -1,6 +1,9 @@
 #include "scenarios/analyses/steady_state.hpp"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
+#include <string>
+#include <vector>
 
 #include "tests/scenarios/answers.hpp"
 
@@ -53,4 +56,39 @@ TEST_CASE("steady_state, frequency_response: without a fundamental there is no p
         CHECK_FALSE(state.contains("phase_reason"));
     }
   }
+}
+
+TEST_CASE("steady_state: a creep that multiplies errors of steps is stated, though a later stick erases them",
+          "[scenarios][steady_state]") {
+  // Near x = 0.7 mm the mass creeps or stops, by errors of steps; the Floquet multipliers are below 1e-5.
+  const auto warnings_at = [](const std::string& frequency) {
+    return scenarios::run(scenarios::parse_scenario(
+                              R"(
+schema: dualdamp/1
+system:
+  mass: 2.2483347106656835
+  stiffness: 36.29370609747048
+  damping: 54.47156566278355
+  damper_to: base
+  friction:
+    law: stribeck
+    kinetic: 0.7127513475500846
+    static: 1.081859944971499
+    stribeck_velocity: 0.03908091252014891
+    load_modulation: {ratio: 0.7139192233641408, order: 1, phase: 0.8765265070011707}
+    warming: {power: 0.04434443751929292, time_constant: 0.013846270061682263}
+analysis: {type: steady_state}
+numerics: {tolerance: 1e-8}
+excitation: {type: force_harmonic, phase: 4.0576355962064765, amplitude: 1.8290187766710142, frequency: )" +
+                                  frequency + "}\n",
+                              "test.yaml"))
+        .warnings;
+  };
+  const auto states_error = [](const std::vector<std::string>& warnings) {
+    return std::ranges::any_of(warnings, [](const std::string& one) {
+      return one.find("with a tenth of 'numerics.tolerance' its period differs by that") != std::string::npos;
+    });
+  };
+  CHECK(states_error(warnings_at("0.060068030022972285 rad/s")));
+  CHECK_FALSE(states_error(warnings_at("3 rad/s")));
 }
