@@ -2,12 +2,14 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <functional>
 #include <limits>
 #include <utility>
 
+#include "core/random.hpp"
 #include "identify/models/sampled_oscillator.hpp"
 #include "identify/statistics/lasting_part.hpp"
 #include "identify/statistics/noise_level.hpp"
@@ -247,6 +249,22 @@ void bound_drive_noise(const std::vector<NumberedHistory>& histories,
   sensors.force.noise *= share;
 }
 
+/// The signals that a converter rounds, and their sensors.
+constexpr std::array rounded_signals = {std::pair{&History::x, &Sensors::x}, std::pair{&History::v, &Sensors::v},
+                                        std::pair{&History::a, &Sensors::a}};
+
+/// Gives the sensors the steps of the converters. The noise level of the readings contains their rounding.
+void round_as_measured(const std::vector<NumberedHistory>& histories, Sensors& sensors) {
+  constexpr double variance_of_rounding = 1.0 / 12.0;  // of one step
+  for (const auto& [signal, member] : rounded_signals) {
+    Sensor& sensor = sensors.*member;
+    for (const NumberedHistory& item : histories)
+      sensor.resolution = std::max(sensor.resolution, converter_step((*item.history).*signal));
+    const double rounding = variance_of_rounding * sensor.resolution * sensor.resolution;
+    sensor.noise = std::sqrt(std::max(0.0, sensor.noise * sensor.noise - rounding));
+  }
+}
+
 }  // namespace
 
 std::uint64_t seed_of(const std::vector<NumberedHistory>& histories) {
@@ -257,7 +275,20 @@ std::uint64_t seed_of(const std::vector<NumberedHistory>& histories) {
 }
 
 Record SyntheticRecords::record(int number) const {
-  return read(exact, sensors, seed + 1 + static_cast<std::uint64_t>(number));
+  const std::uint64_t own = seed + 1 + static_cast<std::uint64_t>(number);
+  // The zero of each converter lies anywhere between two steps: without noise, all records would be rounded alike.
+  constexpr std::uint32_t zero_stream = 64;  // away from those of the sensors
+  const core::RandomStream zeros(own, zero_stream);
+  Sensors drawn = sensors;
+  for (std::size_t i = 0; i < rounded_signals.size(); ++i) {
+    Sensor& sensor = drawn.*rounded_signals[i].second;
+    sensor.offset = sensor.resolution * (zeros.uniform(i) - 0.5);
+  }
+  Record record = read(exact, drawn, own);
+  for (const auto& [signal, member] : rounded_signals)
+    for (History& history : record.histories)
+      for (double& reading : history.*signal) reading -= (drawn.*member).offset;
+  return record;
 }
 
 std::optional<SyntheticRecords> synthetic_records(const std::vector<NumberedHistory>& histories,
@@ -290,6 +321,7 @@ std::optional<SyntheticRecords> synthetic_records(const std::vector<NumberedHist
   }
   synthetic.sensors = levels.sensors(truth);
   bound_drive_noise(histories, candidates, synthetic.exact, synthetic.seed, synthetic.sensors);
+  round_as_measured(histories, synthetic.sensors);
   return synthetic;
 }
 

@@ -15,6 +15,9 @@
 /// no part. Noise of y and force: their own at high frequency, with two upper bounds: what the balance of forces
 /// leaves there, and what would move the synthetic mass as far as it differs from the record.
 ///
+/// Rounding of x, v and a: to the steps of the converters that the measured signals show, each with its zero at
+/// random between two steps.
+///
 /// Cost: about 2 us a sample, and for each synthetic record 50 ns a sample and noisy signal.
 
 #include <cstdint>
