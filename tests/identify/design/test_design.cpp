@@ -139,7 +139,7 @@ TEST_CASE("design: after a contact that yields little the ranges become as wide 
 TEST_CASE("design: the ranges after the advised measurement are as wide as the advice promised") {
   // Medians over rigs: on one rig the noise and the severity of the true law move them.
   std::array<std::vector<double>, 2> found_over_promised;
-  for (const std::uint64_t seed : {78000U, 78002U, 78004U, 78006U, 78008U}) {
+  for (const std::uint64_t seed : {78000U, 78002U, 78004U}) {
     const auto followed = followed_advice(law_rig(LawRecord::amplitudes, seed),
                                           *identify::departures::find_departure("contact_compliance"), 0.1, seed,
                                           {.without = slow_laws});
@@ -150,8 +150,8 @@ TEST_CASE("design: the ranges after the advised measurement are as wide as the a
   for (std::vector<double>& ratios : found_over_promised) {
     std::ranges::sort(ratios);
     CAPTURE(ratios);
-    CHECK(ratios[2] < 1.5);
-    CHECK(ratios[2] > 1.0 / 1.5);
+    CHECK(ratios[1] < 1.5);
+    CHECK(ratios[1] > 1.0 / 1.5);
   }
 }
 
