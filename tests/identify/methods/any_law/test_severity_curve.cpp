@@ -89,9 +89,8 @@ TEST_CASE("any_law: readings move in proportion to the coordinate of a mild seve
 }
 
 TEST_CASE("any_law: between its fits the curve over the severity is that of direct fits, for every law") {
-  for (const auto& [kind, severity, relative_noise] : {std::tuple{LawRecord::phases, 0.003, usual_noise},
-                                                       {LawRecord::phases, 0.003, 0.1 * usual_noise},
-                                                       {LawRecord::amplitudes, 0.1, usual_noise}}) {
+  for (const auto& [kind, severity, relative_noise] :
+       {std::tuple{LawRecord::phases, 0.003, usual_noise}, {LawRecord::amplitudes, 0.1, usual_noise}}) {
     const Contact one = stiff_contact(kind, 5, severity, relative_noise);
     int compared = 0;
     for (const LawFits& law : fit_library(*one.model, {}, one.plain)) {
