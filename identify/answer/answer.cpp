@@ -45,7 +45,7 @@ bool keeps_its_findings(const Estimate& estimate, const Ledger& ledger) {
 /// number that does not describe it.
 bool misses(Estimate& estimate, const Ledger& ledger) {
   if (!estimate.sound) return false;
-  if (const std::string none = estimate.laws ? no_law_fits(*estimate.laws) : std::string(); !none.empty())
+  if (const std::string none = no_law_fits(estimate); !none.empty())
     estimate.reason = none;
   else if (!ledger.force_excess.empty())
     estimate.reason = ledger.force_excess;
@@ -158,8 +158,8 @@ bool excluded(Estimate& estimate, const std::optional<Estimate>& joint) {
 }
 
 /// Did the method find against the law of friction? A method that claims no interval says so among its findings,
-/// and says nothing about the law. One with a fault of its own, or that
-/// finds as much in motions of its law, does not tell.
+/// and says nothing about the law. Nor does one with a fault of its own, or one that finds as much in motions of
+/// its law.
 bool finds_departure(const Estimate& estimate) {
   if (!estimate.outcome.ok() || estimate.laws || !estimate.sound || estimate.misreads_its_law) return false;
   return (estimate.lack_of_fit && estimate.lack_of_fit->fired) ||
@@ -169,7 +169,7 @@ bool finds_departure(const Estimate& estimate) {
 /// Readings that no law of the library fits are not those of Coulomb and viscous friction, which is one of them.
 void share_misfit_of_laws(std::vector<Estimate>& estimates) {
   for (const Estimate& ranges : estimates) {
-    const std::string none = ranges.laws ? no_law_fits(*ranges.laws) : std::string();
+    const std::string none = no_law_fits(ranges);
     if (none.empty()) continue;
     for (Estimate& estimate : estimates)
       if (estimate.usable && !estimate.laws) estimate.usable = false, estimate.reason = none;

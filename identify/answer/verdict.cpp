@@ -235,7 +235,7 @@ std::string why_none(const Identification& all) {
     return "the usable estimates have no intervals and do not agree; what would help: more data";
   if (has_few_readings(all.ledger))
     for (const Estimate& ranges : all.estimates)
-      if (const std::string none = ranges.laws ? no_law_fits(*ranges.laws) : std::string(); !none.empty())
+      if (const std::string none = no_law_fits(ranges); !none.empty())
         return none + "; what would help: check mass, stiffness, frequency and units, or take more readings";
   if (std::string untested = why_untested(all); !untested.empty()) return untested;
   return there->method + ": " + there->reason + what_would_test(all.ledger);

@@ -110,7 +110,7 @@ class Experiment {
   [[nodiscard]] virtual std::unique_ptr<Experiment> thinned() const;
   /// The record with models tied to its motion (`tie.hpp`). Null if the record is no motion in time.
   [[nodiscard]] virtual std::unique_ptr<Experiment> tied(double strength) const;
-  /// Steady states with their motion held as it was measured (`harmonic_balance.hpp`). Null for other kinds.
+  /// Steady states with their motion held as it was measured (`balanced_states.hpp`). Null for other kinds.
   [[nodiscard]] virtual std::unique_ptr<Experiment> balanced() const;
   /// What the readings say against `model` although they have no weight; a sentence each.
   [[nodiscard]] virtual std::vector<std::string> objections(const sim::Model& model,

@@ -5,8 +5,8 @@
 
 #include "core/constants.hpp"
 #include "friction_models/law_fault.hpp"
+#include "identify/experiments/balanced_states.hpp"
 #include "identify/experiments/experiment.hpp"
-#include "identify/experiments/harmonic_balance.hpp"
 #include "sim/orbits/steady_state_near.hpp"
 
 namespace dualdamp::identify {
@@ -68,7 +68,7 @@ class SteadyStates final : public Experiment {
   }
 
   [[nodiscard]] std::unique_ptr<Experiment> balanced() const override {
-    return harmonic_balance(*this, with_phase_);
+    return balanced_states(*this, with_phase_);
   }
 
   [[nodiscard]] std::unique_ptr<Neighbours> neighbours(const sim::Model& model, const RecordValues&,

@@ -120,7 +120,7 @@ constexpr std::array all_means = {
     Means{symmetry, "signed extremes", has_directions},
 };
 
-/// Departures that decays from several amplitudes would tell apart.
+/// Departures that decays from several amplitudes would distinguish.
 bool drifts_or_has_speed(const std::vector<Assumption>& departure) {
   return std::ranges::any_of(departure, [](Assumption assumption) {
     return assumption == stationarity || assumption == friction_velocity;

@@ -1,9 +1,9 @@
 #pragma once
-/// A drift of friction that a record cannot tell from friction over speed.
+/// A drift of friction that a record cannot distinguish from friction over speed.
 ///
 /// In free vibrations from one amplitude, the amplitude falls with time. The work of friction in a swing is a
 /// function of the amplitude if friction depends on speed, and a function of time if friction drifts: every falling
-/// course of the amplitude makes one of the other. Which relaxation fits better tells only which of a few forms is
+/// course of the amplitude makes one of the other. Which relaxation fits better shows only which of a few forms is
 /// nearer, so friction over speed is named with every such drift.
 
 #include <vector>

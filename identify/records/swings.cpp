@@ -8,7 +8,7 @@ namespace dualdamp::identify {
 
 namespace {
 
-double mean_of_swings(const std::vector<double>& values) {
+double mean_of(const std::vector<double>& values) {
   double mean = 0.0;
   for (const double value : values) mean += value / static_cast<double>(values.size());
   return mean;
@@ -16,7 +16,7 @@ double mean_of_swings(const std::vector<double>& values) {
 
 /// At least one.
 int mean_crossings(const std::vector<double>& samples) {
-  const double mean = mean_of_swings(samples);
+  const double mean = mean_of(samples);
   const double margin = 0.1 * largest_swing(samples);
   int crossings = 0;
   int side = 0;
@@ -31,7 +31,7 @@ int mean_crossings(const std::vector<double>& samples) {
 }  // namespace
 
 double largest_swing(const std::vector<double>& values) {
-  const double mean = mean_of_swings(values);
+  const double mean = mean_of(values);
   double result = 0.0;
   for (const double value : values) result = std::max(result, std::abs(value - mean));
   return result;

@@ -52,6 +52,8 @@ StagedFiles::~StagedFiles() {
 bool StagedFiles::lock() {
   constexpr mode_t mode = 0777;  // the umask decides
   if (::mkdir(path_.c_str(), mode) != 0 && errno != EEXIST) refuse_path(path_, std::strerror(errno));
+  // Behind a link, leftovers would be files of others.
+  if (std::error_code error; std::filesystem::is_symlink(path_, error)) refuse_path(path_, "it is a link");
   lock_ = open_locked(staged(lock_name));
   if (lock_ >= 0 || errno == EWOULDBLOCK || errno == ENOENT) return lock_ >= 0;
   const std::string reason = std::strerror(errno);

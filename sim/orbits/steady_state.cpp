@@ -82,7 +82,7 @@ class OrbitFinder {
   [[nodiscard]] std::optional<SteadyState> mirror_image(const SteadyState& of, OrbitSolver& solver);
   void add_mirror_images(SteadyState& result);
   void warn_of_distance(const ForcingPeriod& period, SteadyState& result);
-  [[nodiscard]] double error_of_steps(const Orbit& orbit);
+  [[nodiscard]] std::optional<double> error_of_steps(const Orbit& orbit);
   void warn_of_steps(const Orbit& orbit, SteadyState& result);
 
   const Model& model_;
@@ -260,8 +260,8 @@ void OrbitFinder::warn_of_distance(const ForcingPeriod& period, SteadyState& res
 
 /// How far the period of the orbit moves if its steps are computed ten times as exactly, relative to its size. A
 /// creep may multiply an error of a step by 1e8, and a later stick erase it, so that the monodromy matrix of the
-/// whole period does not show it.
-double OrbitFinder::error_of_steps(const Orbit& orbit) {
+/// whole period does not show it. Nothing if such steps have not ended.
+std::optional<double> OrbitFinder::error_of_steps(const Orbit& orbit) {
   constexpr double finer = 0.1;
   Model model = model_;
   model.solver.tolerance *= finer;
@@ -269,7 +269,7 @@ double OrbitFinder::error_of_steps(const Orbit& orbit) {
   map.limit(patience_with(map.engine().accuracy(), options_.most_work).work);
   const ForcingPeriod again = map.from(orbit.period.begin, Monodromy::without);
   searched_ += map.engine().count();
-  if (!map.outcome().ok()) return 0.0;  // the motion itself is known; it is this check that takes too long
+  if (!map.outcome().ok()) return std::nullopt;
   const ForcingPeriod& period = orbit.period;
   const double omega = model_.excitation.frequency;
   return std::max({std::abs(again.peak - period.peak), std::abs(again.trough - period.trough),
@@ -280,11 +280,17 @@ double OrbitFinder::error_of_steps(const Orbit& orbit) {
 void OrbitFinder::warn_of_steps(const Orbit& orbit, SteadyState& result) {
   const bool is_exact = map_.engine().accuracy() == 0.0;
   if (is_exact || !orbit.period.moves || !(options_.full_account || orbit.period_ratio > 1)) return;
-  const double error = error_of_steps(orbit);
-  if (!(error > least_warned)) return;
-  result.warnings.emplace_back("the steady state may be off by " + share_of_size(error) +
-                               ": with a tenth of 'numerics.tolerance' its period differs by that, because errors "
-                               "of steps grow within it");
+  const std::optional<double> error = error_of_steps(orbit);
+  if (error && !(*error > least_warned)) return;
+  if (!error)
+    result.warnings.emplace_back(
+        "the error of the steady state is not known: with a tenth of 'numerics.tolerance' its period was not "
+        "computed to its end");
+  else
+    result.warnings.emplace_back(
+        "the steady state may be off by " + share_of_size(*error) +
+        ": with a tenth of 'numerics.tolerance' its period differs by that, because errors "
+        "of steps grow within it");
 }
 
 void OrbitFinder::find(SteadyState& result) {

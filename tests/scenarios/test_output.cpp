@@ -95,6 +95,21 @@ TEST_CASE("output: a file that fails half way leaves the old one and no part of 
   fs::remove_all(folder);
 }
 
+TEST_CASE("output: a link in place of the subdirectory is refused, and what it leads to stays",
+          "[scenarios][output]") {
+  namespace fs = std::filesystem;
+  const fs::path folder = fs::temp_directory_path() / ("dualdamp-link-" + std::to_string(::getpid()));
+  fs::create_directories(folder / "mine");
+  std::ofstream(folder / "mine" / "a") << "text";
+  fs::create_directories(folder / "results");
+  fs::create_directory_symlink(folder / "mine", folder / "results" / ".dualdamp.partial");
+  CHECK_THROWS_WITH(scenarios::write_files((folder / "results").string(), {{"b", [](std::ostream&) {}}}),
+                    Catch::Contains("it is a link"));
+  CHECK(testing::text_of(folder / "mine" / "a") == "text");
+  CHECK_FALSE(fs::exists(folder / "mine" / "b"));
+  fs::remove_all(folder);
+}
+
 TEST_CASE("output: files that several write at once are those of one of them", "[scenarios][output]") {
   namespace fs = std::filesystem;
   const fs::path folder = fs::temp_directory_path() / ("dualdamp-at-once-" + std::to_string(::getpid()));

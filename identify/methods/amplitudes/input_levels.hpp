@@ -1,6 +1,6 @@
 #pragma once
 /// Do steady states lie at several levels of the input? At one level and one frequency damping and friction take
-/// one sum of work, and no reading tells how it divides: the curve of force over speed is then a line through one
+/// one sum of work, and no reading shows how it divides: the curve of force over speed is then a line through one
 /// point and its noise.
 
 #include <string>

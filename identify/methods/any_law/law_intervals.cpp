@@ -290,6 +290,10 @@ std::string no_law_fits(const LawIntervals& laws) {
          core::format_number(laws.inflation, 2) + " times their noise";
 }
 
+std::string no_law_fits(const Estimate& estimate) {
+  return estimate.laws ? no_law_fits(*estimate.laws) : std::string();
+}
+
 std::variant<LawStudy, std::string> study_laws(const ReadingModel& model, const KnownConstants& constants,
                                                const LawIntervalOptions& options) {
   std::optional<PlainFit> plain = plain_fit(model);

@@ -1,4 +1,4 @@
-#include "identify/experiments/harmonic_balance.hpp"
+#include "identify/experiments/balanced_states.hpp"
 
 #include <cmath>
 #include <complex>
@@ -45,9 +45,9 @@ std::complex<double> first_harmonic(const Eigen::VectorXd& force) {
   return 2.0 / static_cast<double>(samples_of_period) * sum;
 }
 
-class HarmonicBalance final : public Experiment {
+class BalancedStates final : public Experiment {
  public:
-  HarmonicBalance(const Experiment& states, std::vector<std::size_t> with_phase)
+  BalancedStates(const Experiment& states, std::vector<std::size_t> with_phase)
       : Experiment(states), levels_(states.levels()), with_phase_(std::move(with_phase)) {
     for (std::size_t i = 0; i < levels_.size(); ++i) {
       const double x = signals.front().measured[i];
@@ -103,8 +103,8 @@ class HarmonicBalance final : public Experiment {
 
 }  // namespace
 
-std::unique_ptr<Experiment> harmonic_balance(const Experiment& states, std::vector<std::size_t> with_phase) {
-  return std::make_unique<HarmonicBalance>(states, std::move(with_phase));
+std::unique_ptr<Experiment> balanced_states(const Experiment& states, std::vector<std::size_t> with_phase) {
+  return std::make_unique<BalancedStates>(states, std::move(with_phase));
 }
 
 }  // namespace dualdamp::identify

@@ -20,7 +20,7 @@
 namespace dualdamp::identify {
 
 /// `states`: the experiment with measured amplitudes. `with_phase`: of each measured phase, the index of its state.
-[[nodiscard]] std::unique_ptr<Experiment> harmonic_balance(const Experiment& states,
-                                                           std::vector<std::size_t> with_phase);
+[[nodiscard]] std::unique_ptr<Experiment> balanced_states(const Experiment& states,
+                                                          std::vector<std::size_t> with_phase);
 
 }  // namespace dualdamp::identify
