@@ -45,7 +45,9 @@ bool keeps_its_findings(const Estimate& estimate, const Ledger& ledger) {
 /// number that does not describe it.
 bool misses(Estimate& estimate, const Ledger& ledger) {
   if (!estimate.sound) return false;
-  if (const std::string none = no_law_fits(estimate); !none.empty())
+  if (!ledger.gross_error.empty())
+    estimate.reason = ledger.gross_error;
+  else if (const std::string none = no_law_fits(estimate); !none.empty())
     estimate.reason = none;
   else if (!ledger.force_excess.empty())
     estimate.reason = ledger.force_excess;

@@ -222,6 +222,9 @@ std::string why_preferred(const Identification& all) {
 }
 
 std::string why_none(const Identification& all) {
+  if (!all.ledger.gross_error.empty())
+    return all.ledger.gross_error +
+           "; what would help: correct this reading or remove it, or 'robust', which leaves it out";
   if (all.ledger.misfit)
     return misfit_text(*all.ledger.misfit) +
            (all.ledger.departures.empty() ? "" : "; " + why_contradicted(all.ledger));
@@ -242,7 +245,7 @@ std::string why_none(const Identification& all) {
 }
 
 std::string verdict_of(const Identification& all) {
-  std::string text = departures_text(all.ledger);
+  std::string text = all.ledger.gross_error.empty() ? departures_text(all.ledger) : "";
   if (!all.answer)
     return (text.empty() ? "" : text.substr(1) + " ") + "No estimate is to be used: " + all.reason + "." +
            over_laws(all);

@@ -104,6 +104,9 @@ struct Ledger {
   std::vector<std::string> warnings;  ///< about the readings and what is stated of them, each a sentence
   /// The joint model misses the record, whatever is relaxed: no single assumption explains it.
   std::optional<Misfit> misfit = {};
+  /// A reading that all others exclude, a sentence (outliers/gross_error.hpp). No estimate with it describes the
+  /// rig.
+  std::string gross_error = {};
   /// Steady states that need more force than their drive gives, a sentence (force_balance.hpp). No estimate with
   /// the constants as stated describes them.
   std::string force_excess = {};

@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "identify/ledger/estimate/unstated_constants.hpp"
-#include "identify/ledger/outliers.hpp"
 #include "identify/methods/any_law/any_law.hpp"
+#include "identify/outliers/outliers.hpp"
 #include "identify/records/pendulum.hpp"
 #include "scenarios/analyses/shared/identify_options.hpp"
 #include "scenarios/format/excitations.hpp"
@@ -234,11 +234,15 @@ identify::Estimate IdentifyQuestion::slow_estimate(const identify::Reader& reade
   return estimate;
 }
 
-identify::Identification IdentifyQuestion::conclude(const identify::Record& record, double within) const {
+identify::Identification IdentifyQuestion::conclude(const identify::Record& data,
+                                                    const identify::BoundedInfluence& bounded) const {
+  const identify::Record& record = methods_.robust ? bounded.record : data;
+  const double within = methods_.robust ? bounded.within : 1.0;
   const auto read = [&](const identify::Reader& reader) {
     return identify::with_uncertainties(reader, record, methods_.constants, methods_.uncertainties);
   };
   identify::Ledger ledger = identify::ledger_of(record, methods_.constants, methods_.ledger);
+  if (bounded.gross && !methods_.robust) ledger.gross_error = identify::text_of(*bounded.gross);
   identify::reach_over_unstated(record, methods_.constants, methods_.ledger, ledger);
   std::vector<identify::Estimate> estimates;
   for (const identify::MethodEntry* method : methods_.list) {
@@ -271,12 +275,11 @@ Answer IdentifyQuestion::run(const RunContext& context) const {
   const identify::Record data = record(context, warnings);
   std::ranges::move(unused_options(methods_.options, methods_.list), std::back_inserter(warnings));
   const identify::BoundedInfluence bounded = identify::bounded_influence(data, methods_.constants);
-  const identify::Record& read = methods_.robust ? bounded.record : data;
-  const identify::Identification found = conclude(read, methods_.robust ? bounded.within : 1.0);
+  const identify::Identification found = conclude(data, bounded);
   Answer answer = answer_of(found, data, methods_.constants);
   if (!answer.result.is_null()) {
     add_outliers(bounded.outliers, methods_.robust, answer);
-    add_sensitivities(sensitivities(found, read), answer);
+    add_sensitivities(sensitivities(found, methods_.robust ? bounded.record : data), answer);
   }
   answer.warnings.insert(answer.warnings.begin(), warnings.begin(), warnings.end());
   return answer;

@@ -10,6 +10,7 @@
 #include "identify/answer/answer.hpp"
 #include "identify/ledger/ledger.hpp"
 #include "identify/methods.hpp"
+#include "identify/outliers/outliers.hpp"
 #include "identify/records/sensors.hpp"
 #include "identify/uncertainty/uncertain_constants.hpp"
 #include "scenarios/analysis.hpp"
@@ -50,7 +51,7 @@ class IdentifyQuestion final : public Question {
 
  private:
   identify::Estimate slow_estimate(const identify::Reader& reader, const identify::Record& record) const;
-  identify::Identification conclude(const identify::Record& record, double within) const;
+  identify::Identification conclude(const identify::Record& data, const identify::BoundedInfluence& bounded) const;
   std::vector<identify::Sensitivity> sensitivities(const identify::Identification& found,
                                                    const identify::Record& record) const;
 

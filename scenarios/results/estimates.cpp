@@ -398,7 +398,9 @@ Answer answer_of(const identify::Identification& found, const identify::Record& 
       answer.warnings.push_back(estimate.method + ": " + warning);
   }
   if (!any) {
-    answer.failure = "no estimate is possible; " + reasons + help_for_sticking(estimates);
+    const std::string& gross = found.ledger.gross_error;
+    answer.failure =
+        "no estimate is possible; " + gross + (gross.empty() ? "" : "; ") + reasons + help_for_sticking(estimates);
     return answer;
   }
   if (!reasons.empty()) answer.warnings.push_back("no estimate by " + reasons);

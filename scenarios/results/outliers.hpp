@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "identify/ledger/outliers.hpp"
+#include "identify/outliers/outliers.hpp"
 #include "identify/uncertainty/uncertain_constants.hpp"
 #include "scenarios/results/answer.hpp"
 #include "scenarios/results/motion.hpp"

@@ -64,6 +64,7 @@ ROOMS = {
         "experiments": [".", "statistics", "records"],
         "fit": [".", "statistics", "records", "experiments"],
         "ledger": [".", "statistics", "records", "models", "uncertainty", "methods"],
+        "outliers": [".", "statistics", "ledger"],
         "answer": [".", "statistics", "methods", "ledger"],
         "design": [".", "statistics", "methods"],
     },

@@ -1,8 +1,11 @@
 #include "identify/methods/any_law/law_intervals.hpp"
 
 #include <algorithm>
+#include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
+#include <cstdint>
 #include <functional>
+#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -34,6 +37,20 @@ struct Component {
   double deviation = 0.0;
 };
 
+/// Probability that a value of the mixture lies below x.
+double below(const std::vector<Component>& mixture, double x) {
+  constexpr double certain = 9.0;  // beyond so many deviations a normal distribution is 0 or 1 to the last bit
+  double sum = 0.0;
+  for (const Component& part : mixture) {
+    const double distance = (x - part.value) / part.deviation;
+    if (distance > certain)
+      sum += part.weight;
+    else if (distance > -certain)
+      sum += part.weight * 0.5 * std::erfc(-distance / std::numbers::sqrt2);
+  }
+  return sum;
+}
+
 double quantile(const std::vector<Component>& mixture, double share) {
   double low = infinity;
   double high = -infinity;
@@ -42,15 +59,16 @@ double quantile(const std::vector<Component>& mixture, double share) {
     low = std::min(low, part.value - reach * part.deviation);
     high = std::max(high, part.value + reach * part.deviation);
   }
-  constexpr int halvings = 60;
-  for (int i = 0; i < halvings; ++i) {
-    const double middle = std::midpoint(low, high);
-    double below = 0.0;
-    for (const Component& part : mixture)
-      below += part.weight * 0.5 * std::erfc(-(middle - part.value) / part.deviation / std::numbers::sqrt2);
-    (below < share ? low : high) = middle;
-  }
-  return std::midpoint(low, high);
+  const auto excess = [&](double x) { return below(mixture, x) - share; };
+  const double at_low = excess(low);
+  const double at_high = excess(high);
+  if (!(std::isfinite(high - low) && at_low < 0.0 && at_high > 0.0))
+    return std::numeric_limits<double>::quiet_NaN();
+  constexpr int bits = 50;
+  std::uintmax_t most = 100;
+  const auto [left, right] = boost::math::tools::toms748_solve(
+      excess, low, high, at_low, at_high, boost::math::tools::eps_tolerance<double>(bits), most);
+  return std::midpoint(left, right);
 }
 
 /// Likelihood at chi2 = least chi2 of the law + `above`, with the deviation known or estimated (Student).

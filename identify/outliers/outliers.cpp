@@ -1,4 +1,4 @@
-#include "identify/ledger/outliers.hpp"
+#include "identify/outliers/outliers.hpp"
 
 #include <Eigen/Core>
 #include <algorithm>
@@ -7,11 +7,9 @@
 #include <cstddef>
 #include <optional>
 #include <utility>
-#include <variant>
 
-#include "identify/ledger/amplitude_model.hpp"
-#include "identify/ledger/decay_model.hpp"
 #include "identify/ledger/joint_model.hpp"
+#include "identify/outliers/readings.hpp"
 #include "identify/statistics/decompositions.hpp"
 #include "identify/statistics/median.hpp"
 
@@ -23,43 +21,6 @@ constexpr double bound = 2.0;  ///< k
 constexpr std::array<ReadingKind, 4> kinds = {ReadingKind::amplitude, ReadingKind::phase, ReadingKind::extreme,
                                               ReadingKind::time};
 
-std::variant<JointModel, std::string> readings_model(const Record& record, const KnownConstants& constants) {
-  if (record.pairs) return amplitude_model(record, constants);
-  return decay_model(record, constants);
-}
-
-Pair& pair_of(Record& record, int number) { return *std::ranges::find(record.pairs->pairs, number, &Pair::number); }
-
-/// The place of a reading in a record.
-double& value_of(Record& record, const Reading& reading) {
-  switch (reading.kind) {
-    case ReadingKind::amplitude:
-      return pair_of(record, reading.number).x;
-    case ReadingKind::phase:
-      return pair_of(record, reading.number).phase;
-    case ReadingKind::extreme:
-      return record.decay->extremes[static_cast<std::size_t>(reading.number - 1)];
-    case ReadingKind::time:
-      break;
-  }
-  return record.decay->times[static_cast<std::size_t>(reading.number - 1)];
-}
-
-std::string name_of(const Reading& reading) {
-  const std::string number = std::to_string(reading.number);
-  switch (reading.kind) {
-    case ReadingKind::amplitude:
-      return "x of pair " + number;
-    case ReadingKind::phase:
-      return "the phase of pair " + number;
-    case ReadingKind::extreme:
-      return "extreme " + number;
-    case ReadingKind::time:
-      break;
-  }
-  return "the time of extreme " + number;
-}
-
 /// How far off a measured reading is, in deviations of its channel, positive above the fit.
 struct Distance {
   Reading reading;
@@ -69,9 +30,9 @@ struct Distance {
 
 /// Distances of the readings of `measured` from the fit to `moved`. Nothing where there is no fit.
 std::optional<std::vector<Distance>> distances(Record& measured, Record& moved, const KnownConstants& constants) {
-  const auto found = readings_model(moved, constants);
-  if (std::holds_alternative<std::string>(found)) return std::nullopt;
-  const auto& model = std::get<JointModel>(found);
+  const std::optional<JointModel> found = model_of_readings(moved, constants);
+  if (!found) return std::nullopt;
+  const JointModel& model = *found;
   const Eigen::VectorXd left = left_beside(model.base, model.residuals);
   std::vector<Distance> list;
   for (const ReadingKind kind : kinds) {
@@ -118,12 +79,45 @@ double move(const std::vector<Distance>& list, Record& measured, Record& moved) 
   return most;
 }
 
+constexpr std::size_t few = 24;
+
+std::size_t readings_of(const Record& record) {
+  return record.pairs ? record.pairs->pairs.size() : record.decay->extremes.size();
+}
+
+/// A reading that is a gross error counts nothing: it gets the value that the others expect.
+void leave_out(const std::optional<GrossError>& gross, Record& measured, BoundedInfluence& result) {
+  if (!gross) return;
+  result.gross = gross;
+  result.outliers.push_back({name_of(gross->reading), gross->deviations, 0.0});
+  value_of(measured, gross->reading) = gross->expected;
+  value_of(result.record, gross->reading) = gross->expected;
+  result.within = 1.0 - 1.0 / static_cast<double>(readings_of(measured));
+}
+
+/// The clearest gross error among the suspects of `record`, beside the other readings as they are in `bounded`.
+std::optional<GrossError> gross_error_beside(const Record& record, const Record& bounded,
+                                             const KnownConstants& constants,
+                                             const std::vector<Reading>& suspects) {
+  std::optional<GrossError> worst;
+  for (const Reading& suspect : suspects) {
+    Record one = bounded;
+    Record read = record;
+    value_of(one, suspect) = value_of(read, suspect);
+    const std::optional<GrossError> found = gross_error(one, constants, {suspect});
+    if (found && (!worst || std::abs(found->deviations) > std::abs(worst->deviations))) worst = found;
+  }
+  return worst;
+}
+
 }  // namespace
 
 BoundedInfluence bounded_influence(const Record& record, const KnownConstants& constants) {
-  BoundedInfluence result{record, {}, 1.0};
+  BoundedInfluence result{record, {}, {}, 1.0};
   if (!record.histories.empty() || (!record.pairs && !record.decay)) return result;
   Record measured = record;
+  // Among few readings the median does not find it.
+  if (readings_of(record) <= few) leave_out(gross_error(record, constants), measured, result);
   std::optional<std::vector<Distance>> last;
   constexpr int iterations = 50;
   constexpr double still = 0.01;
@@ -133,15 +127,23 @@ BoundedInfluence bounded_influence(const Record& record, const KnownConstants& c
     last = std::move(list);
     if (move(*last, measured, result.record) < still) break;
   }
-  if (!last) return {record, {}, 1.0};
+  if (!last) {
+    result.record = record;
+    result.outliers.clear();
+    return result;
+  }
   double within = 0.0;
+  std::vector<Reading> suspects;
   for (const Distance& distance : *last) {
     const double size = std::abs(distance.deviations);
     within += size <= bound ? 1.0 : 0.0;
-    if (size > 2.0 * bound)
-      result.outliers.push_back({name_of(distance.reading), distance.deviations, bound / size});
+    if (size <= 2.0 * bound) continue;
+    result.outliers.push_back({name_of(distance.reading), distance.deviations, bound / size});
+    suspects.push_back(distance.reading);
   }
-  if (!last->empty()) result.within = within / static_cast<double>(last->size());
+  if (!suspects.empty() && !result.gross)
+    result.gross = gross_error_beside(record, result.record, constants, suspects);
+  if (!last->empty()) result.within *= within / static_cast<double>(last->size());
   return result;
 }
 

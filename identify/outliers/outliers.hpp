@@ -7,12 +7,16 @@
 /// channel by channel; the model is fitted again until no reading moves. Standard errors are divided by the share
 /// of readings within the bound. Readings are amplitudes x, phases, extremes and their times; spikes in histories:
 /// records/spikes.hpp.
+///
+/// Of up to 24 readings a gross error (gross_error.hpp) is left out before: it counts nothing.
 /// Source: huber1981, chapter 7.8 (modified residuals). Cost: some fits of the joint model.
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "identify/estimate.hpp"
+#include "identify/outliers/gross_error.hpp"
 #include "identify/record.hpp"
 
 namespace dualdamp::identify {
@@ -25,9 +29,10 @@ struct Outlier {
 };
 
 struct BoundedInfluence {
-  Record record;                  ///< with the readings beyond the bound moved to it
-  std::vector<Outlier> outliers;  ///< in the order of the record
-  double within = 1.0;            ///< share of the readings within the bound
+  Record record;                    ///< with the readings beyond the bound moved to it
+  std::vector<Outlier> outliers;    ///< a gross error among few readings, then in the order of the record
+  std::optional<GrossError> gross;  ///< a reading that all others exclude
+  double within = 1.0;              ///< share of the readings within the bound
 };
 
 /// The record unchanged if there is no joint model of it.
