@@ -105,4 +105,11 @@ std::string format_number(double value, int digits) {
   return {buffer.data(), result.ptr};
 }
 
+std::string percent(double share, int digits) {
+  constexpr double all = 100.0;
+  return format_number(all * share, digits) + " %";
+}
+
+std::string signed_percent(double share, int digits) { return (share < 0.0 ? "" : "+") + percent(share, digits); }
+
 }  // namespace dualdamp::core

@@ -31,4 +31,16 @@ struct NumberText {
 /// At most `digits` significant digits, for people to read.
 [[nodiscard]] std::string format_number(double value, int digits);
 
+/// "3 %" of a share of 0.03, with at most `digits` significant digits.
+[[nodiscard]] std::string percent(double share, int digits);
+
+/// "+3 %" or "-3 %", for a change or an interval. A share of zero has a plus too.
+[[nodiscard]] std::string signed_percent(double share, int digits);
+
+/// Range of the sizes of numbers other than zero that the program computes with: their squares, and their products
+/// with the constants of a rig, must be neither zero nor infinite.
+inline constexpr double least_magnitude = 1e-60;
+inline constexpr double most_magnitude = 1e60;
+inline constexpr std::string_view magnitude_range = "1e-60 to 1e60";
+
 }  // namespace dualdamp::core

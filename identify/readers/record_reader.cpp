@@ -168,10 +168,7 @@ void refuse_unused(const TableFile& file, const ReadOptions& options, Problems& 
     }
 }
 
-/// Range of the numbers: their squares, and their products with the constants of a rig, must be finite.
 void check_magnitudes(const DataTable& table, Problems& problems) {
-  constexpr double least = 1e-60;
-  constexpr double most = 1e60;
   for (const DataColumn& column : table.columns) {
     std::size_t at = 0;
     double largest = 0.0;
@@ -180,11 +177,11 @@ void check_magnitudes(const DataTable& table, Problems& problems) {
         largest = size;
         at = row;
       }
-    if (largest == 0.0 || (largest >= least && largest <= most)) continue;
+    if (largest == 0.0 || (largest >= core::least_magnitude && largest <= core::most_magnitude)) continue;
     core::Diagnostic problem = table.show(at, *column.known);
     problem.message = "the largest number of column " + std::string(column.known->name) + " is too " +
-                      (largest > most ? "large" : "small") + " to compute with";
-    problem.allowed = "1e-60 to 1e60 in SI, or only zeros";
+                      (largest > core::most_magnitude ? "large" : "small") + " to compute with";
+    problem.allowed = std::string(core::magnitude_range) + " in SI, or only zeros";
     problems.add(std::move(problem));
   }
 }

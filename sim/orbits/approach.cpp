@@ -328,9 +328,8 @@ core::Outcome Approach::failure() const {
         "no steady state found: the motion creeps, or its contacts age, so that it approaches a periodic motion only "
         "slowly: after " +
             std::to_string(passed_) + " forcing periods it still differs by " +
-            core::format_number(100.0 * recurrence_.closure(1), 2) +
-            " % from one period to the next, and the mass stays within " + core::format_number(size_, 3) + " " +
-            model_.unit("m") + " of zero"};
+            core::percent(recurrence_.closure(1), 2) + " from one period to the next, and the mass stays within " +
+            core::format_number(size_, 3) + " " + model_.unit("m") + " of zero"};
   }
   if (is_followed_enough()) {
     const std::string vibration = map_.engine().fast_vibration();

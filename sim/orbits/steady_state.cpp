@@ -237,8 +237,7 @@ void OrbitFinder::add_mirror_images(SteadyState& result) {
 
 /// "3 %", for a distance relative to the size of the motion.
 std::string share_of_size(double distance) {
-  constexpr double all = 100.0;
-  return distance < 1.0 ? core::format_number(all * distance, 1) + " %" : "more than its size";
+  return distance < 1.0 ? core::percent(distance, 1) : "more than its size";
 }
 
 /// Relative error of a steady state above which a warning states it.

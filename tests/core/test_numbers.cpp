@@ -62,3 +62,20 @@ TEST_CASE("numbers: an exponent comes with a point, for readers of YAML 1.1", "[
   CHECK(format_number(100.0) == "100");
   CHECK(format_number(0.18607809795678620, 6) == "0.186078");
 }
+
+TEST_CASE("numbers: a share is written in percent, with a sign where it is a change", "[core][numbers]") {
+  CHECK(percent(0.03, 1) == "3 %");
+  CHECK(percent(-0.12345, 3) == "-12.3 %");
+  CHECK(signed_percent(0.12345, 2) == "+12 %");
+  CHECK(signed_percent(-0.5, 2) == "-50 %");
+  CHECK(signed_percent(0.0, 2) == "+0 %");
+}
+
+TEST_CASE("numbers: the range of sizes as text is the range of sizes, and its squares are finite",
+          "[core][numbers]") {
+  const NumberText least = read_number(magnitude_range);
+  CHECK(*least.value == least_magnitude);
+  CHECK(*parse_number(magnitude_range.substr(magnitude_range.rfind(' ') + 1)).value == most_magnitude);
+  CHECK(least_magnitude * least_magnitude > 0.0);
+  CHECK(std::isfinite(most_magnitude * most_magnitude));
+}
