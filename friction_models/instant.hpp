@@ -13,6 +13,16 @@ enum class Direction : int { backward = -1, none = 0, forward = 1 };
   return static_cast<double>(static_cast<int>(direction));
 }
 
+/// Of none: none.
+[[nodiscard]] constexpr Direction opposite(Direction direction) {
+  return static_cast<Direction>(-static_cast<int>(direction));
+}
+
+/// Of a velocity or a distance; none at 0.
+[[nodiscard]] constexpr Direction direction_of(double v) {
+  return v > 0.0 ? Direction::forward : v < 0.0 ? Direction::backward : Direction::none;
+}
+
 /// What modifiers do to the force limits of a law at one instant:
 ///
 ///   force limit = (factor + factor_slope x) nominal + slope x      [N]

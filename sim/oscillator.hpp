@@ -52,8 +52,11 @@ struct Oscillator {
 }
 
 /// wn = sqrt(k/m) [rad/s]
-[[nodiscard]] double natural_frequency(const Oscillator& oscillator);
+[[nodiscard]] inline double natural_frequency(const Oscillator& o) { return std::sqrt(o.stiffness / o.mass); }
+
 /// zeta = c / (2 sqrt(m k)) [-]
-[[nodiscard]] double damping_ratio(const Oscillator& oscillator);
+[[nodiscard]] inline double damping_ratio(const Oscillator& o) {
+  return o.damping / (2.0 * std::sqrt(o.mass * o.stiffness));
+}
 
 }  // namespace dualdamp::sim

@@ -20,11 +20,8 @@ namespace dualdamp::identify {
 namespace {
 
 using friction::Direction;
+using friction::direction_of;
 using friction::Instant;
-
-Direction direction_of(double v) {
-  return v > 0.0 ? Direction::forward : v < 0.0 ? Direction::backward : Direction::none;
-}
 
 double noise_of(const std::vector<double>& samples) {
   RobustNoiseLevel level;

@@ -55,8 +55,6 @@ double size_of(const Affine& a, double s, const Instant& now) {
          std::abs(a.transient);
 }
 
-Direction opposite(Direction direction) { return static_cast<Direction>(-static_cast<int>(direction)); }
-
 /// The affine forms of a law in one mode: force, limit, guards.
 std::vector<Affine> forms(const LawHost& host, const Memory& memory) {
   const Law& law = host.law();
@@ -296,9 +294,7 @@ std::vector<double> walk(const LawCase& c, std::uint64_t seed, Faults& faults) {
     const bool sticks = random.chance(0.15);
     Stroke stroke{host.now(), 0.0, c.stroke_time * random.logarithmic(0.1, 3.0)};
     if (!sticks) stroke.length = random.sign() * c.stroke * random.logarithmic(1e-3, 1.0);
-    const Direction direction = sticks                ? Direction::none
-                                : stroke.length > 0.0 ? Direction::forward
-                                                      : Direction::backward;
+    const Direction direction = friction::direction_of(stroke.length);
     const Path path = stroke;
     const Path mirrored = [stroke](double t) {
       const Instant now = stroke(t);
@@ -341,7 +337,7 @@ void examine_factor(const LawCase& c, Faults& faults) {
   double force_size = 0.0;
   for (int i = 0; i < strokes; ++i) {
     Stroke stroke{scaled.now(), random.sign() * c.stroke * random.logarithmic(1e-3, 1.0), c.stroke_time};
-    const Direction direction = stroke.length > 0.0 ? Direction::forward : Direction::backward;
+    const Direction direction = friction::direction_of(stroke.length);
     modified.change_direction(direction);
     scaled.change_direction(direction);
     for (int step = 1; step <= steps_per_stroke; ++step) {

@@ -10,12 +10,6 @@ namespace dualdamp::sim {
 
 using core::Complex;
 
-double natural_frequency(const Oscillator& oscillator) { return std::sqrt(oscillator.stiffness / oscillator.mass); }
-
-double damping_ratio(const Oscillator& oscillator) {
-  return oscillator.damping / (2.0 * std::sqrt(oscillator.mass * oscillator.stiffness));
-}
-
 namespace {
 
 /// Derivatives of the polynomial at s, from those at 0.

@@ -106,19 +106,24 @@ void Engine::place(Direction before) {
   outcome_ = {};
   direction_ = before;
   begin_motion();
-  const Direction direction = v_ > 0.0 ? Direction::forward : v_ < 0.0 ? Direction::backward : Direction::none;
+  const Direction direction = friction::direction_of(v_);
   if (direction == Direction::none) return settle();
   if (direction == before) return;
   if (before != Direction::none) change_direction(Direction::none);
   change_direction(direction);
 }
 
-const Interval* Engine::next(double horizon) {
+/// Whether there is work left to do; sets an outcome if not.
+bool Engine::may_go_on() {
   core::stop_if_cancelled();
-  if (core::Outcome limited = check_work(work()); !limited.ok()) {
-    outcome_ = std::move(limited);
-    return nullptr;
-  }
+  core::Outcome limited = check_work(work());
+  if (limited.ok()) return true;
+  outcome_ = std::move(limited);
+  return false;
+}
+
+const Interval* Engine::next(double horizon) {
+  if (!may_go_on()) return nullptr;
   // Not earlier, because the last interval, still valid until this call, lies in the piece before.
   if (drive_.has_pieces() && drive_.piece() != periods_passed_) {
     local_time_ = 0.0;
@@ -133,11 +138,7 @@ const Interval* Engine::next(double horizon) {
 }
 
 const Interval* Engine::next_in_period() {
-  core::stop_if_cancelled();
-  if (core::Outcome limited = check_work(work()); !limited.ok()) {
-    outcome_ = std::move(limited);
-    return nullptr;
-  }
+  if (!may_go_on()) return nullptr;
   return step(drive_.period() - local_time_, true);
 }
 
@@ -147,7 +148,7 @@ bool Engine::turns_freely() const {
   if (direction_ == Direction::none) return false;
   friction::Instant turning = now();
   turning.v = 0.0;
-  const Direction back = direction_ == Direction::forward ? Direction::backward : Direction::forward;
+  const Direction back = opposite(direction_);
   for (std::size_t i = 0; i < model_.friction.size(); ++i) {
     const friction::Law& law = model_.friction[i];
     if (law.holds_mass() || law.force(memories_[i], turning, direction_) != law.force(memories_[i], turning, back))
@@ -193,15 +194,27 @@ void Engine::jump(std::size_t law, friction::Trigger trigger) {
   if (!digits.ok()) outcome_ = digits;
 }
 
-EventKind Engine::act(const Ending& ending) {
-  return std::visit([this](const auto& what) { return act(what); }, ending);
+/// Where nothing holds the mass and the sum of forces is within the rounding of a stiff bond or of the velocity, it
+/// may point in the direction of a slip that has just ended without a motion: that slip has shown the opposite.
+void Engine::settle(bool without_motion) {
+  const Direction slipped = direction_;
+  change_direction(Direction::none);
+  Balance next = balance();
+  if (without_motion && next.limit == 0.0 && next.direction == slipped) next.direction = opposite(slipped);
+  if (next.direction != Direction::none) change_direction(next.direction);
+}
+
+EventKind Engine::act(const Ending& ending, bool without_motion) {
+  if (is<SlipEnd>(ending)) return end_slip(without_motion);
+  if (const auto* stick = std::get_if<StickEnd>(&ending)) return act(*stick);
+  return act(std::get<LawGuard>(ending));
 }
 
 /// At the end of a slip the mass sticks or reverses. If it goes on in the same direction, its velocity has only
 /// touched zero: a grazing.
-EventKind Engine::act(SlipEnd) {
+EventKind Engine::end_slip(bool without_motion) {
   const Direction before = direction_;
-  settle();
+  settle(without_motion);
   if (direction_ == Direction::none) return EventKind::stop;
   return direction_ == before ? EventKind::grazing : EventKind::reversal;
 }

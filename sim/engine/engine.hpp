@@ -85,8 +85,12 @@ class Engine {
  protected:
   /// One interval, at most `left` [s] long; `to_period_end`: `left` ends exactly at a period boundary.
   [[nodiscard]] virtual const Interval* step(double left, bool to_period_end) = 0;
-  /// At the end of a slip: sets the direction to none (stick) or to that of the next slip.
-  virtual void settle() = 0;
+  /// What the forces do to the mass while it stands and all laws are at direction none.
+  struct Balance {
+    friction::Direction direction = friction::Direction::none;  ///< in which they move it; none: it sticks
+    double limit = 0.0;                                         ///< sum of the static limits [N]
+  };
+  [[nodiscard]] virtual Balance balance() = 0;
   /// A motion starts from x_, v_, direction_ and memories_ at local time 0; what the engine kept before is dropped.
   virtual void begin_motion() = 0;
   virtual void restore_past(const State&) {}
@@ -100,12 +104,9 @@ class Engine {
   void pass_period();
   void change_direction(friction::Direction direction);
   void jump(std::size_t law, friction::Trigger trigger);
-  EventKind act(const Ending& ending);
-  EventKind act(SlipEnd);
-  EventKind act(StickEnd end);
-  EventKind act(LawGuard guard);
+  /// `without_motion`: the interval began at v = 0 and takes no time.
+  EventKind act(const Ending& ending, bool without_motion);
   EventKind act_on_schedule(double due);
-  EventKind after_change();
   [[nodiscard]] double next_schedule() const;
   /// Counts events in a row that take no time. False, and an outcome is set, if they do not come to an end.
   [[nodiscard]] bool comes_to_an_end(bool takes_no_time);
@@ -135,6 +136,12 @@ class Engine {
 
  private:
   void place(friction::Direction before);
+  [[nodiscard]] bool may_go_on();
+  void settle(bool without_motion = false);
+  EventKind end_slip(bool without_motion);
+  EventKind act(StickEnd end);
+  EventKind act(LawGuard guard);
+  EventKind after_change();
   [[nodiscard]] bool turns_freely() const;
 
   int repeats_ = 0;

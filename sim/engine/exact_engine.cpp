@@ -27,22 +27,6 @@ constexpr double still = std::numeric_limits<double>::epsilon();
 
 }  // namespace
 
-std::string_view name_of(EventKind kind) {
-  switch (kind) {
-    case EventKind::reversal:
-      return "reversal";
-    case EventKind::stop:
-      return "stop";
-    case EventKind::release:
-      return "release";
-    case EventKind::grazing:
-      return "grazing";
-    case EventKind::switching:
-      return "switching";
-  }
-  return "";
-}
-
 /// The interval of the exact engine. It uses the functions of the engine, which are valid until the engine's next
 /// call. Only the drive is already at the end of the interval, so it is evaluated backwards from there.
 class ExactEngine::ExactInterval final : public Interval {
@@ -181,21 +165,13 @@ void ExactEngine::reset_sensitivity() {
   sensitivity_.begin(memories_, some_memory_, units);
 }
 
-/// The end of a slip: stick or slip.
-void ExactEngine::settle() {
-  const Direction slipped = direction_;
-  change_direction(Direction::none);
+Engine::Balance ExactEngine::balance() {
   collect(false);
   const double pull = pull_now();
   const double limit = total_->limit.constant;
   const double scale = force_scale() + limit;
-  Direction direction =
-      direction_after_slip(pull, limit, clearly * scale, [&] { return leaves_limit(rounding * scale); });
-  // Where nothing holds the mass and the sum of forces is within the rounding of a stiff bond, the motion in this
-  // direction has said the opposite.
-  if (ended_at_once_ && limit == 0.0 && direction == slipped)
-    direction = slipped == Direction::forward ? Direction::backward : Direction::forward;
-  if (direction != Direction::none) change_direction(direction);
+  return {direction_after_slip(pull, limit, clearly * scale, [&] { return leaves_limit(rounding * scale); }),
+          limit};
 }
 
 /// If the pull is within rounding of the limit, the Taylor germs of both guards decide whether it leaves the limit.
@@ -227,7 +203,7 @@ Direction ExactEngine::moved_later(const ModeFunction& pull, double tolerance) c
     const double later = core::evaluate(basis, pull, values);
     if (!std::isfinite(later)) break;
     const double known = rounding * core::bound(basis, pull, values, s, 0.0) + tolerance;
-    if (std::abs(later) > known) return later > 0.0 ? Direction::forward : Direction::backward;
+    if (std::abs(later) > known) return friction::direction_of(later);
   }
   return Direction::none;
 }
@@ -401,9 +377,7 @@ const Interval* ExactEngine::step(double left, bool to_period_end) {
   if (end.found) {
     const Ending ending = watches_[static_cast<std::size_t>(end.guard)].ending;
     if (const auto* guard = std::get_if<LawGuard>(&ending)) changed_law_ = guard->law;
-    ended_at_once_ = stands && begin.v == 0.0 && is<SlipEnd>(ending);
-    interval_->ending = act(ending);
-    ended_at_once_ = false;
+    interval_->ending = act(ending, stands && begin.v == 0.0);
   } else if (by_schedule) {
     interval_->ending = act_on_schedule(due);
   }

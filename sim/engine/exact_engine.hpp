@@ -97,7 +97,7 @@ class ExactEngine final : public Engine {
   bool find_violated();
   void drop_guard(std::size_t i);
   bool search(double horizon);
-  void settle() override;
+  [[nodiscard]] Balance balance() override;
   friction::Direction leaves_limit(double tolerance);
   [[nodiscard]] friction::Direction moved_later(const core::ModeFunction& pull, double tolerance) const;
   [[nodiscard]] double pull_now() const;
@@ -135,7 +135,6 @@ class ExactEngine final : public Engine {
   std::vector<friction::Affine> law_guards_;   ///< of all laws
   std::vector<std::size_t> law_guard_counts_;  ///< of each law
   core::Crossing crossing_;
-  bool ended_at_once_ = false;              ///< a slip that began at v = 0 and never moved in its direction
   std::optional<std::size_t> changed_law_;  ///< whose guard ended the interval before
 
   Sensitivity sensitivity_;

@@ -92,7 +92,7 @@ void SmoothEngine::restore_past(const State& state) {
   if (state.past != nullptr) past_ = *state.past;
   // A state that Newton's method has displaced may move against its direction. That branch is not its own: a force
   // that falls with speed grows there without bound.
-  if (friction::sign(direction_) * v_ < 0.0) change_direction(v_ > 0.0 ? Direction::forward : Direction::backward);
+  if (friction::sign(direction_) * v_ < 0.0) change_direction(friction::direction_of(v_));
 }
 
 /// The motion's size: the largest |x| met, at first from velocity and forces.
@@ -280,9 +280,7 @@ const Interval* SmoothEngine::step(double left, bool to_period_end) {
     return interval_.get();
   }
   if (hit) {
-    ended_at_once_ = !at_once && taken.length == 0.0 && is<SlipEnd>(ending);
-    interval_->ending = act(ending);
-    ended_at_once_ = false;
+    interval_->ending = act(ending, !at_once && taken.length == 0.0);
   } else {
     interval_->ending = act_on_schedule(due);
   }
@@ -330,10 +328,8 @@ void SmoothEngine::pass_time(bool to_period_end) {
   is_laid_ = false;
 }
 
-/// Where a slip ends. Where the pull equals the limit within rounding, what both do next decides.
-void SmoothEngine::settle() {
-  const Direction slipped = direction_;
-  change_direction(Direction::none);
+/// Where the pull equals the limit within rounding, what both do next decides.
+Engine::Balance SmoothEngine::balance() {
   judge_.freeze(memories_, Direction::none, time() - local_time_);
   std::vector<double> X;
   judge_.gather(x_, 0.0, memories_, X);
@@ -360,11 +356,7 @@ void SmoothEngine::settle() {
       return pull_then < 0.0 ? Direction::backward : Direction::forward;
     });
   };
-  Direction direction = direction_after_slip(pull, limit, tolerance, at_limit);
-  // Creep below the rounding of the velocity shows only where it leads: not in this direction.
-  if (ended_at_once_ && limit == 0.0 && direction == slipped)
-    direction = slipped == Direction::forward ? Direction::backward : Direction::forward;
-  if (direction != Direction::none) change_direction(direction);
+  return {direction_after_slip(pull, limit, tolerance, at_limit), limit};
 }
 
 }  // namespace dualdamp::sim

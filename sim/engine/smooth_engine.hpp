@@ -45,7 +45,7 @@ class SmoothEngine final : public Engine {
   using Hit = EventSearch::Hit;
 
   [[nodiscard]] const Interval* step(double left, bool to_period_end) override;
-  void settle() override;
+  [[nodiscard]] Balance balance() override;
   void begin_motion() override;
   void restore_past(const State& state) override;
   void jumped(std::size_t law, const friction::Memory& before, friction::Trigger trigger) override;
@@ -75,7 +75,6 @@ class SmoothEngine final : public Engine {
   double x_scale_ = 0.0;        ///< m
   bool is_laid_ = false;        ///< flow_ and what depends on it are those of the present interval
   bool follows_event_ = false;  ///< the present interval begins with an event
-  bool ended_at_once_ = false;  ///< a slip that began at v = 0 and never moved in its direction
   std::unique_ptr<StepInterval> interval_;
 };
 

@@ -137,7 +137,7 @@ void LawHost::move_along(double end, const Path& way) {
 void LawHost::move_to(double x) {
   const Instant from = now_;
   const double length = x - from.x;
-  change_direction(length > 0.0 ? Direction::forward : length < 0.0 ? Direction::backward : Direction::none);
+  change_direction(friction::direction_of(length));
   move_along(from.t + 1.0, [from, length](double t) { return Instant{t, from.x + length * (t - from.t), length}; });
   now_.x = x;
 }

@@ -11,7 +11,7 @@ bool load_contacts(Model& model, double travel) {
   initial.memories.clear();
   initial.direction = Direction::none;
   if (travel == 0.0) return true;
-  const Direction direction = travel > 0.0 ? Direction::forward : Direction::backward;
+  const Direction direction = friction::direction_of(travel);
   const Instant now{.x = initial.position, .v = initial.velocity};
   for (const friction::Law& law : model.friction) {
     LawHost host = loaded_host(law, now, travel);
