@@ -127,9 +127,11 @@ bool is_affine(const Function& f, const std::vector<double>& z, Random& random) 
   return true;
 }
 
-std::array<double, 5> numbers_of(const friction::ModifierCourse& course) {
-  return {course.drift_ended ? 1.0 : 0.0, static_cast<double>(course.cell), course.level,
-          static_cast<double>(course.side), static_cast<double>(course.vanished)};
+/// All members: a new one of the course does not compile here until it is in the list.
+auto numbers_of(const friction::ModifierCourse& course) {
+  const auto& [drift_ended, cell, level, side, unloaded, vanished] = course;
+  return std::array{drift_ended ? 1.0 : 0.0,   static_cast<double>(cell), level,
+                    static_cast<double>(side), unloaded ? 1.0 : 0.0,      static_cast<double>(vanished)};
 }
 
 /// Tests that forms and jumps are affine: the engine differentiates them by displacing states and positions.

@@ -30,6 +30,7 @@ enum class Planted {
   wrong_rate,
   curved,
   choosy,
+  unloading,
   moody
 };
 
@@ -60,6 +61,7 @@ class Slider {
     } else if (m.mode != 0 && friction::sign(direction) != m.mode) {
       m.state[0] = now.x - m.mode * level(m.mode) / stiffness;
       if (planted_ == Planted::choosy) m.state[0] = std::abs(m.state[0]);
+      if (planted_ == Planted::unloading) m.course.unloaded = m.state[0] > 0.0;
       if (planted_ == Planted::moody) ++*calls_;
       m.mode = 0;
     }
@@ -149,6 +151,7 @@ TEST_CASE("the conformance suite names planted faults", "[friction][conformance]
   CHECK(named(faults_with(Planted::wrong_speed), "derivative of advance"));
   CHECK(named(faults_with(Planted::curved), "not affine in the states"));
   CHECK(named(faults_with(Planted::choosy), "a jump is not affine"));
+  CHECK(named(faults_with(Planted::unloading), "a jump is not affine"));
   CHECK(named(faults_with(Planted::moody), "second time"));
   const friction::Law coulomb(friction::Coulomb(2.0, 2.0));
   const auto unscaled = [&](double) { return coulomb; };
