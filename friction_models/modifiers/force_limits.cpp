@@ -49,7 +49,7 @@ ForceLimits::ForceLimits(const ModifierSettings& settings, std::vector<double> n
 ModifierCourse ForceLimits::start(const Instant& now) const {
   ModifierCourse course{
       .level = fluctuation_.first(), .side = now.x < 0.0 ? -1 : 1, .unloaded = load(now.x) <= 0.0};
-  if (settings_.varies_over_position()) {
+  if (settings_.fluctuates_over_position()) {
     constexpr double farthest = 1e9;  // an int holds this and many cells beyond it
     course.cell = static_cast<int>(std::clamp(std::round(now.x / cell_width()), -farthest, farthest));
     course.level = fluctuation_.at(course.cell);
@@ -67,7 +67,7 @@ Instant ForceLimits::at(const ModifierCourse& course, double power, Instant now)
   const double drifted = 1.0 + settings_.drift * now.t;
   double modulated = 1.0;
   double modulated_rate = 0.0;
-  if (settings_.modulation != 0.0) {
+  if (settings_.modulates()) {
     const double angle = settings_.modulation_order * now.angle + settings_.modulation_phase;
     modulated += settings_.modulation * std::cos(angle);
     modulated_rate = -settings_.modulation * settings_.modulation_order * now.angle_rate * std::sin(angle);
@@ -94,7 +94,7 @@ double ForceLimits::drift_end(const ModifierCourse& course) const {
 }
 
 double ForceLimits::cell_end(const ModifierCourse& course) const {
-  if (settings_.varies_over_position()) return infinity;
+  if (settings_.fluctuates_over_position()) return infinity;
   return (course.cell + 1) * (settings_.correlation_time / Fluctuation::cells_per_correlation);
 }
 
@@ -115,13 +115,18 @@ ModifierCourse ForceLimits::after_change(const ModifierCourse& course, double du
   return next;
 }
 
+Instant ForceLimits::before_vanishing(ModifierCourse course, double power, const Instant& now) const {
+  course.vanished = 0;
+  return at(course, power, now);
+}
+
 std::vector<Affine> ForceLimits::guards(const ModifierCourse& course, double power, const Instant& now) const {
   std::vector<Affine> guards;
   if (load_guards() > 0) {
     const double sign = course.unloaded ? -1.0 : 1.0;
     guards.push_back({.constant = sign, .position = sign * settings_.load_gradient});
   }
-  if (settings_.varies_over_position()) {
+  if (settings_.fluctuates_over_position()) {
     const double high = (course.cell + 0.5) * cell_width();
     const double low = (course.cell - 0.5) * cell_width();
     guards.push_back({.constant = high, .position = -1.0});
@@ -130,9 +135,7 @@ std::vector<Affine> ForceLimits::guards(const ModifierCourse& course, double pow
   if (settings_.slope == 0.0) return guards;
   guards.push_back({.position = static_cast<double>(course.side)});
   if (settings_.slope > 0.0) return guards;
-  ModifierCourse unclamped = course;
-  unclamped.vanished = 0;
-  const Instant all = at(unclamped, power, now);
+  const Instant all = before_vanishing(course, power, now);
   const auto zero = static_cast<std::size_t>(course.vanished);
   if (zero < nominal_.size()) guards.push_back(all.force_limit(nominal_[zero]));
   if (zero > 0) guards.push_back(-1.0 * all.force_limit(nominal_[zero - 1]));
@@ -141,8 +144,8 @@ std::vector<Affine> ForceLimits::guards(const ModifierCourse& course, double pow
 
 ForceLimits::Ending ForceLimits::ending(int guard) const {
   if (guard < load_guards()) return Ending::load;
-  if (guard < first_guards()) return Ending::cell;
-  return guard == first_guards() ? Ending::side : Ending::force_limit;
+  if (guard < guards_before_side()) return Ending::cell;
+  return guard == guards_before_side() ? Ending::side : Ending::force_limit;
 }
 
 ModifierCourse ForceLimits::after_guard(const ModifierCourse& course, int guard) const {
@@ -159,7 +162,8 @@ ModifierCourse ForceLimits::after_guard(const ModifierCourse& course, int guard)
       next.side = -course.side;
       break;
     case Ending::force_limit:
-      const bool falls = guard == first_guards() + 1 && static_cast<std::size_t>(course.vanished) < nominal_.size();
+      const bool falls =
+          guard == guards_before_side() + 1 && static_cast<std::size_t>(course.vanished) < nominal_.size();
       next.vanished += falls ? 1 : -1;
       break;
   }
@@ -168,9 +172,7 @@ ModifierCourse ForceLimits::after_guard(const ModifierCourse& course, int guard)
 
 int ForceLimits::vanished(const ModifierCourse& course, double power, const Instant& now) const {
   if (settings_.slope >= 0.0) return course.vanished;
-  ModifierCourse unclamped = course;
-  unclamped.vanished = 0;
-  const Instant all = at(unclamped, power, now);
+  const Instant all = before_vanishing(course, power, now);
   return static_cast<int>(
       std::ranges::count_if(nominal_, [&](double nominal) { return all.force_limit_now(nominal) <= 0.0; }));
 }

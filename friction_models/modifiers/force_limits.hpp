@@ -33,7 +33,7 @@ struct ModifierSettings {
 
   [[nodiscard]] bool warms() const { return warming_power < std::numeric_limits<double>::infinity(); }
   [[nodiscard]] bool fluctuates() const { return ratio != 0.0; }
-  [[nodiscard]] bool varies_over_position() const {
+  [[nodiscard]] bool fluctuates_over_position() const {
     return correlation_length < std::numeric_limits<double>::infinity();
   }
   [[nodiscard]] bool modulates() const { return modulation != 0.0; }
@@ -82,11 +82,14 @@ class ForceLimits {
   [[nodiscard]] double drift_end(const ModifierCourse& course) const;
   [[nodiscard]] double cell_end(const ModifierCourse& course) const;
   [[nodiscard]] double cell_width() const;
+  /// `now` as if no force limit had fallen to zero.
+  [[nodiscard]] Instant before_vanishing(ModifierCourse course, double power, const Instant& now) const;
   /// The load relative to that at x = 0 without modulation, where it is not gone.
   [[nodiscard]] double load(double x) const { return 1.0 + settings_.load_gradient * x; }
   [[nodiscard]] int load_guards() const { return settings_.load_gradient != 0.0 ? 1 : 0; }
-  /// The number of guards of the load and of the cells.
-  [[nodiscard]] int first_guards() const { return load_guards() + (settings_.varies_over_position() ? 2 : 0); }
+  [[nodiscard]] int guards_before_side() const {
+    return load_guards() + (settings_.fluctuates_over_position() ? 2 : 0);
+  }
 
   ModifierSettings settings_;
   std::vector<double> nominal_;  ///< ascending, each once [N]

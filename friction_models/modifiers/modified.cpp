@@ -192,7 +192,7 @@ Memory ModifiedLaw::start(const Instant& now) const {
 
 std::string_view ModifiedLaw::aperiodic() const {
   const ModifierSettings& settings = limits_.settings();
-  if (settings.fluctuates() && !settings.varies_over_position()) return "its force limits fluctuate at random";
+  if (settings.fluctuates() && !settings.fluctuates_over_position()) return "its force limits fluctuate at random";
   return settings.drift != 0.0 ? "its force limits drift" : law_.aperiodic();
 }
 
