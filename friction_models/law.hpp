@@ -20,8 +20,8 @@
 /// all forces on the mass, those of the laws for direction none; otherwise it slips in the direction of the pull.
 /// At v = 0 every law first sees a change of direction to none.
 ///
-/// A law gets its force limits from the instant, `now.force_limit(kinetic)`. Modifiers (drift, fluctuation, a slope
-/// over position, warming) act there; the law has no code for them.
+/// A law gets its force limits from the instant, `now.force_limit(kinetic)`. Modifiers
+/// (`modifiers/modifiers.hpp`) act there; the law has no code for them.
 ///
 /// To write a law: `law_concepts.hpp`. To run one: `Law` below. Its abilities as interfaces: `law_model.hpp`.
 /// `docs/decisions/002-law-contract.md` shows contact compliance, Iwan and LuGre in this contract.

@@ -10,9 +10,8 @@ namespace dualdamp::friction {
 
 namespace {
 
-/// Bristles this close to their limit, relative, count as at the limit, so that rounding does not separate equal
-/// ones.
-constexpr double same_place = 1.0 - 1e-12;
+/// Bristles beyond this part of their limit count as at the limit, so that rounding does not separate equal ones.
+constexpr double part_of_limit = 1.0 - 1e-12;
 
 }  // namespace
 
@@ -34,22 +33,22 @@ bool Bristle::has_length(const Instant& now) const {
   return limit.constant != 0.0 || limit.rate != 0.0;
 }
 
-double Bristle::draw_place(Memory& memory, const Instant& now) const {
+double Bristle::draw_position(Memory& memory, const Instant& now) const {
   const auto number = static_cast<std::uint64_t>(memory.indices[0]++);
   return now.x + now.force_limit_now(snap_distance_) * (2.0 * draws_.uniform(number) - 1.0);
 }
 
 Memory Bristle::start(const Instant& now) const {
   Memory memory{.indices = {0}};
-  for (int i = 0; i < count_; ++i) memory.state.push_back(draw_place(memory, now));
+  for (int i = 0; i < count_; ++i) memory.state.push_back(draw_position(memory, now));
   std::ranges::sort(memory.state);
   return memory;
 }
 
 Affine Bristle::affine_force(const Memory& memory, const Instant& now, Direction) const {
   if (!has_length(now)) return {};
-  const double places = std::accumulate(memory.state.begin(), memory.state.end(), 0.0);
-  return {.constant = -stiffness_ * places, .position = stiffness_ * count_};
+  const double positions = std::accumulate(memory.state.begin(), memory.state.end(), 0.0);
+  return {.constant = -stiffness_ * positions, .position = stiffness_ * count_};
 }
 
 void Bristle::affine_guards(const Memory& memory, const Instant& now, Direction,
@@ -61,18 +60,18 @@ void Bristle::affine_guards(const Memory& memory, const Instant& now, Direction,
 }
 
 void Bristle::jump(Memory& memory, Trigger trigger, const Instant& now, Direction) const {
-  std::vector<double>& places = memory.state;
-  if (trigger.cause == Trigger::limit_change && !has_length(now)) std::ranges::fill(places, now.x);
+  std::vector<double>& positions = memory.state;
+  if (trigger.cause == Trigger::limit_change && !has_length(now)) std::ranges::fill(positions, now.x);
   if (trigger.cause < 0) return;
   // All bristles at this end that are beyond the limit snap together: those at one position, and those that are
   // beyond the limit because it fell.
-  const double limit = same_place * now.force_limit_now(snap_distance_);
+  const double limit = part_of_limit * now.force_limit_now(snap_distance_);
   const bool rear = trigger.cause == 0;
   do {
-    const double place = draw_place(memory, now);
-    places.erase(rear ? places.begin() : places.end() - 1);
-    places.insert(std::ranges::lower_bound(places, place), place);
-  } while (rear ? now.x - places.front() >= limit : places.back() - now.x >= limit);
+    const double position = draw_position(memory, now);
+    positions.erase(rear ? positions.begin() : positions.end() - 1);
+    positions.insert(std::ranges::lower_bound(positions, position), position);
+  } while (rear ? now.x - positions.front() >= limit : positions.back() - now.x >= limit);
 }
 
 LawEntry bristle_entry() {

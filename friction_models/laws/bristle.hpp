@@ -42,7 +42,7 @@ class Bristle {
   // State: the positions b_i in ascending order, so that the next to snap is the first or the last. Indices: the
   // number of draws so far.
   [[nodiscard]] bool has_length(const Instant& now) const;
-  [[nodiscard]] double draw_place(Memory& memory, const Instant& now) const;
+  [[nodiscard]] double draw_position(Memory& memory, const Instant& now) const;
 
   double stiffness_;
   double snap_distance_;

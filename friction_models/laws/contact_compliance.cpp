@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "friction_models/formulas/slider.hpp"
+#include "friction_models/formulas/static_parameter.hpp"
 #include "friction_models/law_entry.hpp"
 #include "friction_models/modifiers/modified.hpp"
 #include "friction_models/modifiers/modifiers.hpp"
@@ -27,12 +28,7 @@ constexpr double rounded = 1e-13;
 const std::vector<Parameter>& ContactCompliance::parameters() {
   static const std::vector<Parameter> table = {
       {.name = "kinetic", .unit = "N", .range = not_negative, .meaning = "friction force while the slider slides"},
-      {.name = "static",
-       .unit = "N",
-       .same_as = "kinetic",
-       .range = not_negative,
-       .at_least = "kinetic",
-       .meaning = "force at which the slider breaks away"},
+      static_parameter("force at which the slider breaks away"),
       {.name = "contact_stiffness",
        .unit = "N/m",
        .range = positive,

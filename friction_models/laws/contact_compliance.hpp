@@ -20,7 +20,7 @@
 /// slider; it breaks away again at the kinetic limit, because static friction had no time to build up. Holds for
 /// contacts whose asperities deform elastically before sliding.
 ///
-/// Source: liang2004identifying, jenkins1962 in `docs/refs.bib`. Exact engine; with damping not under
+/// Source: liang2004identifying, jenkins1962, iwan1966 in `docs/refs.bib`. Exact engine; with damping not under
 /// limits that vary with position. Cost: two events a stroke.
 
 #include <span>

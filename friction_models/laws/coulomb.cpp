@@ -1,5 +1,6 @@
 #include "friction_models/laws/coulomb.hpp"
 
+#include "friction_models/formulas/static_parameter.hpp"
 #include "friction_models/law_entry.hpp"
 #include "friction_models/modifiers/modified.hpp"
 #include "friction_models/modifiers/modifiers.hpp"
@@ -9,12 +10,7 @@ namespace dualdamp::friction {
 const std::vector<Parameter>& Coulomb::parameters() {
   static const std::vector<Parameter> table = {
       {.name = "kinetic", .unit = "N", .range = not_negative, .meaning = "friction force while slipping"},
-      {.name = "static",
-       .unit = "N",
-       .same_as = "kinetic",
-       .range = not_negative,
-       .at_least = "kinetic",
-       .meaning = "largest force that holds the mass at rest"},
+      static_parameter("largest force that holds the mass at rest"),
   };
   return table;
 }

@@ -80,21 +80,23 @@ std::vector<Law> make_elasto_plastic(const ParameterValues& p) {
 }  // namespace
 
 LawEntry elasto_plastic_entry() {
-  return {.name = "elasto_plastic",
-          .summary = "LuGre bristles with an elastic range, so that they do not drift (Dupont and others)",
-          .equation =
-              "F = sigma0 z + sigma1 z' + sigma2 v;  z' = v (1 - alpha(z, v) sigma0 sgn(v) z/g(v)), alpha = 0 up "
-              "to elastic_limit, g as in lugre",
-          .engine = EngineKind::smooth,
-          .states = "mean deflection z of the bristles",
-          .is_passive = false,
-          .sources = "dupont2002",
-          // Where the load is lost the deflection would relax infinitely fast.
-          .modifiers = all_modifiers_but("load_gradient"),
-          .parameters = ElastoPlastic::parameters(),
-          .make = make_elasto_plastic,
-          .check = ElastoPlastic::check,
-          .warnings = Lugre::warnings};
+  return {
+      .name = "elasto_plastic",
+      .summary = "LuGre bristles with an elastic range, so that they do not drift (Dupont and others)",
+      .equation =
+          "F = sigma0 z + sigma1 z' + sigma2 v;  z' = v (1 - alpha(z, v) sigma0 sgn(v) z/g(v)), g as in "
+          "lugre;  alpha = 0 for |z| <= elastic_limit or sgn z != sgn v, 1 for |z| >= z_m = g(v)/sigma0, else (1 "
+          "+ sin(pi (|z| - (z_m + elastic_limit)/2)/(z_m - elastic_limit)))/2",
+      .engine = EngineKind::smooth,
+      .states = "mean deflection z of the bristles",
+      .is_passive = false,
+      .sources = "dupont2002",
+      // Where the load is lost the deflection would relax infinitely fast.
+      .modifiers = all_modifiers_but("load_gradient"),
+      .parameters = ElastoPlastic::parameters(),
+      .make = make_elasto_plastic,
+      .check = ElastoPlastic::check,
+      .warnings = Lugre::warnings};
 }
 
 }  // namespace dualdamp::friction

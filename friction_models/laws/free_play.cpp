@@ -1,5 +1,6 @@
 #include "friction_models/laws/free_play.hpp"
 
+#include "friction_models/formulas/static_parameter.hpp"
 #include "friction_models/law_entry.hpp"
 #include "friction_models/modifiers/modified.hpp"
 #include "friction_models/modifiers/modifiers.hpp"
@@ -12,12 +13,7 @@ const std::vector<Parameter>& FreePlay::parameters() {
        .unit = "N",
        .range = not_negative,
        .meaning = "friction force of the element while it is pushed"},
-      {.name = "static",
-       .unit = "N",
-       .same_as = "kinetic",
-       .range = not_negative,
-       .at_least = "kinetic",
-       .meaning = "force at which the element breaks away"},
+      static_parameter("force at which the element breaks away"),
       {.name = "play",
        .unit = "m",
        .range = positive,

@@ -76,7 +76,9 @@ LawEntry iwan_four_parameter_entry() {
       .summary = "Segalman's model of a bolted joint: slip distances by a power law, dissipation A^(exponent+3)",
       .equation =
           "F = sum of stiffness (x - a) over stuck elements, of +-limit over sliding ones; slip distances phi "
-          "of density phi^exponent up to phi_max, where an element of stiffness beta/(1+beta) of all is",
+          "of density rho = R phi^exponent up to phi_max, and S at phi_max: stiffness = R "
+          "phi_max^(exponent+1)/(exponent+1) + S, limit = R phi_max^(exponent+2)/(exponent+2) + S phi_max, beta = "
+          "S/(stiffness - S)",
       .states = "turning points that are remembered",
       .sources = "segalman2005, iwan1966",
       .modifiers = Iwan::modifiers(),

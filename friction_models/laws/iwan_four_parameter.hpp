@@ -27,7 +27,8 @@
 /// all to the leading order of ln q. With 100 elements down to 1e-4, ln q = 0.093: less than 0.3 % of the force and
 /// 0.6 % of the work for an exponent up to 0 and A above 20 smallest phi_max. Both fall with the square of ln q.
 ///
-/// The elements in parallel are `iwan`. Source: segalman2005 in `docs/refs.bib`. Exact engine. Cost: as `iwan`.
+/// The elements in parallel are `iwan`. Source: segalman2005, iwan1966 in `docs/refs.bib`. Exact engine. Cost: as
+/// `iwan`.
 
 #include <vector>
 

@@ -22,8 +22,8 @@ LawEntry stribeck_entry() {
   return {.name = "stribeck",
           .summary = "force against the motion that falls with speed, static friction at v = 0",
           .equation =
-              "slip: F = level(|v|) sgn v, level(u) = kinetic + (static - kinetic) h(u/stribeck_velocity);  "
-              "stick: F = pull while |pull| <= static",
+              "slip: F = level(|v|) sgn v, level(u) = kinetic + (static - kinetic) h(u/stribeck_velocity), "
+              "h(r) = exp(-r^exponent), exp(-r) or 1/(1 + r^2) by form;  stick: F = pull while |pull| <= static",
           .engine = EngineKind::smooth,
           .sources = "stribeck1902, armstrong1994, bo1982",
           .modifiers = all_modifiers(),

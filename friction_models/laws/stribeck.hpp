@@ -10,7 +10,7 @@
 /// slip is unstable and stick-slip follows. The level depends only on the present speed, so the law holds for
 /// lubricated contacts at speeds that change slowly.
 ///
-/// Source: stribeck1902, armstrong1994 in `docs/refs.bib`. Smooth engine. Cost: one exponential a call.
+/// Source: stribeck1902, armstrong1994, bo1982 in `docs/refs.bib`. Smooth engine. Cost: one exponential a call.
 
 #include <vector>
 
