@@ -106,7 +106,10 @@ struct Parameter {
   std::string_view not_beside{};  ///< refused beside this earlier parameter, unless that is 0
   Range range{};
   std::string_view at_least{};  ///< must be >= the value of this earlier parameter
-  std::string_view meaning{};   ///< one line for documentation
+  bool sums_to_one = false;     ///< of a field of a list: the values of all items add to 1
+  /// A fit seeks it although it has a default: with the default other parameters have no effect.
+  bool needed_in_fit = false;
+  std::string_view meaning{};  ///< one line for documentation
 
   /// No default and not optional. With `instead_of` it is required in its form only.
   [[nodiscard]] bool required() const { return !fallback && same_as.empty() && !is_optional; }

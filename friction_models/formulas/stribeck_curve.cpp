@@ -1,6 +1,7 @@
 #include "friction_models/formulas/stribeck_curve.hpp"
 
 #include "core/numbers.hpp"
+#include "friction_models/formulas/static_parameter.hpp"
 
 namespace dualdamp::friction {
 
@@ -15,14 +16,12 @@ StribeckCurve::Form form_of(const ParameterValues& values) {
 }  // namespace
 
 std::vector<Parameter> StribeckCurve::parameters(const Range& kinetic) {
+  Parameter level_at_rest = static_parameter("friction level at rest");
+  // Where it equals `kinetic` the level does not fall, and the speed over which it falls means nothing.
+  level_at_rest.needed_in_fit = true;
   return {
       {.name = "kinetic", .unit = "N", .range = kinetic, .meaning = "friction level at high speed"},
-      {.name = "static",
-       .unit = "N",
-       .same_as = "kinetic",
-       .range = not_negative,
-       .at_least = "kinetic",
-       .meaning = "friction level at rest"},
+      level_at_rest,
       {.name = "stribeck_velocity",
        .unit = "m/s",
        .range = positive,

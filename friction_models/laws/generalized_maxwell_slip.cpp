@@ -37,6 +37,7 @@ const std::vector<Parameter>& GeneralizedMaxwellSlip::parameters() {
                     {.name = "share",
                      .unit = "1",
                      .range = {.low = 0.0, .high = 1.0, .low_open = true},
+                     .sums_to_one = true,
                      .meaning = "share of the level at which it slips"}},
          .meaning = "springs that slip, in any order; their shares add to 1"});
     list.push_back({.name = "attraction",

@@ -87,7 +87,8 @@ class LawNumbers {
                           .path = path,
                           .range = parameter.range,
                           .stated = stated_number(law_.values, path),
-                          .at_least = parameter.at_least.empty() ? "" : prefix + std::string(parameter.at_least)});
+                          .at_least = parameter.at_least.empty() ? "" : prefix + std::string(parameter.at_least),
+                          .share_of = parameter.sums_to_one ? path.substr(0, path.find('[')) : ""});
       } else if (values.has(parameter.name) &&
                  (parameter.kind == ParameterKind::record || parameter.kind == ParameterKind::list)) {
         const std::vector<ParameterValues>& items = values.list(parameter.name);
@@ -103,58 +104,51 @@ class LawNumbers {
   std::vector<FitParameter> found_;
 };
 
+/// A number of the rig beside its laws, and where it stands in the model.
 struct SystemNumber {
   const char* name;
   const char* unit;
   Owner owner;
   friction::Range range;
+  double (*stated)(const sim::Model& model);
+  void (*set)(sim::Model& model, double value);
 };
 
-const std::vector<SystemNumber>& system_numbers() {
-  static const std::vector<SystemNumber> list = {
-      {"mass", "kg", Owner::mass, friction::positive},
-      {"stiffness", "N/m", Owner::stiffness, friction::positive},
-      {"cubic_stiffness", "N/m^3", Owner::cubic_stiffness, {}},
-      {"damping", "N.s/m", Owner::damping, friction::not_negative},
-      {"damping_ratio", "1", Owner::damping_ratio, friction::not_negative},
-      {"phase", "rad", Owner::phase, {}},
-      {"force_offset", "N", Owner::force_offset, {}}};
-  return list;
+template <auto part, auto member>
+SystemNumber plain(const char* name, const char* unit, Owner owner, const friction::Range& range) {
+  return {name,
+          unit,
+          owner,
+          range,
+          [](const sim::Model& model) { return (model.*part).*member; },
+          [](sim::Model& model, double value) { (model.*part).*member = value; }};
 }
 
-double stated_number(const sim::Model& model, Owner owner) {
-  const sim::Oscillator& o = model.oscillator;
-  switch (owner) {
-    case Owner::mass:
-      return o.mass;
-    case Owner::stiffness:
-      return o.stiffness;
-    case Owner::cubic_stiffness:
-      return o.cubic_stiffness;
-    case Owner::damping:
-      return o.damping;
-    case Owner::damping_ratio:
-      return 0.5 * o.damping / std::sqrt(o.mass * o.stiffness);
-    case Owner::phase:
-      return model.excitation.phase;
-    case Owner::force_offset:
-      return model.excitation.offset;
-    default:
-      return unknown;
-  }
+/// In the order in which they are set: the damping ratio needs mass and stiffness, and counts before the damping.
+const std::vector<SystemNumber>& system_numbers() {
+  using sim::Excitation;
+  using sim::Model;
+  using sim::Oscillator;
+  static const std::vector<SystemNumber> list = {
+      plain<&Model::oscillator, &Oscillator::mass>("mass", "kg", Owner::mass, friction::positive),
+      plain<&Model::oscillator, &Oscillator::stiffness>("stiffness", "N/m", Owner::stiffness, friction::positive),
+      plain<&Model::oscillator, &Oscillator::cubic_stiffness>("cubic_stiffness", "N/m^3", Owner::cubic_stiffness,
+                                                              {}),
+      plain<&Model::oscillator, &Oscillator::damping>("damping", "N.s/m", Owner::damping, friction::not_negative),
+      {"damping_ratio", "1", Owner::damping_ratio, friction::not_negative,
+       [](const Model& model) { return sim::damping_ratio(model.oscillator); },
+       [](Model& model, double ratio) {
+         model.oscillator.damping = 2.0 * ratio * std::sqrt(model.oscillator.mass * model.oscillator.stiffness);
+       }},
+      plain<&Model::excitation, &Excitation::phase>("phase", "rad", Owner::phase, {}),
+      plain<&Model::excitation, &Excitation::offset>("force_offset", "N", Owner::force_offset, {})};
+  return list;
 }
 
 std::string qualified(const FitParameter& parameter, std::size_t laws) {
   if (parameter.owner == Owner::record) return parameter.name;
   if (parameter.owner != Owner::law) return "system." + parameter.name;
   return (laws > 1 ? "friction[" + std::to_string(parameter.index) + "]." : "friction.") + parameter.path;
-}
-
-/// Whether a static level must be sought although it has a default. By default it equals the kinetic level, and
-/// then the speed over which the friction falls would have no effect.
-bool is_level_of_rest(const friction::LawEntry& law, const Parameter& parameter) {
-  return !parameter.same_as.empty() && parameter.name == "static" &&
-         std::ranges::find(law.parameters, "stribeck_velocity", &Parameter::name) != law.parameters.end();
 }
 
 void add_missing(const RigLaw& law, std::size_t index, const std::vector<FitParameter>& all,
@@ -185,28 +179,26 @@ void add_missing(const RigLaw& law, std::size_t index, const std::vector<FitPara
       if (std::ranges::find(instead, parameter.name) != instead.end() && parameter.required()) need(parameter);
   }
   for (const Parameter& parameter : law.entry->parameters)
-    if (is_level_of_rest(*law.entry, parameter) && !law.values.has(parameter.name))
-      names.emplace_back(parameter.name);
+    if (parameter.needed_in_fit && !law.values.has(parameter.name)) names.emplace_back(parameter.name);
   for (const FitParameter& parameter : all)
     if (parameter.owner == Owner::law && parameter.index == index &&
         std::ranges::find(names, parameter.path) != names.end())
       missing.push_back(parameter);
 }
 
-/// The list that a share belongs to: "elements[2].share" gives "elements".
-std::string list_of_share(const std::string& path) {
-  return path.ends_with("].share") ? path.substr(0, path.find('[')) : std::string();
-}
-
 /// Sets the last share of each list to 1 minus the sum of the others. False if that is not positive.
-bool complete_shares(ParameterValues& values) {
-  for (const auto& [name, value] : values.values()) {
-    const auto* items = std::get_if<std::vector<ParameterValues>>(&value);
-    if (items == nullptr || items->size() < 2 || !items->front().has("share")) continue;
-    double left = 1.0;
-    for (std::size_t i = 0; i + 1 < items->size(); ++i) left -= (*items)[i].number("share");
-    if (!(left > 0.0)) return false;
-    *number_at(values, name + "[" + std::to_string(items->size() - 1) + "].share") = left;
+bool complete_shares(const friction::LawEntry& law, ParameterValues& values) {
+  for (const Parameter& list : law.parameters) {
+    if (list.kind != ParameterKind::list || !values.has(list.name)) continue;
+    const std::vector<ParameterValues>& items = values.list(list.name);
+    for (const Parameter& field : list.fields) {
+      if (!field.sums_to_one || items.size() < 2 || !items.front().has(field.name)) continue;
+      double left = 1.0;
+      for (std::size_t i = 0; i + 1 < items.size(); ++i) left -= items[i].number(field.name);
+      if (!(left > 0.0)) return false;
+      const std::string last = std::string(list.name) + "[" + std::to_string(items.size() - 1) + "].";
+      *number_at(values, last + std::string(field.name)) = left;
+    }
   }
   return true;
 }
@@ -224,11 +216,15 @@ std::optional<RecordParameter> find_record_parameter(std::string_view name) {
 
 std::vector<FitParameter> parameters_of(const Rig& rig) {
   std::vector<FitParameter> all;
-  for (const auto& [name, unit, owner, range] : system_numbers()) {
-    if (owner == Owner::phase && !rig.known.excitation.is_harmonic()) continue;
-    if (owner == Owner::force_offset && rig.known.excitation.type != sim::ExcitationType::force_harmonic) continue;
-    all.push_back(
-        {.name = name, .unit = unit, .owner = owner, .range = range, .stated = stated_number(rig.known, owner)});
+  for (const SystemNumber& number : system_numbers()) {
+    if (number.owner == Owner::phase && !rig.known.excitation.is_harmonic()) continue;
+    if (number.owner == Owner::force_offset && rig.known.excitation.type != sim::ExcitationType::force_harmonic)
+      continue;
+    all.push_back({.name = number.name,
+                   .unit = number.unit,
+                   .owner = number.owner,
+                   .range = number.range,
+                   .stated = number.stated(rig.known)});
   }
   for (std::size_t i = 0; i < rig.laws.size(); ++i)
     for (FitParameter& parameter : LawNumbers(rig.laws[i], i).all()) all.push_back(std::move(parameter));
@@ -275,8 +271,8 @@ std::vector<FitParameter> named(const std::vector<FitParameter>& all, const std:
 void arrange(const Rig& rig, std::vector<FitParameter>& parameters) {
   std::map<std::pair<std::size_t, std::string>, std::pair<std::size_t, std::size_t>> shares;  // last, count
   for (std::size_t i = 0; i < parameters.size(); ++i)
-    if (const std::string list = list_of_share(parameters[i].path); !list.empty()) {
-      auto& [last, count] = shares[{parameters[i].index, list}];
+    if (!parameters[i].share_of.empty()) {
+      auto& [last, count] = shares[{parameters[i].index, parameters[i].share_of}];
       last = i;
       ++count;
     }
@@ -307,50 +303,22 @@ void arrange(const Rig& rig, std::vector<FitParameter>& parameters) {
 std::optional<Rig> with_values(const Rig& rig, const std::vector<FitParameter>& parameters,
                                const Eigen::VectorXd& values) {
   Rig result = rig;
-  sim::Oscillator& o = result.known.oscillator;
-  std::optional<double> ratio;
+  const auto value_of = [&](std::size_t i) { return values[static_cast<Eigen::Index>(i)]; };
+  for (const SystemNumber& number : system_numbers())
+    for (std::size_t i = 0; i < parameters.size(); ++i)
+      if (parameters[i].owner == number.owner) number.set(result.known, value_of(i));
   for (std::size_t i = 0; i < parameters.size(); ++i) {
-    const FitParameter& parameter = parameters[i];
-    const double value = values[static_cast<Eigen::Index>(i)];
-    switch (parameter.owner) {
-      case Owner::mass:
-        o.mass = value;
-        break;
-      case Owner::stiffness:
-        o.stiffness = value;
-        break;
-      case Owner::cubic_stiffness:
-        o.cubic_stiffness = value;
-        break;
-      case Owner::damping:
-        o.damping = value;
-        break;
-      case Owner::damping_ratio:
-        ratio = value;
-        break;
-      case Owner::phase:
-        result.known.excitation.phase = value;
-        break;
-      case Owner::force_offset:
-        result.known.excitation.offset = value;
-        break;
-      case Owner::law: {
-        double* number = number_at(result.laws[parameter.index].values, parameter.path);
-        if (number == nullptr) return std::nullopt;
-        *number = value;
-        break;
-      }
-      case Owner::record:
-        break;
-    }
+    if (parameters[i].owner != Owner::law) continue;
+    double* number = number_at(result.laws[parameters[i].index].values, parameters[i].path);
+    if (number == nullptr) return std::nullopt;
+    *number = value_of(i);
   }
-  if (ratio) o.damping = 2.0 * *ratio * std::sqrt(o.mass * o.stiffness);
   for (std::size_t i = 0; i < result.laws.size(); ++i) {
     const bool sought = std::ranges::any_of(parameters, [&](const FitParameter& parameter) {
-      return parameter.owner == Owner::law && parameter.index == i && !list_of_share(parameter.path).empty();
+      return parameter.owner == Owner::law && parameter.index == i && !parameter.share_of.empty();
     });
     RigLaw& law = result.laws[i];
-    if (sought && !complete_shares(law.values)) return std::nullopt;
+    if (sought && !complete_shares(*law.entry, law.values)) return std::nullopt;
     // A default that follows another value, such as static = kinetic, is not stated here: it keeps following.
     ParameterValues completed = law.values;
     if (!friction::complete(*law.entry, completed).empty()) return std::nullopt;
@@ -378,28 +346,36 @@ std::optional<sim::Model> example_of(const Rig& rig, const std::vector<FitParame
   }
 }
 
-/// Whether the force of a law without a path behind it depends on the position.
-bool depends_on_place(const friction::Law& law) {
-  constexpr double far = 100.0;      // m
-  constexpr double rounding = 1e-5;  // N
-  const auto force_at = [&](double x) {
+/// The force of a law without a path behind it, and the size of its terms, which measures its rounding: the force of
+/// an unstretched contact is the small difference of k x and k a.
+struct ForceAt {
+  double force = 0.0;
+  double size = 0.0;
+
+  ForceAt(const friction::Law& law, double x) {
     sim::LawHost host(law, {.x = x});
     host.change_direction(friction::Direction::forward);
-    return host.force();
-  };
-  return std::abs(force_at(0.0) - force_at(far)) > rounding;
+    force = host.force();
+    size = std::abs(force);
+    if (!law.is_affine()) return;
+    const friction::Affine form = law.affine_force(host.memory(), host.now(), host.direction());
+    size += std::abs(form.constant) + std::abs(form.position * x);
+  }
+};
+
+bool depends_on_place(const friction::Law& law) {
+  constexpr double far = 100.0;  // m: beyond the gap of every stop
+  constexpr double rounding = 1e-12;
+  const ForceAt here(law, 0.0);
+  const ForceAt there(law, far);
+  return std::abs(here.force - there.force) > rounding * std::max(here.size, there.size);
 }
 
 }  // namespace
 
 bool holds_mass(const Rig& rig, const std::vector<FitParameter>& sought) {
   const std::optional<sim::Model> model = example_of(rig, sought);
-  if (!model) return false;
-  try {
-    return std::ranges::any_of(model->friction, &friction::Law::holds_mass);
-  } catch (const friction::LawFault&) {
-    return false;  // a law that cannot be computed is reported by the fit
-  }
+  return model && std::ranges::any_of(model->friction, &friction::Law::holds_mass);
 }
 
 bool feels_place(const Rig& rig, const std::vector<FitParameter>& sought) {

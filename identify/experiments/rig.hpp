@@ -73,6 +73,7 @@ struct FitParameter {
   double stated = unknown;                                       ///< stated value, at which the search begins
   std::optional<std::size_t> above = {};  ///< index of the parameter that this one must not be below
   std::string at_least = {};              ///< name of that parameter in the table of the law
+  std::string share_of = {};              ///< name of a list of the law whose values of this kind add to 1
 };
 
 struct Rig {

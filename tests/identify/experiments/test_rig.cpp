@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "core/random.hpp"
 #include "friction_models/laws/dahl.hpp"
@@ -155,6 +156,21 @@ TEST_CASE("loop: a loop of a velocity alone seeks its first position if there is
   const identify::Rig free = test::loop_alone(test::rig_with(test::law_case_of("contact_compliance")));
   CHECK(!identify::feels_place(free, {}));
   CHECK(identify::feels_place(test::loop_alone(test::rig_with(test::law_case_of("gap_spring"))), {}));
+}
+
+TEST_CASE("rig: whether a rig feels its position does not depend on the size of its forces", "[identify][fit]") {
+  for (const double size : {1e-9, 1.0, 1e9}) {
+    const auto feels = [&](const char* law, friction::ParameterValues values) {
+      return identify::feels_place(test::loop_alone(test::rig_with({law, std::move(values), {}})), {});
+    };
+    CAPTURE(size);
+    CHECK(feels("gap_spring", {{"stiffness", 1e-2 * size}, {"gap", 1e-3}}));
+    CHECK(feels("coulomb", {{"kinetic", size}, {"position_slope", 1e-3 * size}}));
+    CHECK(!feels("coulomb", {{"kinetic", size}, {"drift", 1e-3}}));
+    CHECK(!feels("iwan", {{"stiffness", 1.7e3 * size}, {"limit", size}, {"count", 9.0}}));
+    CHECK(!feels("bristle", {{"stiffness", 1.7e3 * size}, {"snap_distance", 1e-6}, {"count", 20.0}, {"seed", 3.0}}));
+    CHECK(!feels("attached_mass", {{"mass", 1e-3 * size}, {"stiffness", size}, {"damping", 1e-2 * size}}));
+  }
 }
 
 namespace {
