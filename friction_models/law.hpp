@@ -60,8 +60,8 @@ class Law {
     return model_->force(memory, now, direction);
   }
 
-  /// The memory holds the way of the mass: a slow motion loads it, as it does a contact spring.
-  [[nodiscard]] bool remembers_way() const { return abilities_.remembers_way; }
+  /// The memory holds the path of the mass: a slow motion loads it, as it does a contact spring.
+  [[nodiscard]] bool remembers_path() const { return abilities_.remembers_path; }
   /// False: the law remembers nothing; start, guards, jump and advance do nothing and need not be called.
   [[nodiscard]] bool has_memory() const { return abilities_.memory != nullptr; }
   [[nodiscard]] Memory start(const Instant& now) const {

@@ -172,7 +172,7 @@ class LawAdapter final : public LawModel,
             .delay = as<DelayAbility>(),
             .schedule = as<ScheduleAbility>(),
             .aperiodic = as<AperiodicAbility>(),
-            .remembers_way = WayMemory<L>};
+            .remembers_path = PathMemory<L>};
   }
 
  private:

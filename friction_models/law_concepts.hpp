@@ -101,10 +101,9 @@ concept ScaledLaw = requires(const L& law, const Memory& memory, std::span<doubl
   { law.scales(memory, scales) } -> std::same_as<void>;
 };
 
-/// Has a memory that a slow motion loads: of the way the mass has moved, as a contact spring has, not of times or
-/// speeds.
+/// Has a memory that a slow motion loads: of the path of the mass, as a contact spring has, not of times or speeds.
 template <class L>
-concept WayMemory = LawWithMemory<L> && requires { requires L::remembers_way; };
+concept PathMemory = LawWithMemory<L> && requires { requires L::remembers_path; };
 
 /// Depends on the velocity a fixed time ago. Returns this time [s], > 0.
 template <class L>

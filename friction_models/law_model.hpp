@@ -108,7 +108,7 @@ struct Abilities {
   const DelayAbility* delay = nullptr;
   const ScheduleAbility* schedule = nullptr;
   const AperiodicAbility* aperiodic = nullptr;
-  bool remembers_way = false;  ///< a slow motion loads the law, as it does a contact spring
+  bool remembers_path = false;  ///< a slow motion loads the law, as it does a contact spring
 };
 
 /// The interface of every law.

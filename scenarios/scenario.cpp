@@ -125,9 +125,9 @@ void refuse_many_laws(const sim::Model& model, const Document& document, const R
                        {}});
 }
 
-/// A travel before t = 0 loads nothing but a law that remembers its way.
+/// A travel before t = 0 loads nothing but a law that remembers its path.
 void refuse_idle_travel(const sim::Model& model, const Document& document, const Reading& reading) {
-  if (model.initial.travel == 0.0 || std::ranges::any_of(model.friction, &friction::Law::remembers_way)) return;
+  if (model.initial.travel == 0.0 || std::ranges::any_of(model.friction, &friction::Law::remembers_path)) return;
   throw core::InputError(
       core::Diagnostic{document.locate(reading.places.at("initial.travel")),
                        "'initial.travel' has no effect: no law of this file depends on earlier motion of the mass",
@@ -298,10 +298,10 @@ friction::ParameterValues law_parameters(const std::string& law, const std::vect
                                          const std::string& origin) {
   LoadOptions options;
   for (const std::string& assignment : set) options.set.push_back({"system.friction." + assignment, origin});
-  const std::string text =
-      "schema: dualdamp/1\nsystem: {mass: 1, stiffness: 1, damping: 0, friction: {law: " + law +
-      "}}\nexcitation: {type: force_harmonic, amplitude: 1, frequency: 1 rad/s}\n"
-      "analysis: {type: simulate, duration: 1}\n";
+  const std::string text = "schema: " + std::string(schema_name) +
+                           "\nsystem: {mass: 1, stiffness: 1, damping: 0, friction: {law: " + law +
+                           "}}\nexcitation: {type: force_harmonic, amplitude: 1, frequency: 1 rad/s}\n"
+                           "analysis: {type: simulate, duration: 1}\n";
   try {
     const Scenario around = parse_scenario(text, law, options);
     return law_values(friction::find_law(law)->parameters,

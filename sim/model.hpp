@@ -18,7 +18,7 @@ namespace dualdamp::sim {
 struct InitialState {
   double position = 0.0;  ///< m
   double velocity = 0.0;  ///< m/s
-  double travel = 0.0;    ///< way that has loaded the memories [m]
+  double travel = 0.0;    ///< path that has loaded the memories [m]
   std::vector<friction::Memory> memories{};
   friction::Direction direction = friction::Direction::none;
 };

@@ -27,7 +27,7 @@ namespace dualdamp::friction {
 
 class BoucWen {
  public:
-  static constexpr bool remembers_way = true;
+  static constexpr bool remembers_path = true;
   static const std::vector<Parameter>& parameters();
   /// A warning if these values are not passive.
   static std::vector<std::string> warnings(const ParameterValues& values);

@@ -25,7 +25,7 @@ namespace dualdamp::friction {
 
 class Bristle {
  public:
-  static constexpr bool remembers_way = true;
+  static constexpr bool remembers_path = true;
   static const std::vector<Parameter>& parameters();
 
   /// N/m of one bristle, > 0; m, > 0; at least one.

@@ -33,7 +33,7 @@ namespace dualdamp::friction {
 
 class ContactCompliance {
  public:
-  static constexpr bool remembers_way = true;
+  static constexpr bool remembers_path = true;
   static const std::vector<Parameter>& parameters();
 
   /// N, N, N/m, N.s/m; 0 <= kinetic <= static_level, 0 < stiffness, 0 <= damping.

@@ -24,7 +24,7 @@ namespace dualdamp::friction {
 
 class Dahl {
  public:
-  static constexpr bool remembers_way = true;
+  static constexpr bool remembers_path = true;
   static const std::vector<Parameter>& parameters();
 
   /// N > 0, N/m > 0, >= 1.

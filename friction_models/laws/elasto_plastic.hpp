@@ -29,7 +29,7 @@ namespace dualdamp::friction {
 
 class ElastoPlastic {
  public:
-  static constexpr bool remembers_way = true;
+  static constexpr bool remembers_path = true;
   static const std::vector<Parameter>& parameters();
   /// The fault of an elastic limit that is not below kinetic/sigma0.
   static std::vector<ParameterFault> check(const ParameterValues& values);

@@ -22,7 +22,7 @@ namespace dualdamp::friction {
 
 class FreePlay {
  public:
-  static constexpr bool remembers_way = true;
+  static constexpr bool remembers_path = true;
   static const std::vector<Parameter>& parameters();
 
   /// N, N, m; 0 <= kinetic <= static_level, 0 < play.

@@ -30,7 +30,7 @@ namespace dualdamp::friction {
 
 class GeneralizedMaxwellSlip {
  public:
-  static constexpr bool remembers_way = true;
+  static constexpr bool remembers_path = true;
   struct Element {
     double stiffness = 0.0;  ///< k_i > 0 [N/m]
     double share = 0.0;      ///< > 0, all together 1

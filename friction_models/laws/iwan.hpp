@@ -30,7 +30,7 @@ namespace dualdamp::friction {
 
 class Iwan {
  public:
-  static constexpr bool remembers_way = true;
+  static constexpr bool remembers_path = true;
   struct Element {
     double stiffness = 0.0;  ///< k_i > 0 [N/m]
     double limit = 0.0;      ///< f_i > 0 [N]

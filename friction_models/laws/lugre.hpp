@@ -29,7 +29,7 @@ namespace dualdamp::friction {
 
 class Lugre {
  public:
-  static constexpr bool remembers_way = true;
+  static constexpr bool remembers_path = true;
   /// Of the bristles: N/m > 0, N.s/m >= 0, N.s/m >= 0.
   struct Bristles {
     double sigma0 = 0.0;

@@ -21,7 +21,7 @@ namespace dualdamp::friction {
 
 class ResetIntegrator {
  public:
-  static constexpr bool remembers_way = true;
+  static constexpr bool remembers_path = true;
   static const std::vector<Parameter>& parameters();
 
   /// N, N/m, 1, N.s/m; 0 <= kinetic, 0 < stiffness, 0 <= static_gain, 0 <= damping.

@@ -179,7 +179,7 @@ Abilities ModifiedLaw::abilities() const {
           .delay = law_.abilities().delay,
           .schedule = this,
           .aperiodic = this,
-          .remembers_way = law_.remembers_way()};
+          .remembers_path = law_.remembers_path()};
 }
 
 Memory ModifiedLaw::start(const Instant& now) const {

@@ -55,10 +55,10 @@ FitParameter parameter_of_record(const Experiment& experiment, std::size_t index
           .stated = experiment.record_start[which]};
 }
 
-std::vector<RecordParameter> sought_of_record(const Experiment& experiment, bool feels_place) {
+std::vector<RecordParameter> sought_of_record(const Experiment& experiment, bool feels_position) {
   std::vector<RecordParameter> sought = experiment.record_free;
   for (const RecordParameter each : experiment.record_of_place)
-    if (feels_place && std::ranges::find(sought, each) == sought.end()) sought.push_back(each);
+    if (feels_position && std::ranges::find(sought, each) == sought.end()) sought.push_back(each);
   return sought;
 }
 

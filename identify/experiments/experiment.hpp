@@ -132,8 +132,8 @@ using Experiments = std::vector<std::unique_ptr<Experiment>>;
 [[nodiscard]] FitParameter parameter_of_record(const Experiment& experiment, std::size_t index,
                                                RecordParameter which, bool is_alone);
 
-/// The parameters of a record that are sought unless they are known. `feels_place`: that of the rig.
-[[nodiscard]] std::vector<RecordParameter> sought_of_record(const Experiment& experiment, bool feels_place);
+/// The parameters of a record that are sought unless they are known. `feels_position`: that of the rig.
+[[nodiscard]] std::vector<RecordParameter> sought_of_record(const Experiment& experiment, bool feels_position);
 
 /// What the caller states about a record.
 struct ExperimentOptions {

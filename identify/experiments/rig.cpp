@@ -346,8 +346,8 @@ std::optional<sim::Model> example_of(const Rig& rig, const std::vector<FitParame
   }
 }
 
-/// The force of a law without a path behind it, and the size of its terms, which measures its rounding: the force of
-/// an unstretched contact is the small difference of k x and k a.
+/// The force of a law without a path behind it, and the size of its terms, which measures its rounding: the force
+/// of an unstretched contact is the small difference of k x and k a.
 struct ForceAt {
   double force = 0.0;
   double size = 0.0;
@@ -363,7 +363,7 @@ struct ForceAt {
   }
 };
 
-bool depends_on_place(const friction::Law& law) {
+bool depends_on_position(const friction::Law& law) {
   constexpr double far = 100.0;  // m: beyond the gap of every stop
   constexpr double rounding = 1e-12;
   const ForceAt here(law, 0.0);
@@ -378,19 +378,19 @@ bool holds_mass(const Rig& rig, const std::vector<FitParameter>& sought) {
   return model && std::ranges::any_of(model->friction, &friction::Law::holds_mass);
 }
 
-bool feels_place(const Rig& rig, const std::vector<FitParameter>& sought) {
+bool feels_position(const Rig& rig, const std::vector<FitParameter>& sought) {
   const std::optional<sim::Model> model = example_of(rig, sought);
   if (!model) return false;
   try {
-    return model->oscillator.stiffness > 0.0 || std::ranges::any_of(model->friction, depends_on_place);
+    return model->oscillator.stiffness > 0.0 || std::ranges::any_of(model->friction, depends_on_position);
   } catch (const friction::LawFault&) {
     return false;  // a law that cannot be computed is reported by the fit
   }
 }
 
-bool remembers_way(const Rig& rig, const std::vector<FitParameter>& sought) {
+bool remembers_path(const Rig& rig, const std::vector<FitParameter>& sought) {
   const std::optional<sim::Model> model = example_of(rig, sought);
-  return !model || std::ranges::any_of(model->friction, &friction::Law::remembers_way);
+  return !model || std::ranges::any_of(model->friction, &friction::Law::remembers_path);
 }
 
 std::optional<sim::Model> model_of(Rig rig) {

@@ -107,11 +107,11 @@ void arrange(const Rig& rig, std::vector<FitParameter>& parameters);
 
 /// Whether a force of the rig depends on the position itself, as that of a spring, and not only on the path. Sought
 /// numbers count as they are stated, but those that are unknown or zero as 1.
-[[nodiscard]] bool feels_place(const Rig& rig, const std::vector<FitParameter>& sought);
+[[nodiscard]] bool feels_position(const Rig& rig, const std::vector<FitParameter>& sought);
 
 /// Whether a law of the rig remembers the path of the mass, so that a travel before the first sample can load it.
 /// Yes if a law cannot be made of these numbers.
-[[nodiscard]] bool remembers_way(const Rig& rig, const std::vector<FitParameter>& sought);
+[[nodiscard]] bool remembers_path(const Rig& rig, const std::vector<FitParameter>& sought);
 
 /// Whether a law of the rig can make the mass stick.
 [[nodiscard]] bool holds_mass(const Rig& rig, const std::vector<FitParameter>& sought);

@@ -30,7 +30,7 @@ bool may_be_loaded(const FitTask& task, const Eigen::VectorXd& values, std::size
   if (is_sought) return false;
   const std::optional<Rig> rig = with_values(task.rig, task.parameters, values);
   const std::optional<sim::Model> model = rig ? model_of(*rig) : std::nullopt;
-  return model && std::ranges::any_of(model->friction, &friction::Law::remembers_way);
+  return model && std::ranges::any_of(model->friction, &friction::Law::remembers_path);
 }
 
 class LoadSearch {

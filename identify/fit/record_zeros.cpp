@@ -58,7 +58,7 @@ std::string text_of(const Rig& rig, const Experiment& experiment, const FittedPa
 std::vector<FitParameter> parameters_of_records(const Rig& rig, const Experiments& experiments,
                                                 const std::vector<RecordZero>& zeros) {
   std::vector<FitParameter> list;
-  const bool placed = feels_place(rig, {});
+  const bool placed = feels_position(rig, {});
   for (std::size_t e = 0; e < experiments.size(); ++e) {
     std::vector<RecordParameter> sought = sought_of_record(*experiments[e], placed);
     for (const RecordZero& zero : zeros)

@@ -84,7 +84,7 @@ Setup setup_of(const Json& analysis, const Json& system, const Json& excitation,
     setup.candidates.push_back({std::move(rig), std::move(parameters)});
   }
   const auto is_loaded = [](const FitQuestion::Candidate& candidate) {
-    return identify::remembers_way(candidate.rig, candidate.parameters);
+    return identify::remembers_path(candidate.rig, candidate.parameters);
   };
   if (model.initial.travel != 0.0 && std::ranges::none_of(setup.candidates, is_loaded))
     faults.push_back(

@@ -86,11 +86,11 @@ LawHost::LawHost(const friction::Law& law, const Instant& start)
 }
 
 /// The path; for a law with a delay with the past velocity.
-Path LawHost::with_past(const Path& way) {
-  if (!(law_.delay() > 0.0)) return way;
-  strokes_.push_back({now_.t, way});
-  return [this, way](double t) {
-    Instant now = way(t);
+Path LawHost::with_past(const Path& path) {
+  if (!(law_.delay() > 0.0)) return path;
+  strokes_.push_back({now_.t, path});
+  return [this, path](double t) {
+    Instant now = path(t);
     const double then = t - law_.delay();
     const auto after = std::ranges::upper_bound(strokes_, then, {}, &Stroke::begin);
     now.past_velocity = after == strokes_.begin() ? first_velocity_ : std::prev(after)->path(then).v;
@@ -112,13 +112,13 @@ void LawHost::change_direction(Direction direction) {
   }
 }
 
-void LawHost::move_along(double end, const Path& way) {
-  const Path path = with_past(way);
+void LawHost::move_along(double end, const Path& path) {
+  const Path extended = with_past(path);
   for (int events = 0; now_.t < end && !broken_; ++events) {
     if (events > max_events) return give_up("there is no end of events within one step");
     const double scheduled = law_.next_change(memory_);
     const double stop = std::min(end, scheduled);
-    go_to_violation(stop, path);
+    go_to_violation(stop, extended);
     if (const int guard = worst_guard(); guard >= 0) {
       law_.jump(memory_, {guard}, now_, direction_);
     } else if (now_.t == scheduled) {

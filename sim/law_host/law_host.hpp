@@ -45,7 +45,7 @@ class LawHost {
   /// The mass stops and then moves in this direction, or sticks (none).
   void change_direction(friction::Direction direction);
   /// Moves the mass to time `end`, through the events of the law. The path must keep the present direction.
-  void move_along(double end, const Path& way);
+  void move_along(double end, const Path& path);
   /// The speed of the mass changes at once, as by a blow.
   void set_speed(double v) { now_.v = v; }
   /// Moves the mass to x at constant speed, in unit time.
@@ -59,7 +59,7 @@ class LawHost {
     Path path;
   };
 
-  [[nodiscard]] Path with_past(const Path& way);
+  [[nodiscard]] Path with_past(const Path& path);
   void integrate(double end, const Path& path);
   [[nodiscard]] int worst_guard();
   void go_to_violation(double end, const Path& path);

@@ -27,7 +27,7 @@ bool load_contacts(Model& model, double travel) {
 }
 
 LawHost loaded_host(const friction::Law& law, const Instant& at, double travel) {
-  if (travel == 0.0 || !law.remembers_way()) return {law, at};
+  if (travel == 0.0 || !law.remembers_path()) return {law, at};
   constexpr long most_steps = 100'000;
   LawHost host(law, {.t = at.t - 1.0, .x = at.x - travel});
   host.limit_steps(most_steps);

@@ -365,7 +365,7 @@ std::vector<FitParameter> parameters_for(const identify::Rig& rig, const identif
     for (FitParameter& parameter : found) add_new(std::move(parameter), parameters);
   }
   refuse_without_scale(rig, parameters, experiments, faults);
-  const bool placed = identify::feels_place(rig, parameters);
+  const bool placed = identify::feels_position(rig, parameters);
   for (std::size_t e = 0; e < experiments.size(); ++e)
     for (const RecordParameter free : identify::sought_of_record(*experiments[e], placed)) {
       const bool is_history = experiments[e]->kind == identify::ExperimentKind::history;

@@ -59,7 +59,7 @@ identify::Fit fit_of_loop(const RigLoop& plan, std::uint64_t seed, double sigma 
   std::vector<identify::FitParameter> parameters =
       test::sought_in(rig, {"mass", "stiffness", "damping", "kinetic"}, 1.0);
   for (const identify::RecordParameter each :
-       identify::sought_of_record(*experiments.front(), identify::feels_place(rig, parameters)))
+       identify::sought_of_record(*experiments.front(), identify::feels_position(rig, parameters)))
     parameters.push_back(identify::parameter_of_record(*experiments.front(), 0, each, true));
   identify::Fit fit = identify::fit_rig(rig, parameters, experiments, {.profile = false});
   REQUIRE(fit.outcome.ok());
@@ -154,21 +154,22 @@ TEST_CASE("loop: a loop of a velocity alone seeks its first position if there is
   CHECK(test::fitted(fit, "offset").value == Approx(-first).epsilon(0.01));
   // Friction feels ways only, a stop the position itself.
   const identify::Rig free = test::loop_alone(test::rig_with(test::law_case_of("contact_compliance")));
-  CHECK(!identify::feels_place(free, {}));
-  CHECK(identify::feels_place(test::loop_alone(test::rig_with(test::law_case_of("gap_spring"))), {}));
+  CHECK(!identify::feels_position(free, {}));
+  CHECK(identify::feels_position(test::loop_alone(test::rig_with(test::law_case_of("gap_spring"))), {}));
 }
 
 TEST_CASE("rig: whether a rig feels its position does not depend on the size of its forces", "[identify][fit]") {
   for (const double size : {1e-9, 1.0, 1e9}) {
     const auto feels = [&](const char* law, friction::ParameterValues values) {
-      return identify::feels_place(test::loop_alone(test::rig_with({law, std::move(values), {}})), {});
+      return identify::feels_position(test::loop_alone(test::rig_with({law, std::move(values), {}})), {});
     };
     CAPTURE(size);
     CHECK(feels("gap_spring", {{"stiffness", 1e-2 * size}, {"gap", 1e-3}}));
     CHECK(feels("coulomb", {{"kinetic", size}, {"position_slope", 1e-3 * size}}));
     CHECK(!feels("coulomb", {{"kinetic", size}, {"drift", 1e-3}}));
     CHECK(!feels("iwan", {{"stiffness", 1.7e3 * size}, {"limit", size}, {"count", 9.0}}));
-    CHECK(!feels("bristle", {{"stiffness", 1.7e3 * size}, {"snap_distance", 1e-6}, {"count", 20.0}, {"seed", 3.0}}));
+    CHECK(
+        !feels("bristle", {{"stiffness", 1.7e3 * size}, {"snap_distance", 1e-6}, {"count", 20.0}, {"seed", 3.0}}));
     CHECK(!feels("attached_mass", {{"mass", 1e-3 * size}, {"stiffness", size}, {"damping", 1e-2 * size}}));
   }
 }
@@ -203,7 +204,7 @@ identify::Fit fit_of_one_sine(const identify::Rig& rig, const identify::History&
       identify::experiments_of(record, {.name = "loop", .loop = true, .has_mass = true}, fault);
   REQUIRE(fault.empty());
   for (const identify::RecordParameter each :
-       identify::sought_of_record(*experiments.front(), identify::feels_place(rig, parameters)))
+       identify::sought_of_record(*experiments.front(), identify::feels_position(rig, parameters)))
     parameters.push_back(identify::parameter_of_record(*experiments.front(), 0, each, true));
   identify::Fit fit = identify::fit_rig(rig, parameters, experiments, {.profile = false});
   REQUIRE(fit.outcome.ok());

@@ -51,7 +51,7 @@ identify::Rig dahl_alone() {
 
 }  // namespace
 
-TEST_CASE("loop: noise at rest does not move a law that remembers the way", "[identify][fit]") {
+TEST_CASE("loop: noise at rest does not move a law that remembers the path", "[identify][fit]") {
   for (const bool has_speed : {true, false}) {
     CAPTURE(has_speed);
     std::string fault;
