@@ -46,17 +46,15 @@ struct ForceBalance {
   Allowed stiffness, mass;
 };
 
-/// Relative size of the errors that are stated, of the given number of standard uncertainties.
+/// Relative size of the errors that are stated.
 struct StatedErrors {
   double ratio = 0.0;  ///< of m w^2/k
   double gain = 0.0;   ///< of x/Y
 };
 
 StatedErrors stated_errors(const KnownConstants& constants, const ConstantUncertainties& of) {
-  constexpr double of_level = 2.6;  // standard uncertainties, a level of 1 %
-  const double of_frequency = of.frequency > 0.0 ? 2.0 * of.frequency / constants.frequency : 0.0;
-  return {of_level * std::hypot(of.mass / constants.mass, of.stiffness / constants.stiffness, of_frequency),
-          of_level * std::hypot(of.gain_x, of.gain_y)};
+  return {counted_deviations * relative_of_inertia(of, constants),
+          counted_deviations * std::hypot(of.gain_x, of.gain_y)};
 }
 
 ForceBalance force_balance(const std::vector<Pair>& pairs, const KnownConstants& constants,

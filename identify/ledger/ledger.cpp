@@ -266,13 +266,9 @@ class Writer {
     const ConstantUncertainties& u = options_.uncertainties;
     if (!u.any()) return false;
     const KnownConstants& known = stated_;
-    const auto share = [](double uncertainty, double of) { return uncertainty > 0.0 ? uncertainty / of : 0.0; };
-    const double of_constants = std::hypot(share(u.mass, known.mass), share(u.stiffness, known.stiffness),
-                                           2.0 * share(u.frequency, known.frequency));
     const double of_gains =
         std::hypot(std::hypot(u.gain_x, u.gain_y, u.gain_force), std::hypot(u.gain_v, u.gain_a));
-    constexpr double deviations = 2.6;
-    const double allowed = deviations * std::hypot(of_constants, of_gains);
+    const double allowed = counted_deviations * std::hypot(relative_of_inertia(u, known), of_gains);
     const Relaxation& relaxation = model_.relaxations[test.index];
     if (relaxation.assumption == Assumption::constants)
       return std::abs(std::log(test.constants.mass / known.mass)) < allowed &&

@@ -61,14 +61,6 @@ void multiply_v(Input& input, double factor) {
   multiply(input.record, &History::v, factor);
 }
 
-/// One constant that may be off. `multiply` makes an input in which it is `factor` times as large.
-struct Constant {
-  std::string_view name;
-  void (*multiply)(Input& input, double factor);
-  double (*relative)(const ConstantUncertainties& uncertainties, const KnownConstants& constants);
-  bool (*is_present)(const Input& input);
-};
-
 template <Signal signal>
 bool holds(const Input& input) {
   return std::ranges::any_of(input.record.histories, [](const History& h) { return !(h.*signal).empty(); });
@@ -76,26 +68,37 @@ bool holds(const Input& input) {
 
 bool has_pairs(const Input& input) { return input.record.pairs.has_value(); }
 
-constexpr std::array<Constant, 8> all_constants = {{
-    {"mass", [](Input& input, double factor) { input.constants.mass *= factor; },
-     [](const ConstantUncertainties& u, const KnownConstants& known) { return u.mass / known.mass; },
+/// How an input reads with a stated number `factor` times as large, and whether it has this number.
+struct Variable {
+  StatedNumber number;
+  void (*multiply)(Input& input, double factor);
+  bool (*is_present)(const Input& input);
+};
+
+/// The stated number of this uncertainty.
+consteval StatedNumber stated_number(double ConstantUncertainties::* uncertainty) {
+  return *std::ranges::find(stated_numbers, uncertainty, &StatedNumber::uncertainty);
+}
+
+constexpr std::array<Variable, stated_numbers.size()> variables = {{
+    {stated_number(&ConstantUncertainties::mass),
+     [](Input& input, double factor) { input.constants.mass *= factor; },
      [](const Input& input) { return input.constants.mass > 0.0; }},
-    {"stiffness", [](Input& input, double factor) { input.constants.stiffness *= factor; },
-     [](const ConstantUncertainties& u, const KnownConstants& known) { return u.stiffness / known.stiffness; },
+    {stated_number(&ConstantUncertainties::stiffness),
+     [](Input& input, double factor) { input.constants.stiffness *= factor; },
      [](const Input& input) { return input.constants.stiffness > 0.0; }},
-    {"frequency", multiply_frequency,
-     [](const ConstantUncertainties& u, const KnownConstants& known) { return u.frequency / known.frequency; },
+    {stated_number(&ConstantUncertainties::frequency), multiply_frequency,
      [](const Input& input) { return input.constants.frequency > 0.0 && !input.record.decay; }},
-    {"gain of y", multiply_y, [](const ConstantUncertainties& u, const KnownConstants&) { return u.gain_y; },
+    {stated_number(&ConstantUncertainties::gain_y), multiply_y,
      [](const Input& input) { return has_pairs(input) || holds<&History::y>(input); }},
-    {"gain of x", multiply_x, [](const ConstantUncertainties& u, const KnownConstants&) { return u.gain_x; },
+    {stated_number(&ConstantUncertainties::gain_x), multiply_x,
      [](const Input& input) { return has_pairs(input) || input.record.decay || holds<&History::x>(input); }},
-    {"gain of v", multiply_v, [](const ConstantUncertainties& u, const KnownConstants&) { return u.gain_v; },
+    {stated_number(&ConstantUncertainties::gain_v), multiply_v,
      [](const Input& input) { return has_pairs(input) || holds<&History::v>(input); }},
-    {"gain of a", [](Input& input, double factor) { multiply(input.record, &History::a, factor); },
-     [](const ConstantUncertainties& u, const KnownConstants&) { return u.gain_a; }, holds<&History::a>},
-    {"gain of force", [](Input& input, double factor) { multiply(input.record, &History::force, factor); },
-     [](const ConstantUncertainties& u, const KnownConstants&) { return u.gain_force; }, holds<&History::force>},
+    {stated_number(&ConstantUncertainties::gain_a),
+     [](Input& input, double factor) { multiply(input.record, &History::a, factor); }, holds<&History::a>},
+    {stated_number(&ConstantUncertainties::gain_force),
+     [](Input& input, double factor) { multiply(input.record, &History::force, factor); }, holds<&History::force>},
 }};
 
 /// The estimates with one constant lower and higher than stated. If one fails, the stated one is in its place.
@@ -113,9 +116,9 @@ class Variation {
       : read_(read), input_(input), stated_(stated) {}
 
   /// The estimates at both sides; `deviation` is relative.
-  [[nodiscard]] std::optional<Bracket> at(const Constant& constant, double deviation) {
-    low_ = run(constant, 1.0 - deviation);
-    high_ = run(constant, 1.0 + deviation);
+  [[nodiscard]] std::optional<Bracket> at(const Variable& variable, double deviation) {
+    low_ = run(variable, 1.0 - deviation);
+    high_ = run(variable, 1.0 + deviation);
     const bool has_low = low_.outcome.ok();
     const bool has_high = high_.outcome.ok();
     if (!has_low && !has_high) return std::nullopt;
@@ -124,9 +127,9 @@ class Variation {
   }
 
  private:
-  Estimate run(const Constant& constant, double factor) const {
+  Estimate run(const Variable& variable, double factor) const {
     Input input = input_;
-    constant.multiply(input, factor);
+    variable.multiply(input, factor);
     return read_(input.record, input.constants);
   }
 
@@ -239,8 +242,16 @@ double relative_change(const Estimate& from, const Estimate& to, const ReportedP
 }  // namespace
 
 bool ConstantUncertainties::any() const {
-  return mass > 0.0 || stiffness > 0.0 || frequency > 0.0 || gain_y > 0.0 || gain_x > 0.0 || gain_v > 0.0 ||
-         gain_a > 0.0 || gain_force > 0.0;
+  return std::ranges::any_of(stated_numbers,
+                             [this](const StatedNumber& number) { return this->*number.uncertainty > 0.0; });
+}
+
+double relative_of_inertia(const ConstantUncertainties& uncertainties, const KnownConstants& constants) {
+  constexpr StatedNumber mass = stated_number(&ConstantUncertainties::mass);
+  constexpr StatedNumber stiffness = stated_number(&ConstantUncertainties::stiffness);
+  constexpr StatedNumber frequency = stated_number(&ConstantUncertainties::frequency);
+  return std::hypot(mass.relative(uncertainties, constants), stiffness.relative(uncertainties, constants),
+                    2.0 * frequency.relative(uncertainties, constants));
 }
 
 Estimate with_uncertainties(const Reader& read, const Record& record, const KnownConstants& constants,
@@ -251,21 +262,21 @@ Estimate with_uncertainties(const Reader& read, const Record& record, const Know
   Variation variation(read, input, stated);
   Estimate estimate = stated;
   bool not_carried = false;
-  for (const Constant& constant : all_constants) {
-    const double deviation = constant.relative(uncertainties, constants);
+  for (const Variable& variable : variables) {
+    const double deviation = variable.number.relative(uncertainties, constants);
     if (!(deviation > 0.0)) continue;
-    if (const std::optional<Bracket> bracket = variation.at(constant, deviation)) {
+    if (const std::optional<Bracket> bracket = variation.at(variable, deviation)) {
       Change change = change_by(*bracket, stated);
       // A record may tell a large error of a constant, and correct it: the smaller ones that it does not tell
       // count.
       constexpr double small = 0.05;
       for (double smaller = 0.5 * deviation; smaller > 0.5 * small; smaller *= 0.5)
-        if (const std::optional<Bracket> inner = variation.at(constant, smaller))
+        if (const std::optional<Bracket> inner = variation.at(variable, smaller))
           take_larger(change_by(*inner, stated), change);
       add(change, estimate);
     } else {
       not_carried = true;
-      estimate.warnings.push_back("the uncertainty of the " + std::string(constant.name) +
+      estimate.warnings.push_back("the uncertainty of the " + variable.number.text() +
                                   " allows no interval: with a value off by " +
                                   core::format_number(100.0 * deviation, 3) + " % there is no estimate");
     }
@@ -280,14 +291,14 @@ std::vector<Sensitivity> sensitivities(const Reader& read, const Estimate& state
   constexpr double higher = 1.01;
   std::vector<Sensitivity> list;
   if (!stated.outcome.ok()) return list;
-  for (const Constant& constant : all_constants) {
-    if (constant.relative(uncertainties, constants) > 0.0) continue;
+  for (const Variable& variable : variables) {
+    if (variable.number.relative(uncertainties, constants) > 0.0) continue;
     Input input{record, constants};
-    if (!constant.is_present(input)) continue;
-    constant.multiply(input, higher);
+    if (!variable.is_present(input)) continue;
+    variable.multiply(input, higher);
     const Estimate moved = read(input.record, input.constants);
     if (!moved.outcome.ok()) continue;
-    const Sensitivity found{std::string(constant.name), relative_change(stated, moved, reported_parameters.front()),
+    const Sensitivity found{variable.number.text(), relative_change(stated, moved, reported_parameters.front()),
                             relative_change(stated, moved, reported_parameters.back())};
     // A constant that the method does not use moves nothing.
     constexpr double nothing = 1e-5;

@@ -10,8 +10,10 @@
 /// than 5 %, errors of its half, quarter, ... down to some 3 % are tried as well, and the largest d counts: a
 /// record may tell a large error and correct it. Cost: two readings for each error.
 
+#include <array>
 #include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "identify/estimate.hpp"
@@ -30,9 +32,45 @@ struct ConstantUncertainties {
   [[nodiscard]] bool any() const;
 };
 
+/// One of the numbers that a laboratory states: a constant, or the gain of the sensor of a signal.
+struct StatedNumber {
+  std::string_view name;  ///< of the constant, or of the signal
+  double ConstantUncertainties::* uncertainty = nullptr;
+  double KnownConstants::* constant = nullptr;  ///< nullptr: a gain, whose uncertainty is relative
+
+  [[nodiscard]] bool is_gain() const { return constant == nullptr; }
+  /// "mass", "gain of x"
+  [[nodiscard]] std::string text() const { return (is_gain() ? "gain of " : "") + std::string(name); }
+  /// The uncertainty as a share of the number; 0 where none is stated.
+  [[nodiscard]] double relative(const ConstantUncertainties& uncertainties, const KnownConstants& constants) const {
+    const double deviation = uncertainties.*uncertainty;
+    if (!(deviation > 0.0)) return 0.0;
+    return is_gain() ? deviation : deviation / constants.*constant;
+  }
+};
+
+inline constexpr std::array<StatedNumber, 8> stated_numbers = {
+    {{"mass", &ConstantUncertainties::mass, &KnownConstants::mass},
+     {"stiffness", &ConstantUncertainties::stiffness, &KnownConstants::stiffness},
+     {"frequency", &ConstantUncertainties::frequency, &KnownConstants::frequency},
+     {"y", &ConstantUncertainties::gain_y},
+     {"x", &ConstantUncertainties::gain_x},
+     {"v", &ConstantUncertainties::gain_v},
+     {"a", &ConstantUncertainties::gain_a},
+     {"force", &ConstantUncertainties::gain_force}}};
+static_assert(sizeof(ConstantUncertainties) == stated_numbers.size() * sizeof(double),
+              "each uncertainty has a row in this table");
+
+/// So many standard uncertainties count when constants and gains are said to be as stated: a level of 1 %.
+inline constexpr double counted_deviations = 2.6;
+
+/// Relative standard uncertainty of m w^2/k.
+[[nodiscard]] double relative_of_inertia(const ConstantUncertainties& uncertainties,
+                                         const KnownConstants& constants);
+
 /// Change of an estimate when one constant is 1 % higher.
 struct Sensitivity {
-  std::string constant;      ///< "mass", "stiffness", "frequency", "gain of x", ...
+  std::string constant;      ///< text of a `StatedNumber`: "mass", "stiffness", "frequency", "gain of x", ...
   double zeta_change = 0.0;  ///< relative; NaN where there is no spring and so no zeta
   double F0_change = 0.0;    ///< relative
 };

@@ -119,18 +119,16 @@ void check_identify(CheckedFile& file) {
 
 identify::ConstantUncertainties uncertainties_of(const CheckedValues& values) {
   identify::ConstantUncertainties uncertainties;
-  for (const auto& [section, key, value] : {std::tuple{&values.system, "mass", &uncertainties.mass},
-                                            {&values.system, "stiffness", &uncertainties.stiffness},
-                                            {&values.excitation, "frequency", &uncertainties.frequency}})
-    if (section->is_object()) *value = number_or(*section, uncertainty_key(key), 0.0);
-  if (!values.analysis.contains("gain_uncertainty")) return uncertainties;
-  const Json& gains = values.analysis.at("gain_uncertainty");
-  for (const auto& [key, value] : {std::pair{gains.contains("Y") ? "Y" : "y", &uncertainties.gain_y},
-                                   {"x", &uncertainties.gain_x},
-                                   {"v", &uncertainties.gain_v},
-                                   {"a", &uncertainties.gain_a},
-                                   {"force", &uncertainties.gain_force}})
-    *value = number_or(gains, key, 0.0);
+  const Json gains = values.analysis.value("gain_uncertainty", Json::object());
+  for (const identify::StatedNumber& number : identify::stated_numbers) {
+    const bool is_of_drive = number.constant == &identify::KnownConstants::frequency;
+    const Json& section = number.is_gain() ? gains : is_of_drive ? values.excitation : values.system;
+    const bool is_of_Y = number.is_gain() && number.name == "y" && gains.contains("Y");
+    const std::string key = is_of_Y            ? "Y"
+                            : number.is_gain() ? std::string(number.name)
+                                               : uncertainty_key(std::string(number.name));
+    if (section.is_object()) uncertainties.*number.uncertainty = number_or(section, key, 0.0);
+  }
   return uncertainties;
 }
 
@@ -142,7 +140,7 @@ identify::Reader reader_of(const identify::MethodEntry& method, const identify::
 }
 
 /// The estimate of the ledger's joint model from any record.
-identify::Reader joint_estimate(const identify::LedgerOptions& options) {
+identify::Reader reader_of_joint(const identify::LedgerOptions& options) {
   return [options](const identify::Record& record, const identify::KnownConstants& constants) {
     return identify::ledger_of(record, constants, options)
         .joint.value_or(
@@ -249,7 +247,7 @@ identify::Identification IdentifyQuestion::conclude(const identify::Record& data
     const identify::Reader reader = reader_of(*method, methods_.options);
     estimates.push_back(method->takes_seconds ? slow_estimate(reader, record) : read(reader));
   }
-  if (ledger.joint && methods_.uncertainties.any()) ledger.joint = read(joint_estimate(methods_.ledger));
+  if (ledger.joint && methods_.uncertainties.any()) ledger.joint = read(reader_of_joint(methods_.ledger));
   for (identify::Estimate& estimate : estimates) identify::widen(estimate, within);
   if (ledger.joint) identify::widen(*ledger.joint, within);
   return identify::concluded(std::move(estimates), std::move(ledger));

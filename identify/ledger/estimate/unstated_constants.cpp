@@ -31,17 +31,14 @@ struct Moved {
 
 /// Constants, then gains, of which none is stated to be surer.
 std::array<Moved, 2> unstated(const KnownConstants& constants, const LedgerOptions& options, const Ledger& ledger) {
-  const auto assume = [&](double ConstantUncertainties::* member, double size, ConstantUncertainties& list) {
-    if (!(options.uncertainties.*member > 0.0) && std::isfinite(size)) list.*member = unstated_uncertainty * size;
-  };
-  using U = ConstantUncertainties;
   std::array<Moved, 2> list = {
       {{{}, most_missed(ledger, Assumption::constants)}, {{}, most_missed(ledger, Assumption::sensors)}}};
-  assume(&U::mass, constants.mass, list[0].by);
-  assume(&U::stiffness, constants.stiffness, list[0].by);
-  assume(&U::frequency, constants.frequency, list[0].by);
-  for (const auto member : {&U::gain_x, &U::gain_y, &U::gain_v, &U::gain_a, &U::gain_force})
-    assume(member, 1.0, list[1].by);
+  for (const StatedNumber& number : stated_numbers) {
+    const double size = number.is_gain() ? 1.0 : constants.*number.constant;
+    ConstantUncertainties& by = list[number.is_gain() ? 1 : 0].by;
+    if (!(options.uncertainties.*number.uncertainty > 0.0) && std::isfinite(size))
+      by.*number.uncertainty = unstated_uncertainty * size;
+  }
   return list;
 }
 

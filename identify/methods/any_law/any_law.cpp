@@ -117,10 +117,8 @@ Estimate plain_estimate(const Record& record, const KnownConstants& constants, c
 
 /// The largest relative uncertainty.
 double largest_of(const ConstantUncertainties& u, const KnownConstants& constants) {
-  double largest = std::max({u.gain_y, u.gain_x, u.gain_v, u.gain_a, u.gain_force});
-  for (const auto& [deviation, value] :
-       {std::pair{u.mass, constants.mass}, {u.stiffness, constants.stiffness}, {u.frequency, constants.frequency}})
-    if (deviation > 0.0) largest = std::max(largest, deviation / value);
+  double largest = 0.0;
+  for (const StatedNumber& number : stated_numbers) largest = std::max(largest, number.relative(u, constants));
   return largest;
 }
 
@@ -193,9 +191,7 @@ Estimate moved_by_constants(const Record& record, const KnownConstants& constant
   constexpr double small = 2e-3;
   const double times = std::max(largest_of(uncertainties, constants) / small, 1.0);
   ConstantUncertainties step = uncertainties;
-  for (double* one : {&step.mass, &step.stiffness, &step.frequency, &step.gain_y, &step.gain_x, &step.gain_v,
-                      &step.gain_a, &step.gain_force})
-    *one /= times;
+  for (const StatedNumber& number : stated_numbers) step.*number.uncertainty /= times;
   std::optional<StatedFit> stated;
   const Reader read = [&options, &stated](const Record& again, const KnownConstants& moved) {
     return plain_estimate(again, moved, options, stated);

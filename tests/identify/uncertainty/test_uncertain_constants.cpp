@@ -62,6 +62,24 @@ TEST_CASE("Uncertain constants widen the intervals by what they do to the estima
   CHECK((*wide.covariance)(1, 1) == Approx((*exact.covariance)(1, 1) + std::pow(0.03 * F0, 2)).epsilon(1e-6));
 }
 
+TEST_CASE("Each uncertainty counts alone, as a share of its number") {
+  CHECK_FALSE(ConstantUncertainties{}.any());
+  const KnownConstants known{2.0, 400.0, 10.0};
+  for (const StatedNumber& number : stated_numbers) {
+    CAPTURE(number.text());
+    ConstantUncertainties alone;
+    alone.*number.uncertainty = 0.5;
+    CHECK(alone.any());
+    CHECK(number.relative(alone, known) == (number.is_gain() ? 0.5 : 0.5 / known.*number.constant));
+    const bool is_known = number.relative(alone, {}) >= 0.0;  // of an unknown constant there is none
+    CHECK(is_known == number.is_gain());
+    CHECK(number.relative({}, {}) == 0.0);
+  }
+  // m w^2/k with dm/m = 1 %, dk/k = 2 % and dw/w = 1 %
+  CHECK(relative_of_inertia({.mass = 0.02, .stiffness = 8.0, .frequency = 0.1}, known) ==
+        Approx(0.01 * std::sqrt(1.0 + 4.0 + 4.0)));
+}
+
 TEST_CASE("The gain of a sensor that is uncertain makes lengths uncertain") {
   const Record record = decay(0.9, 2e-4, 2e-5, 2);
   const Estimate exact = by_free_decay(record, constants);
