@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace dualdamp::identify {
 
@@ -36,6 +37,32 @@ void refuse_without_numbers(const DataTable& table) {
 }
 
 }  // namespace
+
+void complain(const DataTable& table, const std::vector<std::size_t>& rows, std::string_view name,
+              const std::string& message, const std::string& allowed, Problems& problems) {
+  if (rows.empty()) return;
+  const KnownColumn& column = *known_column(name);
+  core::Diagnostic problem = table.show(rows.front(), column);
+  problem.message = message;
+  problem.allowed = allowed;
+  std::vector<int> lines;
+  for (std::size_t i = 1; i < std::min(rows.size(), 1 + Problems::most_lines); ++i)
+    lines.push_back(table.show(rows[i], column).place.line);
+  problems.add(std::move(problem), rows.size() - 1, std::move(lines));
+}
+
+void check_increasing(const DataTable& table, std::size_t first, std::size_t count, Problems& problems) {
+  const std::vector<double>& t = table.find("t")->values;
+  std::vector<std::size_t> equal;
+  std::vector<std::size_t> back;
+  for (std::size_t row = first + 1; row < first + count; ++row) {
+    if (t[row] == t[row - 1]) equal.push_back(row);
+    if (t[row] < t[row - 1]) back.push_back(row);
+  }
+  const std::string allowed = "a time after the row above";
+  complain(table, equal, "t", std::string(no_increase_twice), allowed, problems);
+  complain(table, back, "t", std::string(no_increase), allowed, problems);
+}
 
 DataTable join(const std::string& file, const std::vector<TestColumns>& tests) {
   DataTable table;

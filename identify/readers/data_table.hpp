@@ -42,6 +42,15 @@ struct DataTable {
   [[nodiscard]] std::size_t rows() const { return columns.empty() ? 0 : columns.front().values.size(); }
 };
 
+/// Complains of the times of `count` rows from `first` that are not after the row above: one problem for those that
+/// are equal to it, one for those that are before it. The table has times.
+void check_increasing(const DataTable& table, std::size_t first, std::size_t count, Problems& problems);
+
+/// One problem of several rows, if there are any. Only some rows are shown, because `show` searches each from the
+/// start of the file.
+void complain(const DataTable& table, const std::vector<std::size_t>& rows, std::string_view name,
+              const std::string& message, const std::string& allowed, Problems& problems);
+
 /// One of several tests in a file. Its columns have equal lengths.
 struct TestColumns {
   std::string label;

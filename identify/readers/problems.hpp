@@ -10,6 +10,10 @@
 
 namespace dualdamp::identify {
 
+/// What is said of a time that is not after the one above it.
+inline constexpr std::string_view no_increase = "the time does not increase";
+inline constexpr std::string_view no_increase_twice = "the time does not increase: it appears twice";
+
 /// Collects problems. Throws `core::InputError` as soon as there are more kinds of problems than anyone would read.
 ///
 /// Problems with the same message become one problem at the first of their places. Its message states how many

@@ -64,18 +64,12 @@ class Assembly {
     return table_.show(source_row_.empty() ? row : source_row_[row], *known_column(name));
   }
 
-  /// One problem of several rows. Only some rows are shown, because `show` searches each from the start of the
-  /// file.
   void complain(const std::vector<std::size_t>& rows, std::string_view name, const std::string& message,
                 const std::string& allowed) {
-    if (rows.empty()) return;
-    core::Diagnostic problem = shown(rows.front(), name);
-    problem.message = message;
-    problem.allowed = allowed;
-    std::vector<int> lines;
-    for (std::size_t i = 1; i < std::min(rows.size(), 1 + Problems::most_lines); ++i)
-      lines.push_back(shown(rows[i], name).place.line);
-    problems_.add(std::move(problem), rows.size() - 1, std::move(lines));
+    std::vector<std::size_t> sources = rows;
+    if (!source_row_.empty())
+      for (std::size_t& row : sources) row = source_row_[row];
+    identify::complain(table_, sources, name, message, allowed, problems_);
   }
 
   void complain(std::size_t row, std::string_view name, const std::string& message, const std::string& allowed) {
@@ -207,24 +201,12 @@ class Assembly {
                     "signed extremes such as 5, -4, 3; or samples with their times t");
       if (values("t") == nullptr) continue;
       decays.back().times = cut(*values("t"), runs, i);
-      check_increasing(runs[i].first_row, decays.back().times.size());
+      check_increasing(table_, runs[i].first_row, decays.back().times.size(), problems_);
     }
     if (decays.size() == 1) return std::move(decays.front());
     DecayRecord mean = mean_decay(decays);
     warnings_.push_back(mean_decay_warning(decays.size(), mean.extremes.size()));
     return mean;
-  }
-
-  void check_increasing(std::size_t first, std::size_t count) {
-    const std::vector<double>& t = *values("t");
-    std::vector<std::size_t> equal;
-    std::vector<std::size_t> back;
-    for (std::size_t row = first + 1; row < first + count; ++row) {
-      if (t[row] == t[row - 1]) equal.push_back(row);
-      if (t[row] < t[row - 1]) back.push_back(row);
-    }
-    complain(equal, "t", "the time does not increase: it appears twice", "a time after the row above");
-    complain(back, "t", "the time does not increase", "a time after the row above");
   }
 
   std::vector<History> histories() {

@@ -200,20 +200,6 @@ MeasuredRecord assemble(TableFile file, const ReadOptions& options, Problems& pr
   return result;
 }
 
-void check_times(const DataTable& table, Problems& problems) {
-  const std::vector<double>& t = table.find("t")->values;
-  std::vector<std::size_t> faults;
-  for (std::size_t row = 1; row < t.size(); ++row)
-    if (!(t[row] > t[row - 1])) faults.push_back(row);
-  if (faults.empty()) return;
-  const std::size_t row = faults.front();
-  core::Diagnostic problem = table.show(row, *known_column("t"));
-  problem.message =
-      t[row] == t[row - 1] ? "the time does not increase: it appears twice" : "the time does not increase";
-  problem.allowed = "a time after the row above";
-  problems.add(std::move(problem), faults.size() - 1, {});
-}
-
 /// A few steps of time that are much longer than the others. Times of a signal need not be even.
 void warn_of_gaps(const std::vector<double>& t, std::vector<std::string>& warnings) {
   constexpr std::size_t fewest = 16;
@@ -252,7 +238,7 @@ MeasuredSignal signal_of(TableFile file, std::string_view column, const std::str
     refuse_file(name, "the file holds several tests", "one signal over its times");
   if (file.table.rows() < 2)
     refuse_file(name, "the signal has too few samples", "two or more", std::to_string(file.table.rows()));
-  check_times(file.table, problems);
+  check_increasing(file.table, 0, file.table.rows(), problems);
   check_magnitudes(file.table, problems);
   problems.throw_if_any();
   warn_of_gaps(file.table.find("t")->values, warnings);

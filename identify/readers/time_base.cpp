@@ -8,6 +8,7 @@
 
 #include "core/diagnostics.hpp"
 #include "core/numbers.hpp"
+#include "identify/readers/problems.hpp"
 #include "identify/statistics/median.hpp"
 
 namespace dualdamp::identify {
@@ -54,7 +55,7 @@ class StampReader {
     if (std::ranges::any_of(t_, [](double t) { return std::isnan(t); })) return {};  // already reported
     const auto back = first_step_back();
     if (back < t_.size())
-      return fault(back, "the time does not increase",
+      return fault(back, std::string(no_increase),
                    "a time after the row above; several tests need labels in a column sweep");
     const bool even = is_even(all_);
     if (even && holds_few_doubles()) return with_few_doubles();
@@ -257,7 +258,7 @@ class StampReader {
     }
     constexpr double clearly = 10.0;
     if (with > clearly * without)
-      return fault(first_double(), "the time does not increase: it appears twice, with other values",
+      return fault(first_double(), std::string(no_increase_twice) + ", with other values",
                    "one row for each time; several tests need labels in a column sweep");
     if (without > clearly * with) return rows(all_, {});
     return rows(all_, std::to_string(doubles) + (doubles == 1 ? " time appears" : " times appear") +
@@ -283,7 +284,7 @@ class StampReader {
     const auto doubles = std::erase(between, 0.0);
     constexpr double fewest = 0.1;
     if (static_cast<double>(doubles) < fewest * static_cast<double>(all_.size() - 1))
-      return fault(first_double(), "the time does not increase: it appears twice",
+      return fault(first_double(), std::string(no_increase_twice),
                    "a time after the row above; several tests need labels in a column sweep");
     const std::size_t worst = worst_row(all_);
     if (between.empty()) return fault(worst, "all times are equal", "times that increase");

@@ -89,7 +89,7 @@ class Check {
 
   std::vector<core::Diagnostic> run() {
     for (const History& history : record_.histories) {
-      if (check_times(history)) check_signals(history);
+      if (check_frequency(history)) check_signals(history);
       if (!faults_.empty()) return faults_;
     }
     if (record_.decay) check_decay(*record_.decay);
@@ -145,8 +145,8 @@ class Check {
     return true;
   }
 
-  /// Checks the times of a history. False after a fault.
-  bool check_times(const History& history) {
+  /// Checks the frequency of a motion by its times. False after a fault.
+  bool check_frequency(const History& history) {
     const double measured = guess_frequency(leading(history), history.sample_rate);
     if (!(measured > 0.0)) return true;
     const bool is_driven = !history.y.empty() && constants_.frequency > 0.0;

@@ -98,6 +98,14 @@ TEST_CASE("time stamps: times that run backwards are refused") {
   CHECK(mentions(refusal([&] { (void)parse_signal(text, "x", {.name = "data.csv"}); }), "does not increase"));
 }
 
+TEST_CASE(
+    "time stamps: times of a drive that are equal and times that go back are two problems, with their lines") {
+  const std::string text = "t [s],y [mm]\n0,1\n0.1,2\n0.1,3\n0.2,1\n0.15,2\n0.15,2\n0.3,1\n";
+  const std::string message = refusal([&] { (void)parse_signal(text, "y", {.name = "data.csv"}); });
+  CHECK(mentions(message, "it appears twice; the same in 1 more row (line 7)"));
+  CHECK(mentions(message, "the time does not increase\n"));
+}
+
 TEST_CASE("time stamps: a gap in the samples of a drive is told") {
   const auto gaps_of = [](const std::function<bool(int)>& is_there, double jitter) {
     std::string text = "t [s],y [mm]\n";
