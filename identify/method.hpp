@@ -73,9 +73,10 @@ struct MethodEntry {
   /// The values that belong to options of the method.
   [[nodiscard]] OptionValues own(const OptionValues& values) const;
 
-  /// If the record or the constants are not sound (validate.hpp), or the record lacks something or has too few
-  /// usable data, `outcome` is not ok() and has the reason. Values that do not belong to the method's options throw
-  /// a `core::InputError`.
+  /// If the pairs or the constants are not sound (validate.hpp), or the record lacks something or has too few
+  /// usable data, `outcome` is not ok() and has the reason. The methods themselves check the histories and extremes
+  /// that they read, and leave out those that they cannot use. Values that do not belong to the method's options
+  /// throw a `core::InputError`.
   [[nodiscard]] Estimate run(const Record& record, const KnownConstants& constants,
                              const OptionValues& values = {}) const;
 };

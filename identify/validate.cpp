@@ -48,8 +48,7 @@ void check(const DecayRecord& decay, Faults& faults) {
 void check(const History& history, const std::string& where, Faults& faults) {
   if (std::string fault = shape_fault(history); !fault.empty()) add(faults, where, fault, {});
   if (!std::isfinite(history.start)) add(faults, where, "the time of the first sample is not finite", {});
-  for (const auto* signal : {&history.y, &history.x, &history.v, &history.a, &history.force})
-    if (!is_finite(*signal)) return add(faults, where, "a sample is not finite", "finite numbers");
+  if (std::string fault = sample_fault(history); !fault.empty()) add(faults, where, fault, "finite numbers");
 }
 
 }  // namespace
@@ -76,6 +75,12 @@ std::vector<core::Diagnostic> faults_of(const KnownConstants& constants) {
 void require_sound(const Record& record) {
   if (std::vector<core::Diagnostic> faults = faults_of(record); !faults.empty())
     throw core::InputError(std::move(faults));
+}
+
+std::string sample_fault(const History& history) {
+  for (const auto* signal : {&history.y, &history.x, &history.v, &history.a, &history.force})
+    if (!is_finite(*signal)) return "a sample is not finite";
+  return {};
 }
 
 std::string shape_fault(const History& history) {

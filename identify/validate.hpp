@@ -25,6 +25,9 @@ namespace dualdamp::identify {
 
 void require_sound(const Record& record);
 
+/// Why the samples of a history have no meaning; empty when they do.
+[[nodiscard]] std::string sample_fault(const History& history);
+
 /// Why the signals of a history do not belong together; empty when they do. Checks lengths and rate only, no
 /// samples.
 [[nodiscard]] std::string shape_fault(const History& history);

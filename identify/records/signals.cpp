@@ -243,15 +243,10 @@ std::vector<double> cutoffs_for(const History& history, const FilterOptions& opt
 }
 
 std::string fault_of(const History& history) {
-  if (!(history.sample_rate > 0.0) || !std::isfinite(history.sample_rate)) return "the sample rate is not positive";
+  if (std::string fault = shape_fault(history); !fault.empty()) return fault;
   if (history.x.empty()) return std::string(without_x);
   if (history.x.size() < 16) return "there are fewer than 16 samples";
-  for (const auto* signal : {&history.y, &history.x, &history.v, &history.a, &history.force}) {
-    if (!signal->empty() && signal->size() != history.x.size()) return "the signals are of different length";
-    if (!std::ranges::all_of(*signal, [](double value) { return std::isfinite(value); }))
-      return "a sample is not finite";
-  }
-  return {};
+  return sample_fault(history);
 }
 
 std::string fault_of_cutoff(const History& history, double cutoff) {

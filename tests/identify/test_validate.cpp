@@ -66,6 +66,17 @@ TEST_CASE("No method runs on constants that cannot be") {
     }
 }
 
+TEST_CASE("A method leaves out a history for the fault that the checks of a record name") {
+  CHECK(fault_of(with_lengths(20, 20)).empty());
+  History bad = with_lengths(20, 20);
+  bad.y[3] = infinity;
+  for (const History& history : {with_lengths(400, 100), bad}) {
+    const auto faults = faults_of(Record{{}, {}, {history}});
+    REQUIRE(faults.size() == 1);
+    CHECK(faults[0].message == "history 1: " + fault_of(history));
+  }
+}
+
 TEST_CASE("A history whose signals do not belong together gives no motion, pair or decay") {
   const History bad = with_lengths(400, 100);
   CHECK_THROWS_AS(static_cast<void>(motion_of(bad, 0.0)), core::InputError);
