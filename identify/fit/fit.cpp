@@ -89,10 +89,10 @@ void describe_signals(const FitProblem& problem, const Eigen::VectorXd& weights,
   if (count > 0.0) result.noise_units = std::sqrt(sum / count);
 }
 
-/// Why a law cannot be computed at the start values; empty if it can. What is wrong with a plugin is so at all
-/// values.
-std::string law_fault(const Rig& rig, const std::vector<FitParameter>& parameters, const std::vector<double>& sizes,
-                      const Experiments& experiments) {
+/// Why the motion cannot be computed at the start values; empty if it can. What is wrong with a plugin or with what
+/// is stated of the rig is so at all values.
+std::string motion_fault(const Rig& rig, const std::vector<FitParameter>& parameters,
+                         const std::vector<double>& sizes, const Experiments& experiments) {
   Eigen::VectorXd values(static_cast<Eigen::Index>(parameters.size()));
   for (std::size_t i = 0; i < parameters.size(); ++i)
     values[static_cast<Eigen::Index>(i)] = std::isnan(parameters[i].stated) ? sizes[i] : parameters[i].stated;
@@ -105,8 +105,8 @@ std::string law_fault(const Rig& rig, const std::vector<FitParameter>& parameter
         static_cast<void>(experiment->predict(*model, experiment->record_start, outputs));
   } catch (const friction::LawFault& fault) {
     return fault.what();
-  } catch (const core::InputError&) {
-    return {};
+  } catch (const core::InputError& error) {
+    return error.diagnostics().front().message;
   }
   return {};
 }
@@ -272,7 +272,7 @@ Fit fit_rig(const Rig& rig, std::vector<FitParameter> parameters, const Experime
     return result;
   }
   if (!found) {
-    const std::string fault = law_fault(rig, parameters, sizes, experiments);
+    const std::string fault = motion_fault(rig, parameters, sizes, experiments);
     result.outcome = {core::OutcomeKind::not_identifiable, "the rig has no such motion with any of " +
                                                                std::to_string(result.starts) + " starts" +
                                                                (fault.empty() ? "" : ": " + fault)};

@@ -430,3 +430,11 @@ TEST_CASE("fit: too few readings and impossible motions are outcomes", "[identif
   CHECK(!fit.outcome.ok());
   CHECK_THAT(fit.outcome.reason, Catch::Contains("6 parameters need more than 4 readings"));
 }
+
+TEST_CASE("fit: what is wrong with a stated number is named where no start has a motion", "[identify][fit]") {
+  identify::Rig rig = test::rig_with(test::law_case_of("coulomb"));
+  const Record decay = test::decay_of_rig(rig, 0.03, 12, 0.0, 1);
+  rig.known.solver.tolerance = 0.0;
+  const Fit fit = fit_records(rig, {"kinetic"}, {decay});
+  CHECK_THAT(fit.outcome.reason, Catch::Contains("the rig has no such motion") && Catch::Contains("tolerance"));
+}
