@@ -94,7 +94,10 @@ struct PlausibleValues {
   std::string_view because;    ///< where they come from
 };
 
-/// One line of the table: "base + values of the parameters -> model". The line `coulomb_viscous` adds nothing.
+/// Name of the line that adds nothing: Coulomb + viscous friction.
+inline constexpr std::string_view plain_name = "coulomb_viscous";
+
+/// One line of the table: "base + values of the parameters -> model".
 struct Departure {
   std::string_view name;
   std::string_view meaning;  ///< what happens in the rig, one line

@@ -211,7 +211,7 @@ std::vector<Departure> by_place() {
 /// Constant Coulomb friction, and friction that falls as the contact warms.
 std::vector<Departure> by_warmth() {
   return {
-      {.name = "coulomb_viscous",
+      {.name = plain_name,
        .meaning = "no mechanism: the friction that the method assumes",
        .parameters = {},
        .build = coulomb_viscous,

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "identify/departures/departures.hpp"
 #include "identify/methods/amplitudes/harmonic_balance.hpp"
 
 namespace dualdamp::identify {
@@ -127,7 +128,7 @@ const std::vector<FundamentalLaw>& fundamental_laws() {
   static constexpr LawCoefficient F0{"F0", "N"};
   static constexpr LawCoefficient c{"c", "N.s/m", 1};
   static const std::vector<FundamentalLaw> laws = {
-      {.name = "coulomb_viscous",
+      {.name = departures::plain_name,
        .coefficients = {F0, c},
        .fundamentals = [](double V, double, double) { return Fundamentals{{coulomb_share, V}, {0.0, V}, {}}; },
        .forces = [](double v, double) { return Terms{1.0, v}; }},

@@ -29,7 +29,7 @@ struct LibraryLaw {
   double deviation = 0.0;       ///< of the prior of its severity
 
   [[nodiscard]] std::string name() const {
-    return departure == nullptr ? "coulomb_viscous" : std::string(departure->name);
+    return std::string(departure == nullptr ? departures::plain_name : departure->name);
   }
 };
 
