@@ -142,11 +142,11 @@ std::vector<std::span<const CandidateMeasurement>> by_plan(std::span<const Candi
 }
 
 /// Two significant digits; whole percents from 99.5 % on.
-std::string percent(double share) {
+std::string rounded_percent(double share) {
   constexpr int digits = 2;
   constexpr double all = 99.5;
   const double value = 100.0 * share;
-  return (value < all ? core::format_number(value, digits) : std::to_string(std::llround(value))) + " %";
+  return value < all ? core::percent(share, digits) : std::to_string(std::llround(value)) + " %";
 }
 
 std::string text_of(const MeasurementAdvice& advice, const LawIntervals& now) {
@@ -156,14 +156,17 @@ std::string text_of(const MeasurementAdvice& advice, const LawIntervals& now) {
   const auto between = [&](double Shrinkage::* one, double now) {
     const auto by_law = [one](const LawOutcome& outcome) { return outcome.hull.*one; };
     const auto [least, most] = std::ranges::minmax(advice.outcomes, {}, by_law);
-    return " (+-" + percent(now * by_law(least)) + " to +-" + percent(now * by_law(most)) + " by the true law)";
+    return " (+-" + rounded_percent(now * by_law(least)) + " to +-" + rounded_percent(now * by_law(most)) +
+           " by the true law)";
   };
   constexpr double little = 0.9;
   const bool helps = advice.hull.zeta < little || advice.hull.F0 < little;
-  return advice.candidate.name + ": zeta's range goes from +-" + percent(zeta) + " to +-" +
-         percent(zeta * advice.hull.zeta) + between(&Shrinkage::zeta, zeta) + ", F0's from +-" + percent(F0) +
-         " to +-" + percent(F0 * advice.hull.F0) + between(&Shrinkage::F0, F0) +
-         (std::isnan(advice.power) ? "" : "; a wrong law is rejected with probability " + percent(advice.power)) +
+  return advice.candidate.name + ": zeta's range goes from +-" + rounded_percent(zeta) + " to +-" +
+         rounded_percent(zeta * advice.hull.zeta) + between(&Shrinkage::zeta, zeta) + ", F0's from +-" +
+         rounded_percent(F0) + " to +-" + rounded_percent(F0 * advice.hull.F0) + between(&Shrinkage::F0, F0) +
+         (std::isnan(advice.power)
+              ? ""
+              : "; a wrong law is rejected with probability " + rounded_percent(advice.power)) +
          (helps ? "" : "; this hardly helps");
 }
 

@@ -103,8 +103,6 @@ std::vector<PredictionBand> bands_of(const Fit& held, const Experiments& experim
   return bands;
 }
 
-std::string percent(double share) { return core::format_number(100.0 * share, 3) + " %"; }
-
 /// Whether residuals above the noise are correlated from sample to sample.
 bool lasts(const Fit& fit) {
   constexpr double share = 0.5;
@@ -124,10 +122,10 @@ void judge(Prediction& found, const Fit& attainable) {
   // Noise is not correlated from sample to sample; the residuals of a wrong law are.
   const bool cannot = attainable.noise_units > most_noise_units && lasts(attainable);
   found.is_wrong = does_not_carry_over || cannot;
-  found.text = "the prediction misses by " + percent(found.error) + " of the motion";
+  found.text = "the prediction misses by " + core::percent(found.error, 3) + " of the motion";
   if (!std::isnan(found.noise_units))
     found.text += ", " + core::format_number(found.noise_units, 3) + " times the noise";
-  found.text += "; fitted to this record itself, the same laws miss by " + percent(found.attainable);
+  found.text += "; fitted to this record itself, the same laws miss by " + core::percent(found.attainable, 3);
   if (cannot)
     found.text +=
         ": the law is wrong here, or a stated constant, the drive or a sensor: even the fit to this record leaves " +

@@ -115,8 +115,7 @@ std::string text_of_zeros(const Rig& rig, const Experiments& experiments, const 
   if (text.empty()) return text;
   const Fit without = fit_rig(rig, parameters_of_records(rig, experiments, {}), experiments, options);
   if (!without.outcome.ok()) return text;
-  text += "; with no zero but 0, the prediction misses by " +
-          core::format_number(100.0 * relative_error(without), 3) + " %";
+  text += "; with no zero but 0, the prediction misses by " + core::percent(relative_error(without), 3);
   if (!std::isnan(without.noise_units))
     text += ", " + core::format_number(without.noise_units, 3) + " times the noise";
   return text;

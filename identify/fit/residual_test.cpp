@@ -215,8 +215,7 @@ std::string zero_warning(const FittedSignal& fitted, RecordParameter zero, doubl
   return subject + " have a mean of " + core::format_number(fitted.mean, 3) + " in SI units, " +
          (std::abs(fitted.mean_score) >= most_mean_errors
               ? core::format_number(std::abs(fitted.mean_score), 2) + " standard errors"
-              : "and another zero would take away " + core::format_number(100.0 * gain, 2) +
-                    " % of their sum of squares at once") +
+              : "and another zero would take away " + core::percent(gain, 2) + " of their sum of squares at once") +
          ": the zero of the sensor is off, or the law differs between the directions. Seek the zero: "
          "'free' with " +
          name_of(zero);

@@ -11,7 +11,7 @@ namespace dualdamp::identify {
 
 namespace {
 
-std::string percent_of_size(double share) { return core::format_number(100.0 * std::abs(share), 2) + " %"; }
+std::string percent_of_size(double share) { return core::percent(std::abs(share), 2); }
 
 /// A parameter that must not be below another one is sought as its distance from it.
 std::string sought(const std::vector<FitParameter>& parameters, Eigen::Index i) {

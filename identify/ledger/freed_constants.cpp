@@ -71,8 +71,8 @@ std::string FreedConstants::fault() {
   if (const FreedFit* other = best()) least = std::min(least, other->missed);
   if (least < most) return {};
   constexpr int digits = 2;
-  return "the simulated motion misses " + core::format_number(100.0 * least, digits) +
-         " % of the measured one, whatever the mass and the stiffness";
+  return "the simulated motion misses " + core::percent(least, digits) +
+         " of the measured one, whatever the mass and the stiffness";
 }
 
 }  // namespace dualdamp::identify

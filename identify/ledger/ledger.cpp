@@ -31,12 +31,11 @@ namespace {
 
 using MaybeModel = std::variant<JointModel, std::string>;
 
-std::string rounded(double value) {
-  constexpr int digits = 2;
-  return core::format_number(value, digits);
-}
+constexpr int digits_shown = 2;
 
-std::string in_percent(double share) { return rounded(100.0 * share) + " %"; }
+std::string rounded(double value) { return core::format_number(value, digits_shown); }
+
+std::string in_percent(double share) { return core::percent(share, digits_shown); }
 
 /// The first of the models that the record allows; else why there is none.
 MaybeModel testable_model(const Record& record, const KnownConstants& constants, const KnownDeviations& known) {

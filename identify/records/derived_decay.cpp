@@ -150,9 +150,7 @@ class DecayReader {
   [[nodiscard]] std::string no_turns() const {
     const auto [low, high] = std::ranges::minmax(x_);
     if (!(high > low)) return "x does not move" + duration();
-    const auto share = [range = high - low](double length) {
-      return core::format_number(100.0 * length / range, 3) + " %";
-    };
+    const auto share = [range = high - low](double length) { return core::percent(length / range, 3); };
     return "x does not turn back" + duration() + ", where swings count above " + share(band_) +
            " of its range and its noise is " + share(noise_);
   }
@@ -384,8 +382,8 @@ class DecayReader {
     if (end < begin + 3) return "x has " + std::to_string(end - begin) + " extremes from its largest swing on";
     if (fails) {
       const std::string where = " at t = " + core::format_number(result.record.times[end], 4) + " s, where " +
-                                core::format_number(100.0 * swing(end - 1) / swing(largest), 2) +
-                                " % of the largest is left: the extremes before are used";
+                                core::percent(swing(end - 1) / swing(largest), 2) +
+                                " of the largest is left: the extremes before are used";
       result.warnings.push_back((grows ? "the swings of the free vibration grow again"
                                        : "the swings of the free vibration become faster") +
                                 where);

@@ -29,7 +29,10 @@ constexpr double settled = 1e-6;
 /// A stated frequency that is off by more than this share is no rounded one.
 constexpr double most_detuning = 0.01;
 
-std::string percent_text(double share) { return core::format_number(100.0 * share, 2) + " %"; }
+std::string percent_text(double share) {
+  constexpr int digits = 2;
+  return core::percent(share, digits);
+}
 
 /// Number of harmonics below 0.9 of half the sample rate, at most `most`.
 int harmonics_within(double omega, double sample_rate, int most) {

@@ -117,10 +117,6 @@ void allow_for_misreading(Estimate& estimate, const ParameterSet& own,
   }
 }
 
-std::string percent(double fraction) {
-  return (fraction < 0.0 ? "" : "+") + core::format_number(100.0 * fraction, 3) + " %";
-}
-
 void judge_sign(double value, double least, const Interval* interval, const std::string& name, Estimate& estimate,
                 std::vector<std::string>& faults) {
   const bool negative = value < -least;

@@ -56,9 +56,6 @@ void refuse(Estimate& estimate, std::string reason);
 void allow_for_misreading(Estimate& estimate, const ParameterSet& own,
                           const std::function<std::optional<ParameterSet>(const ParameterSet&)>& read);
 
-/// A signed percentage for messages: "+9.6 %".
-[[nodiscard]] std::string percent(double fraction);
-
 /// Diagnostic of one parameter that cannot be negative: it came out negative, or cannot be distinguished from zero.
 /// A reason not to use the estimate is appended to `faults`, a lesser one to the estimate's warnings. `least`: what
 /// rounding alone makes of a parameter that is zero. `interval`: of 95 %; nullptr: there is none.

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/cancellation.hpp"
+#include "core/numbers.hpp"
 #include "identify/statistics/distributions.hpp"
 #include "identify/statistics/statistics.hpp"
 #include "identify/uncertainty/synthetic_record.hpp"
@@ -131,7 +132,7 @@ void set_estimate(Estimate& estimate, const ForceParameters& force, const std::o
     const double shift = value - unbiased.*number;
     constexpr double of_weight = 1e-3;
     if (std::abs(shift) < std::max(0.5 * (*estimate.std).*number, of_weight * std::abs(value))) return;
-    shifts += (shifts.empty() ? "" : " and ") + std::string(name) + " by " + percent(shift / value);
+    shifts += (shifts.empty() ? "" : " and ") + std::string(name) + " by " + core::signed_percent(shift / value, 3);
   };
   if (force.k > 0.0)
     note("zeta", &ParameterSet::zeta);

@@ -277,8 +277,8 @@ Estimate with_uncertainties(const Reader& read, const Record& record, const Know
     } else {
       not_carried = true;
       estimate.warnings.push_back("the uncertainty of the " + variable.number.text() +
-                                  " allows no interval: with a value off by " +
-                                  core::format_number(100.0 * deviation, 3) + " % there is no estimate");
+                                  " allows no interval: with a value off by " + core::percent(deviation, 3) +
+                                  " there is no estimate");
     }
   }
   if (not_carried) drop_uncertainty(estimate);

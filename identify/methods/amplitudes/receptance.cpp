@@ -138,7 +138,8 @@ void list_real_part(const std::vector<Pair>& states, const KnownConstants& const
   estimate.others.push_back({"natural_frequency", "rad/s", std::sqrt(k / m), std::nullopt, std::nullopt});
   constexpr double largest = 0.1;
   if (std::abs(k / constants.stiffness - 1.0) > largest)
-    estimate.warnings.push_back("the real part shows a stiffness " + percent(k / constants.stiffness - 1.0) +
+    estimate.warnings.push_back("the real part shows a stiffness " +
+                                core::signed_percent(k / constants.stiffness - 1.0, 3) +
                                 " off the known one: another spring, or phases with a lag");
 }
 

@@ -201,8 +201,8 @@ void judge_method(const ResonanceData& data, const std::vector<Datum>& exact, co
   if (worst < 0.01) return;
   const std::string text = "at " + frequency_text(data) +
                            " the method is not exact: from exact data with this estimate it reads zeta wrong by " +
-                           percent(zeta_error) + " and F0 by " + percent(x_f_error) +
-                           ", because it neglects H and takes q for 2 zeta" +
+                           core::signed_percent(zeta_error, 3) + " and F0 by " +
+                           core::signed_percent(x_f_error, 3) + ", because it neglects H and takes q for 2 zeta" +
                            (data.G.approximate ? " and G from Eq (15)" : "");
   if (worst > 0.1) {
     faults.push_back(text);

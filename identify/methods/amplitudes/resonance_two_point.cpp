@@ -78,7 +78,7 @@ void judge_others(const std::vector<Datum>& sliding, const std::vector<Datum>& t
   if (fraction < 0.05) return;
   std::vector<std::string>& list = fraction < 0.1 ? estimate.warnings : faults;
   list.push_back("pair " + std::to_string(farthest->number) + " lies off the line through the two by " +
-                 core::format_number(100.0 * fraction, 3) + " % of their distance in x");
+                 core::percent(fraction, 3) + " of their distance in x");
 }
 
 /// The two pairs to use, none of which sticks at their own estimate; empty after `estimate` has been refused.

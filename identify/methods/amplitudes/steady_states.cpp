@@ -136,7 +136,8 @@ void judge_own_reading(const std::vector<Pair>& states, const KnownConstants& co
   const double worst = std::max(std::abs(c_error), std::abs(F0_error));
   if (worst < 0.01) return;
   const std::string text = "the method is not exact: from exact data with this estimate it reads zeta wrong by " +
-                           percent(c_error) + " and F0 by " + percent(F0_error) + ", " + because;
+                           core::signed_percent(c_error, 3) + " and F0 by " + core::signed_percent(F0_error, 3) +
+                           ", " + because;
   if (worst > 0.1)
     faults.push_back(text);
   else

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "core/constants.hpp"
+#include "core/numbers.hpp"
 #include "identify/methods/decays/extremes.hpp"
 #include "identify/statistics/distributions.hpp"
 #include "identify/statistics/statistics.hpp"
@@ -58,8 +59,9 @@ void judge_bias(const Friction& crude, const std::optional<Friction>& better, Es
   }
   const double zeta_bias = crude.zeta / better->zeta - 1.0;
   const double x_f_bias = crude.x_f / better->x_f - 1.0;
-  const std::string text = "the rule takes one friction for the other: zeta is about " + percent(zeta_bias) +
-                           " off and F0 about " + percent(x_f_bias) + " (free_decay is not)";
+  const std::string text = "the rule takes one friction for the other: zeta is about " +
+                           core::signed_percent(zeta_bias, 3) + " off and F0 about " +
+                           core::signed_percent(x_f_bias, 3) + " (free_decay is not)";
   constexpr double largest = 0.1;
   if (std::max(std::abs(zeta_bias), std::abs(x_f_bias)) > largest)
     faults.push_back(text);

@@ -151,7 +151,7 @@ void judge_curvature(Estimate& estimate) {
   if (test.fired)
     estimate.findings.emplace_back("friction over speed is not a straight line (see the curve friction_velocity)");
   else if (test.p_value < test.level && test.effect > 5e-4)
-    estimate.warnings.push_back("friction over speed bends by " + percent(test.effect).substr(1) +
+    estimate.warnings.push_back("friction over speed bends by " + core::percent(test.effect, 3) +
                                 " of its largest value, more than chance explains");
 }
 
@@ -215,7 +215,7 @@ void compare_cutoffs(const std::vector<NumberedHistory>& histories, const Regres
   constexpr double warned = 0.02;
   constexpr double too_much = 0.1;
   if (!(spread > warned)) return;
-  const std::string text = "another cut-off frequency changes the friction by " + percent(spread).substr(1);
+  const std::string text = "another cut-off frequency changes the friction by " + core::percent(spread, 3);
   if (spread > too_much)
     faults.push_back(text);
   else

@@ -206,7 +206,7 @@ void judge(const FilterRun& run, double of_law, const std::optional<FilterRun>& 
             : std::numeric_limits<double>::infinity();
   constexpr double too_much = 0.1;
   if (change > too_much)
-    faults.push_back(wider ? "twice the width of the sign changes the friction by " + percent(change).substr(1)
+    faults.push_back(wider ? "twice the width of the sign changes the friction by " + core::percent(change, 3)
                            : "with twice the width of the sign the filter diverges");
 }
 

@@ -180,7 +180,7 @@ void judge_loop(Estimate& estimate) {
   test.least_effect = 0.02;
   test.fired = test.p_value < test.level && test.effect > test.least_effect;
   const std::string text =
-      "the force depends on displacement by " + percent(test.effect).substr(1) + " of its largest value";
+      "the force depends on displacement by " + core::percent(test.effect, 3) + " of its largest value";
   if (test.fired)
     estimate.findings.push_back(text +
                                 ": a gain error, a wrong mass or stiffness, or friction that varies with position");

@@ -29,7 +29,7 @@ void judge_residuals(const Eigen::VectorXd& residuals, Estimate& estimate) {
   constexpr double of_weight = 1e-3;
   if (lasting.correlation() < chance || deviation < of_weight) return;
   estimate.findings.push_back(
-      "what the fit leaves is not noise alone: " + percent(deviation).substr(1) +
+      "what the fit leaves is not noise alone: " + core::percent(deviation, 3) +
       " of the amplitude lasts from sample to sample, so the law, a constant or the drive is wrong");
 }
 

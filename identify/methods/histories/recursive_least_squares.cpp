@@ -112,7 +112,7 @@ void compare_halves(const TimedRows& rows, Estimate& estimate) {
   constexpr double of_weight = 0.01;
   if (std::abs(change) < 3.0 * error || std::abs(change) < of_weight * std::abs(estimate.value.F0)) return;
   estimate.warnings.push_back(
-      "the Coulomb friction changes by " + percent(change / estimate.value.F0) +
+      "the Coulomb friction changes by " + core::signed_percent(change / estimate.value.F0, 3) +
       " from the first half of the record to the second: a forgetting factor below 1 follows it");
 }
 
