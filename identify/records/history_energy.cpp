@@ -17,7 +17,7 @@ double path_between(double x0, double v0, double x1, double v1, double dt) {
 
 }  // namespace
 
-std::vector<WindowEnergy> energy_of(const Motion& motion, const KnownConstants& constants, int windows) {
+std::vector<WindowEnergy> energy_of(const PreparedHistory& motion, const KnownConstants& constants, int windows) {
   const std::vector<double>&x = motion.x, &v = motion.v, &a = motion.a;
   const double dt = 1.0 / motion.sample_rate;
   std::vector<double> drive(x.size());

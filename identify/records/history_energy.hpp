@@ -24,7 +24,7 @@ struct WindowEnergy {
 };
 
 /// The energies of `windows` windows of equal length that cover the motion. Mass and stiffness must be known.
-[[nodiscard]] std::vector<WindowEnergy> energy_of(const Motion& motion, const KnownConstants& constants,
+[[nodiscard]] std::vector<WindowEnergy> energy_of(const PreparedHistory& motion, const KnownConstants& constants,
                                                   int windows);
 
 }  // namespace dualdamp::identify

@@ -6,12 +6,10 @@
 /// differentiation; the filter removes its part above the cut-off.
 
 #include <cstddef>
-#include <optional>
 #include <span>
-#include <string>
+#include <string_view>
 #include <vector>
 
-#include "identify/method.hpp"
 #include "identify/record.hpp"
 
 namespace dualdamp::identify {
@@ -64,9 +62,14 @@ class ZeroPhaseFilter {
   std::size_t edge_ = 0;
 };
 
-/// A prepared history: signals of equal length after the same filter, without the edges of the filter, thinned to
-/// the number of samples that the bandwidth needs.
-struct Motion {
+/// What is said of a history whose displacement was not measured.
+inline constexpr std::string_view without_displacement =
+    "the displacement x was not recorded: record it, or add it to the file as the integral of v or a without its "
+    "drift; 'dualdamp fit coulomb' takes v or a alone";
+
+/// A history for a regression: signals of equal length after the same filter, without the edges of the filter,
+/// thinned to the number of samples that the bandwidth needs.
+struct PreparedHistory {
   double start = 0.0;        ///< time of the first sample [s]
   double sample_rate = 0.0;  ///< Hz
   std::vector<double> y, x, v, a, force;
@@ -76,42 +79,7 @@ struct Motion {
 
 /// Velocity and acceleration are those of the history or, if they were not measured, derivatives of x. y and force
 /// are zero if they were not measured. `cutoff` [Hz]; 0: no filter, no trimming, no thinning. `fault_of` and
-/// `fault_of_cutoff` must find no fault.
-[[nodiscard]] Motion motion_of(const History& history, double cutoff);
-
-/// Cut-offs to use [Hz]: those of the options; else, if velocity and acceleration were measured, the single cut-off
-/// 0 (no filter); else f, 0.6 f and 0.4 f. f is a twentieth of the sample rate or eight times the mean frequency of
-/// the motion, whichever is larger, but at most a fifth of the sample rate.
-[[nodiscard]] std::vector<double> cutoffs_for(const History& history, const FilterOptions& options);
-
-/// Why a history cannot be used: no x, signals of different lengths or not finite, no sample rate. Empty: no fault.
-[[nodiscard]] std::string fault_of(const History& history);
-
-/// Why a history cannot be filtered with this cut-off. Empty: no fault.
-[[nodiscard]] std::string fault_of_cutoff(const History& history, double cutoff);
-
-/// The histories that can be used with these options, numbered from 1. Others are added to the exclusions of the
-/// estimate. If there is none, the estimate is refused.
-struct NumberedHistory {
-  int number = 0;
-  const History* history = nullptr;
-};
-[[nodiscard]] std::vector<NumberedHistory> usable_histories(const Record& record, const FilterOptions& options,
-                                                            Estimate& estimate);
-
-/// The longest usable history, for methods that use a single history and need mass and stiffness. Others are added
-/// to the exclusions. Nothing: the estimate is refused.
-[[nodiscard]] std::optional<NumberedHistory> longest_history(const Record& record, const KnownConstants& constants,
-                                                             Estimate& estimate);
-
-/// m/s
-[[nodiscard]] double largest_speed(const Motion& motion);
-
-/// Least speed of the samples in a regression [m/s]: the option, or a share of the largest speed of the record. The
-/// sign of a slower sample is that of its noise.
-[[nodiscard]] double least_speed_for(double largest_speed, double share, const RegressionOptions& options);
-
-/// `lacks` of the methods that need histories: "the record holds no time histories", or empty.
-[[nodiscard]] std::string lacks_histories(const Record& record);
+/// `fault_of_cutoff` (`usable_histories.hpp`) must find no fault.
+[[nodiscard]] PreparedHistory prepared_history(const History& history, double cutoff);
 
 }  // namespace dualdamp::identify

@@ -41,7 +41,7 @@ struct Steering {
   Steering() = default;
   Steering(const History& history, double mass) {
     const double cutoff = cutoffs_for(history, {}).front();
-    const Motion motion = motion_of(history, 0.0);
+    const PreparedHistory motion = prepared_history(history, 0.0);
     const auto smooth = [&](const std::vector<double>& signal) {
       return cutoff > 0.0 ? ZeroPhaseFilter(cutoff, history.sample_rate)(signal) : signal;
     };

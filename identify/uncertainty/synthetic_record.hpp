@@ -27,7 +27,7 @@
 #include "identify/models/force_parameters.hpp"
 #include "identify/record.hpp"
 #include "identify/records/sensors.hpp"
-#include "identify/records/signals.hpp"
+#include "identify/records/usable_histories.hpp"
 
 namespace dualdamp::identify {
 

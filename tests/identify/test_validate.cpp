@@ -5,7 +5,7 @@
 
 #include "identify/methods.hpp"
 #include "identify/records/derived_records.hpp"
-#include "identify/records/signals.hpp"
+#include "identify/records/usable_histories.hpp"
 #include "tests/identify/records.hpp"
 
 using namespace dualdamp;
@@ -79,7 +79,7 @@ TEST_CASE("A method leaves out a history for the fault that the checks of a reco
 
 TEST_CASE("A history whose signals do not belong together gives no motion, pair or decay") {
   const History bad = with_lengths(400, 100);
-  CHECK_THROWS_AS(static_cast<void>(motion_of(bad, 0.0)), core::InputError);
+  CHECK_THROWS_AS(static_cast<void>(prepared_history(bad, 0.0)), core::InputError);
   CHECK(pairs_of({bad}, 10.0).record.pairs.empty());
   CHECK(decay_of(bad).record.extremes.empty());
   CHECK_THROWS_AS(ZeroPhaseFilter(60.0, 100.0), core::InputError);

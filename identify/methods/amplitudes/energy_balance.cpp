@@ -9,7 +9,7 @@
 #include "identify/methods/amplitudes/steady_states.hpp"
 #include "identify/models/force_parameters.hpp"
 #include "identify/records/history_energy.hpp"
-#include "identify/records/signals.hpp"
+#include "identify/records/usable_histories.hpp"
 #include "identify/statistics/noise_level.hpp"
 #include "identify/statistics/statistics.hpp"
 
@@ -106,7 +106,7 @@ std::vector<EnergyTerms> accounts_of_histories(const Record& record, const Known
                                                const FilterOptions& options, Estimate& estimate) {
   std::vector<EnergyTerms> accounts;
   for (const NumberedHistory& item : usable_histories(record, options, estimate)) {
-    const Motion motion = motion_of(*item.history, cutoffs_for(*item.history, options).front());
+    const PreparedHistory motion = prepared_history(*item.history, cutoffs_for(*item.history, options).front());
     constexpr double widest_noise = 10.0;  // standard deviations; of a million Gaussian ones it is 9.8
     const double band = widest_noise * noise_level(item.history->x);
     for (const WindowEnergy& window : energy_of(motion, constants, periods_of(motion.x, band)))

@@ -7,6 +7,7 @@
 
 #include "core/numbers.hpp"
 #include "identify/models/force_parameters.hpp"
+#include "identify/records/usable_histories.hpp"
 #include "identify/statistics/correlated_regression.hpp"
 #include "identify/statistics/statistics.hpp"
 #include "identify/uncertainty/parametric_bootstrap.hpp"
@@ -39,10 +40,10 @@ struct MotionRows {
 };
 
 /// Known forces go to the left of the equation, unknown ones to the right.
-MotionRows motion_rows(const std::vector<NumberedHistory>& histories, const std::vector<Motion>& motions,
+MotionRows motion_rows(const std::vector<NumberedHistory>& histories, const std::vector<PreparedHistory>& motions,
                        double least_speed, const Columns& columns, const KnownConstants& constants) {
   std::size_t samples = 0;
-  for (const Motion& motion : motions) samples += motion.v.size();
+  for (const PreparedHistory& motion : motions) samples += motion.v.size();
   MotionRows rows;
   rows.columns.resize(static_cast<Eigen::Index>(samples), columns.count);
   rows.target.resize(static_cast<Eigen::Index>(samples));
@@ -50,7 +51,7 @@ MotionRows motion_rows(const std::vector<NumberedHistory>& histories, const std:
   rows.drag.resize(rows.target.size());
   Eigen::Index row = 0;
   for (std::size_t h = 0; h < motions.size(); ++h) {
-    const Motion& motion = motions[h];
+    const PreparedHistory& motion = motions[h];
     rows.blocks.push_back(row);
     const Eigen::Index first = row;
     for (std::size_t i = 0; i < motion.v.size(); ++i) {
@@ -180,16 +181,16 @@ struct Regression {
 
 Regression regress(const std::vector<NumberedHistory>& histories, std::size_t choice, const Columns& columns,
                    const KnownConstants& constants, const RegressionOptions& options) {
-  std::vector<Motion> motions;
+  std::vector<PreparedHistory> motions;
   motions.reserve(histories.size());
   for (const NumberedHistory& item : histories) {
     const std::vector<double> cutoffs = cutoffs_for(*item.history, options);
-    motions.push_back(motion_of(*item.history, cutoffs[std::min(choice, cutoffs.size() - 1)]));
+    motions.push_back(prepared_history(*item.history, cutoffs[std::min(choice, cutoffs.size() - 1)]));
   }
   Regression regression;
   constexpr double share = 0.01;
   double fastest = 0.0;
-  for (const Motion& motion : motions) fastest = std::max(fastest, largest_speed(motion));
+  for (const PreparedHistory& motion : motions) fastest = std::max(fastest, largest_speed(motion));
   regression.rows = motion_rows(histories, motions, least_speed_for(fastest, share, options), columns, constants);
   regression.fit = fit_correlated(regression.rows.columns, regression.rows.target, regression.rows.blocks);
   return regression;

@@ -23,7 +23,6 @@
 #include <optional>
 
 #include "identify/method.hpp"
-#include "identify/records/signals.hpp"
 
 namespace dualdamp::identify {
 

@@ -9,6 +9,7 @@
 #include "core/cancellation.hpp"
 #include "core/numbers.hpp"
 #include "identify/models/force_parameters.hpp"
+#include "identify/records/usable_histories.hpp"
 #include "identify/statistics/noise_level.hpp"
 #include "identify/statistics/statistics.hpp"
 #include "identify/uncertainty/parametric_bootstrap.hpp"

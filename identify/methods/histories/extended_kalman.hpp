@@ -14,7 +14,6 @@
 /// detchmendy1966. Errors: `outcome`. Cost: 2 us a step, several steps a sample.
 
 #include "identify/method.hpp"
-#include "identify/records/signals.hpp"
 
 namespace dualdamp::identify {
 

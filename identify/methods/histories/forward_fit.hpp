@@ -15,7 +15,7 @@
 #include "identify/models/force_parameters.hpp"
 #include "identify/models/sampled_oscillator.hpp"
 #include "identify/options.hpp"
-#include "identify/records/signals.hpp"
+#include "identify/records/usable_histories.hpp"
 #include "identify/statistics/least_squares.hpp"
 
 namespace dualdamp::identify {

@@ -9,6 +9,7 @@
 #include "core/numbers.hpp"
 #include "identify/methods/histories/friction_samples.hpp"
 #include "identify/models/force_parameters.hpp"
+#include "identify/records/usable_histories.hpp"
 #include "identify/statistics/correlated_regression.hpp"
 #include "identify/statistics/distributions.hpp"
 #include "identify/statistics/statistics.hpp"

@@ -16,7 +16,6 @@
 /// 100 operations a sample.
 
 #include "identify/method.hpp"
-#include "identify/records/signals.hpp"
 
 namespace dualdamp::identify {
 

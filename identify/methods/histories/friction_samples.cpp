@@ -10,12 +10,12 @@ namespace dualdamp::identify {
 
 namespace {
 
-Motion motion_for(const History& history, const RegressionOptions& options) {
+PreparedHistory motion_for(const History& history, const RegressionOptions& options) {
   if (!history.v.empty() || history.a.empty() || !options.cutoffs.empty())
-    return motion_of(history, cutoffs_for(history, options).front());
+    return prepared_history(history, cutoffs_for(history, options).front());
   History differentiated = history;
   differentiated.v = five_point_average(central_difference(history.x, history.sample_rate));
-  return motion_of(differentiated, 0.0);
+  return prepared_history(differentiated, 0.0);
 }
 
 }  // namespace
@@ -37,7 +37,7 @@ std::vector<FrictionSamples> friction_samples(const Record& record, const KnownC
   }
   for (const NumberedHistory& item : usable_histories(record, options, estimate)) {
     FrictionSamples samples{item.number, motion_for(*item.history, options), {}};
-    const Motion& motion = samples.motion;
+    const PreparedHistory& motion = samples.motion;
     samples.force.resize(motion.v.size());
     for (std::size_t i = 0; i < motion.v.size(); ++i)
       samples.force[i] =

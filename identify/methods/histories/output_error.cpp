@@ -8,6 +8,7 @@
 #include "identify/methods/histories/forward_fit.hpp"
 #include "identify/models/force_parameters.hpp"
 #include "identify/models/sampled_oscillator.hpp"
+#include "identify/records/usable_histories.hpp"
 #include "identify/statistics/correlated_regression.hpp"
 #include "identify/statistics/lasting_part.hpp"
 #include "identify/statistics/least_squares.hpp"

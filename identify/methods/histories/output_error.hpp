@@ -16,7 +16,6 @@
 /// `outcome`. Cost: 70 simulations; 0.3 s for 10,000 samples.
 
 #include "identify/method.hpp"
-#include "identify/records/signals.hpp"
 
 namespace dualdamp::identify {
 

@@ -9,6 +9,7 @@
 #include "core/constants.hpp"
 #include "core/numbers.hpp"
 #include "identify/models/force_parameters.hpp"
+#include "identify/records/usable_histories.hpp"
 #include "identify/statistics/statistics.hpp"
 
 namespace dualdamp::identify {

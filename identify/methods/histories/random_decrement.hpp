@@ -15,7 +15,6 @@
 /// a sample.
 
 #include "identify/method.hpp"
-#include "identify/records/signals.hpp"
 
 namespace dualdamp::identify {
 

@@ -9,6 +9,7 @@
 #include "core/numbers.hpp"
 #include "identify/methods/histories/friction_samples.hpp"
 #include "identify/models/force_parameters.hpp"
+#include "identify/records/usable_histories.hpp"
 #include "identify/statistics/correlated_regression.hpp"
 #include "identify/statistics/statistics.hpp"
 #include "identify/uncertainty/parametric_bootstrap.hpp"
@@ -61,7 +62,7 @@ TimedRows timed_rows(const std::vector<FrictionSamples>& histories, double least
   rows.target.resize(rows.columns.rows());
   double elapsed = 0.0;  // histories one after the other
   for (const FrictionSamples& samples : histories) {
-    const Motion& motion = samples.motion;
+    const PreparedHistory& motion = samples.motion;
     rows.blocks.push_back(static_cast<Eigen::Index>(rows.time.size()));
     for (std::size_t i = 0; i < samples.force.size(); ++i) {
       if (!(std::abs(motion.v[i]) > least_speed)) continue;

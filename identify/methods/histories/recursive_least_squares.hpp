@@ -14,7 +14,6 @@
 /// operations a sample.
 
 #include "identify/method.hpp"
-#include "identify/records/signals.hpp"
 
 namespace dualdamp::identify {
 

@@ -10,6 +10,7 @@
 #include "core/constants.hpp"
 #include "core/numbers.hpp"
 #include "identify/models/force_parameters.hpp"
+#include "identify/records/usable_histories.hpp"
 #include "identify/statistics/distributions.hpp"
 #include "identify/statistics/statistics.hpp"
 #include "identify/uncertainty/parametric_bootstrap.hpp"
@@ -180,7 +181,7 @@ struct Averages {
 
 /// Amplitudes in units of their rms, which is stored in `unit`.
 std::vector<double> amplitude_of(const History& history, double W, double& unit) {
-  const Motion motion = motion_of(history, 0.0);
+  const PreparedHistory motion = prepared_history(history, 0.0);
   std::vector<double> amplitude(motion.x.size());
   double square = 0.0;
   for (std::size_t i = 0; i < amplitude.size(); ++i) {

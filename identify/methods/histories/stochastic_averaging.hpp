@@ -18,7 +18,6 @@
 /// `outcome`. Cost: 10 operations a sample.
 
 #include "identify/method.hpp"
-#include "identify/records/signals.hpp"
 
 namespace dualdamp::identify {
 

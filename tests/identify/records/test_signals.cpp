@@ -1,4 +1,4 @@
-#include "identify/records/signals.hpp"
+#include "identify/records/usable_histories.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>

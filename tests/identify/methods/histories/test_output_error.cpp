@@ -6,7 +6,7 @@
 
 #include "friction_models/laws/viscous_saturating.hpp"
 #include "identify/models/sampled_oscillator.hpp"
-#include "identify/records/signals.hpp"
+#include "identify/records/usable_histories.hpp"
 #include "tests/identify/histories.hpp"
 
 using namespace dualdamp;
