@@ -10,6 +10,7 @@
 #include <set>
 #include <vector>
 
+#include "identify/conclusion.hpp"
 #include "identify/ledger/amplitude_noise.hpp"
 #include "identify/ledger/amplitude_step.hpp"
 #include "identify/ledger/amplitude_terms.hpp"

@@ -8,6 +8,7 @@
 #include <variant>
 
 #include "core/numbers.hpp"
+#include "identify/conclusion.hpp"
 #include "identify/ledger/advice.hpp"
 #include "identify/ledger/amplitude_model.hpp"
 #include "identify/ledger/decay_model.hpp"
@@ -18,7 +19,6 @@
 #include "identify/ledger/stated_noise.hpp"
 #include "identify/statistics/decompositions.hpp"
 #include "identify/statistics/least_squares.hpp"
-#include "identify/statistics/statistics.hpp"
 
 namespace dualdamp::identify {
 

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include "identify/conclusion.hpp"
 #include "identify/record.hpp"
 #include "identify/statistics/statistics.hpp"
 

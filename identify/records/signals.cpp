@@ -8,7 +8,6 @@
 #include "core/constants.hpp"
 #include "core/diagnostics.hpp"
 #include "core/numbers.hpp"
-#include "identify/statistics/statistics.hpp"
 #include "identify/validate.hpp"
 
 namespace dualdamp::identify {

@@ -7,7 +7,7 @@
 
 #include "core/constants.hpp"
 #include "core/numbers.hpp"
-#include "identify/statistics/statistics.hpp"
+#include "identify/conclusion.hpp"
 #include "identify/validate.hpp"
 
 namespace dualdamp::identify {

@@ -74,21 +74,6 @@ void set_uncertainty(Estimate& estimate, const Eigen::Matrix2d& covariance, doub
   set_uncertainty(estimate, covariance, Eigen::Vector2d::Constant(half_width), constants);
 }
 
-std::string fault_of(const KnownConstants& constants) {
-  const auto positive = [](double value) { return value > 0.0 && std::isfinite(value); };
-  if (std::isnan(constants.mass)) return "the method needs the mass";
-  if (std::isnan(constants.stiffness)) return "the method needs the stiffness";
-  if (!positive(constants.mass)) return "the mass must be positive and finite";
-  if (!positive(constants.stiffness)) return "the stiffness must be positive and finite";
-  return {};
-}
-
-void refuse(Estimate& estimate, std::string reason) {
-  estimate.outcome = {core::OutcomeKind::not_identifiable, reason};
-  estimate.usable = false;
-  estimate.reason = std::move(reason);
-}
-
 namespace {
 
 ParameterSet difference(const ParameterSet& a, const ParameterSet& b) {
@@ -115,43 +100,6 @@ void allow_for_misreading(Estimate& estimate, const ParameterSet& own,
     if (!std::isfinite(by)) continue;
     for (double& end : (*estimate.interval95).*parameter.interval) end -= by;
   }
-}
-
-void judge_sign(double value, double least, const Interval* interval, const std::string& name, Estimate& estimate,
-                std::vector<std::string>& faults) {
-  const bool negative = value < -least;
-  if (interval == nullptr) {
-    if (negative) faults.push_back(name + " came out negative");
-    return;
-  }
-  const auto& [low, high] = *interval;
-  // The interval has been corrected for bias, where the value may not be.
-  if (high < 0.0 && (negative || high < -least)) {
-    faults.push_back(name + " came out negative by more than its uncertainty");
-  } else if (low <= 0.0 && high >= 0.0 && high - low > least) {
-    estimate.warnings.push_back(name + " cannot be distinguished from zero: its 95 % interval contains it");
-  }
-}
-
-void judge_signs(Estimate& estimate, double least_x_f, std::vector<std::string>& faults) {
-  constexpr double least_zeta = 1e-9;
-  const bool known = estimate.interval95.has_value();
-  judge_sign(estimate.value.zeta, least_zeta, known ? &estimate.interval95->zeta : nullptr, "the damping ratio",
-             estimate, faults);
-  judge_sign(estimate.value.x_f, least_x_f, known ? &estimate.interval95->x_f : nullptr, "the Coulomb friction",
-             estimate, faults);
-}
-
-void conclude(Estimate& estimate, const std::vector<std::string>& faults, std::string basis) {
-  estimate.sound = faults.empty();
-  estimate.usable = faults.empty() && estimate.findings.empty();
-  if (estimate.usable) {
-    estimate.reason = std::move(basis);
-    return;
-  }
-  estimate.reason.clear();
-  for (const auto* list : {&faults, static_cast<const std::vector<std::string>*>(&estimate.findings)})
-    for (const std::string& fault : *list) estimate.reason += (estimate.reason.empty() ? "" : "; ") + fault;
 }
 
 double stated_noise_p_value(double ratio, double freedom) {

@@ -43,31 +43,12 @@ void set_uncertainty(Estimate& estimate, const Eigen::Matrix2d& covariance, doub
 void set_uncertainty(Estimate& estimate, const Eigen::Matrix2d& covariance, const Eigen::Vector2d& half_widths,
                      const KnownConstants& constants);
 
-/// Why constants cannot be used; empty if they can. Mass and stiffness must be positive and finite.
-[[nodiscard]] std::string fault_of(const KnownConstants& constants);
-
-/// Marks that there is no estimate: `outcome` becomes not_identifiable, with the reason.
-void refuse(Estimate& estimate, std::string reason);
-
 /// Corrects the 95 % intervals, if there are any, for the bias of the method. `read(theta)`: what the method
 /// estimates from data that the exact law gives at theta; nothing if the law gives none. The truth is the theta for
 /// which the method reads the estimate; two steps find it. The estimate itself is not changed. `own`:
 /// read(estimate).
 void allow_for_misreading(Estimate& estimate, const ParameterSet& own,
                           const std::function<std::optional<ParameterSet>(const ParameterSet&)>& read);
-
-/// Diagnostic of one parameter that cannot be negative: it came out negative, or cannot be distinguished from zero.
-/// A reason not to use the estimate is appended to `faults`, a lesser one to the estimate's warnings. `least`: what
-/// rounding alone makes of a parameter that is zero. `interval`: of 95 %; nullptr: there is none.
-void judge_sign(double value, double least, const Interval* interval, const std::string& name, Estimate& estimate,
-                std::vector<std::string>& faults);
-
-/// The diagnostics of zeta and of the Coulomb friction, by x_f; `least_x_f` in m.
-void judge_signs(Estimate& estimate, double least_x_f, std::vector<std::string>& faults);
-
-/// Sets `sound`, `usable` and `reason`. The estimate is usable if there are neither `faults` nor findings; `basis`
-/// is then the reason.
-void conclude(Estimate& estimate, const std::vector<std::string>& faults, std::string basis);
 
 /// Degrees of freedom behind a stated deviation: F with so many in the denominator is chi-square.
 inline constexpr double known_freedom = 1e9;

@@ -7,6 +7,7 @@
 #include <ranges>
 #include <utility>
 
+#include "identify/conclusion.hpp"
 #include "identify/ledger/stated_noise.hpp"
 #include "identify/statistics/decompositions.hpp"
 #include "identify/statistics/distributions.hpp"

@@ -9,6 +9,7 @@
 
 #include "core/constants.hpp"
 #include "core/numbers.hpp"
+#include "identify/conclusion.hpp"
 #include "identify/methods/amplitudes/bootstrap.hpp"
 #include "identify/methods/amplitudes/input_levels.hpp"
 #include "identify/methods/amplitudes/line_estimate.hpp"

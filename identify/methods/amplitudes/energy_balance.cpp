@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "core/constants.hpp"
+#include "identify/conclusion.hpp"
 #include "identify/methods/amplitudes/input_levels.hpp"
 #include "identify/methods/amplitudes/steady_states.hpp"
 #include "identify/models/force_parameters.hpp"

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "identify/conclusion.hpp"
 #include "identify/methods/amplitudes/fundamental_laws.hpp"
 #include "identify/methods/amplitudes/input_levels.hpp"
 #include "identify/methods/amplitudes/steady_states.hpp"

@@ -6,6 +6,7 @@
 
 #include "core/constants.hpp"
 #include "core/numbers.hpp"
+#include "identify/conclusion.hpp"
 #include "identify/methods/amplitudes/bootstrap.hpp"
 #include "identify/methods/amplitudes/den_hartog_fit.hpp"
 #include "identify/methods/amplitudes/fundamental_laws.hpp"

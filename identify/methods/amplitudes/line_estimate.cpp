@@ -6,6 +6,7 @@
 #include <numeric>
 #include <utility>
 
+#include "identify/conclusion.hpp"
 #include "identify/methods/amplitudes/bootstrap.hpp"
 #include "identify/statistics/distributions.hpp"
 #include "identify/statistics/profile_likelihood.hpp"

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "core/numbers.hpp"
+#include "identify/conclusion.hpp"
 #include "identify/methods/amplitudes/steady_states.hpp"
 #include "identify/models/force_parameters.hpp"
 #include "identify/statistics/decompositions.hpp"

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/numbers.hpp"
+#include "identify/conclusion.hpp"
 #include "identify/methods/amplitudes/input_levels.hpp"
 #include "identify/statistics/statistics.hpp"
 #include "sim/analytic/den_hartog.hpp"

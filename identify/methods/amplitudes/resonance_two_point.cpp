@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/numbers.hpp"
+#include "identify/conclusion.hpp"
 #include "identify/methods/amplitudes/resonance_line.hpp"
 #include "identify/statistics/distributions.hpp"
 #include "identify/statistics/statistics.hpp"

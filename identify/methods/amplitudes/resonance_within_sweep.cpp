@@ -6,6 +6,7 @@
 #include <map>
 
 #include "core/numbers.hpp"
+#include "identify/conclusion.hpp"
 #include "identify/methods/amplitudes/bootstrap.hpp"
 #include "identify/methods/amplitudes/line_estimate.hpp"
 #include "identify/statistics/distributions.hpp"

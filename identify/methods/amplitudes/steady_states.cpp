@@ -7,6 +7,7 @@
 
 #include "core/constants.hpp"
 #include "core/numbers.hpp"
+#include "identify/conclusion.hpp"
 #include "identify/models/force_parameters.hpp"
 #include "identify/models/sticking.hpp"
 #include "identify/statistics/distributions.hpp"

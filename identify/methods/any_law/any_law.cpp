@@ -8,6 +8,7 @@
 #include <variant>
 
 #include "core/numbers.hpp"
+#include "identify/conclusion.hpp"
 #include "identify/methods/any_law/decay_readings.hpp"
 #include "identify/methods/any_law/law_intervals.hpp"
 #include "identify/methods/any_law/steady_readings.hpp"

@@ -2,8 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-
-#include "identify/statistics/statistics.hpp"
+#include "identify/conclusion.hpp"
 
 namespace dualdamp::identify {
 

@@ -6,6 +6,7 @@
 
 #include "core/constants.hpp"
 #include "core/numbers.hpp"
+#include "identify/conclusion.hpp"
 #include "identify/methods/decays/extremes.hpp"
 #include "identify/statistics/distributions.hpp"
 #include "identify/statistics/statistics.hpp"

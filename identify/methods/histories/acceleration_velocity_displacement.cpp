@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/numbers.hpp"
+#include "identify/conclusion.hpp"
 #include "identify/models/force_parameters.hpp"
 #include "identify/records/usable_histories.hpp"
 #include "identify/statistics/correlated_regression.hpp"

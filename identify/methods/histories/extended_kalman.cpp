@@ -8,6 +8,7 @@
 
 #include "core/cancellation.hpp"
 #include "core/numbers.hpp"
+#include "identify/conclusion.hpp"
 #include "identify/models/force_parameters.hpp"
 #include "identify/records/usable_histories.hpp"
 #include "identify/statistics/noise_level.hpp"

@@ -7,12 +7,12 @@
 #include <utility>
 
 #include "core/numbers.hpp"
+#include "identify/conclusion.hpp"
 #include "identify/methods/histories/friction_samples.hpp"
 #include "identify/models/force_parameters.hpp"
 #include "identify/records/usable_histories.hpp"
 #include "identify/statistics/correlated_regression.hpp"
 #include "identify/statistics/distributions.hpp"
-#include "identify/statistics/statistics.hpp"
 #include "identify/uncertainty/parametric_bootstrap.hpp"
 
 namespace dualdamp::identify {

@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <utility>
-
-#include "identify/statistics/statistics.hpp"
+#include "identify/conclusion.hpp"
 
 namespace dualdamp::identify {
 

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "core/numbers.hpp"
+#include "identify/conclusion.hpp"
 #include "identify/methods/histories/forward_fit.hpp"
 #include "identify/models/force_parameters.hpp"
 #include "identify/models/sampled_oscillator.hpp"

@@ -7,11 +7,11 @@
 #include <utility>
 
 #include "core/numbers.hpp"
+#include "identify/conclusion.hpp"
 #include "identify/methods/histories/friction_samples.hpp"
 #include "identify/models/force_parameters.hpp"
 #include "identify/records/usable_histories.hpp"
 #include "identify/statistics/correlated_regression.hpp"
-#include "identify/statistics/statistics.hpp"
 #include "identify/uncertainty/parametric_bootstrap.hpp"
 
 namespace dualdamp::identify {

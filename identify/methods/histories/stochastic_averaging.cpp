@@ -9,10 +9,10 @@
 
 #include "core/constants.hpp"
 #include "core/numbers.hpp"
+#include "identify/conclusion.hpp"
 #include "identify/models/force_parameters.hpp"
 #include "identify/records/usable_histories.hpp"
 #include "identify/statistics/distributions.hpp"
-#include "identify/statistics/statistics.hpp"
 #include "identify/uncertainty/parametric_bootstrap.hpp"
 #include "identify/uncertainty/random_response.hpp"
 

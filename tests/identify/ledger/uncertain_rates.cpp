@@ -10,10 +10,10 @@
 #include <vector>
 
 #include "identify/answer/answer.hpp"
+#include "identify/conclusion.hpp"
 #include "identify/ledger/ledger.hpp"
 #include "identify/methods.hpp"
 #include "identify/records/derived_records.hpp"
-#include "identify/statistics/statistics.hpp"
 #include "identify/uncertainty/uncertain_constants.hpp"
 
 namespace dualdamp::identify::testing {

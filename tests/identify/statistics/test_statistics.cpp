@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "identify/conclusion.hpp"
 #include "tests/identify/records.hpp"
 
 using namespace dualdamp::identify;

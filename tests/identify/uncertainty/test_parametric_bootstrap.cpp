@@ -5,12 +5,12 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "identify/conclusion.hpp"
 #include "identify/methods/histories/acceleration_velocity_displacement.hpp"
 #include "identify/methods/histories/extended_kalman.hpp"
 #include "identify/methods/histories/friction_force.hpp"
 #include "identify/methods/histories/output_error.hpp"
 #include "identify/methods/histories/recursive_least_squares.hpp"
-#include "identify/statistics/statistics.hpp"
 #include "tests/identify/histories.hpp"
 
 using namespace dualdamp;

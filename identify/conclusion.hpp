@@ -1,0 +1,31 @@
+#pragma once
+/// How a method ends: it refuses a record, or judges its own estimate and says whether it is usable, and why.
+
+#include <string>
+#include <vector>
+
+#include "identify/estimate.hpp"
+#include "identify/record.hpp"
+
+namespace dualdamp::identify {
+
+/// Why constants cannot be used; empty if they can. Mass and stiffness must be positive and finite.
+[[nodiscard]] std::string fault_of(const KnownConstants& constants);
+
+/// Marks that there is no estimate: `outcome` becomes not_identifiable, with the reason.
+void refuse(Estimate& estimate, std::string reason);
+
+/// Diagnostic of one parameter that cannot be negative: it came out negative, or cannot be distinguished from zero.
+/// A reason not to use the estimate is appended to `faults`, a lesser one to the estimate's warnings. `least`: what
+/// rounding alone makes of a parameter that is zero. `interval`: of 95 %; nullptr: there is none.
+void judge_sign(double value, double least, const Interval* interval, const std::string& name, Estimate& estimate,
+                std::vector<std::string>& faults);
+
+/// The diagnostics of zeta and of the Coulomb friction, by x_f; `least_x_f` in m.
+void judge_signs(Estimate& estimate, double least_x_f, std::vector<std::string>& faults);
+
+/// Sets `sound`, `usable` and `reason`. The estimate is usable if there are neither `faults` nor findings; `basis`
+/// is then the reason.
+void conclude(Estimate& estimate, const std::vector<std::string>& faults, std::string basis);
+
+}  // namespace dualdamp::identify
