@@ -66,8 +66,8 @@ class Neighbours {
   Neighbours& operator=(const Neighbours&) = delete;
   [[nodiscard]] virtual bool predict(const sim::Model& model, const RecordValues& of_record,
                                      Eigen::VectorXd& outputs) const = 0;
-  /// Whether the models of a search beside it take less time by these neighbours.
-  [[nodiscard]] virtual bool lead() const { return false; }
+  /// Whether models near this one take less time with these neighbours than without them.
+  [[nodiscard]] virtual bool is_worth_using() const { return false; }
 };
 
 class Experiment {

@@ -106,7 +106,7 @@ class SteadyStates final : public Experiment {
     }
     [[nodiscard]] bool is_complete() const { return is_complete_; }
     /// The orbits of laws of the exact engine are found in no time from nothing.
-    [[nodiscard]] bool lead() const override { return is_smooth_; }
+    [[nodiscard]] bool is_worth_using() const override { return is_smooth_; }
     [[nodiscard]] bool predict(const sim::Model& model, const RecordValues&,
                                Eigen::VectorXd& outputs) const override {
       return states_.fill(model, outputs, [&](std::size_t i) {

@@ -252,10 +252,10 @@ bool FitProblem::predict_each(const Eigen::VectorXd& q, Eigen::VectorXd& result,
   });
 }
 
-bool FitProblem::outputs(const Eigen::VectorXd& q, Eigen::VectorXd& result, const Trail* trail) const {
+bool FitProblem::outputs(const Eigen::VectorXd& q, Eigen::VectorXd& result, const LastMotions* last) const {
   return predict_each(q, result,
                       [&](std::size_t e, const sim::Model& model, const RecordValues& of_record, auto& part) {
-                        const Neighbours* near = leader(trail, e);
+                        const Neighbours* near = start_for(last, e);
                         return near != nullptr ? near->predict(model, of_record, part)
                                                : experiments_[e]->predict(model, of_record, part);
                       });
@@ -298,7 +298,10 @@ bool FitProblem::column(const Eigen::VectorXd& q, const Eigen::VectorXd& middle,
       return true;
     });
     // If there is no model on one side, a one-sided difference is used.
-    if (!ok) outputs[side] = middle, at[side] = q[i];
+    if (!ok) {
+      outputs[side] = middle;
+      at[side] = q[i];
+    }
   }
   if (!(at[1] > at[0])) return false;
   slope = (outputs[1] - outputs[0]) / (at[1] - at[0]);
@@ -307,17 +310,17 @@ bool FitProblem::column(const Eigen::VectorXd& q, const Eigen::VectorXd& middle,
   return slope.allFinite();
 }
 
-const Neighbours* FitProblem::leader(const Trail* trail, std::size_t e) {
-  if (trail == nullptr || trail->neighbours_.empty() || !trail->neighbours_[e]->lead()) return nullptr;
-  return trail->neighbours_[e].get();
+const Neighbours* FitProblem::start_for(const LastMotions* last, std::size_t e) {
+  if (last == nullptr || last->neighbours_.empty() || !last->neighbours_[e]->is_worth_using()) return nullptr;
+  return last->neighbours_[e].get();
 }
 
-std::optional<FitProblem::All> FitProblem::neighbours(const Eigen::VectorXd& q, const Trail* trail,
+std::optional<FitProblem::All> FitProblem::neighbours(const Eigen::VectorXd& q, const LastMotions* last,
                                                       Eigen::VectorXd& result) const {
   All found(experiments_.size());
   const bool is_possible = predict_each(
       q, result, [&](std::size_t e, const sim::Model& model, const RecordValues& of_record, auto& part) {
-        found[e] = experiments_[e]->neighbours(model, of_record, leader(trail, e), part);
+        found[e] = experiments_[e]->neighbours(model, of_record, start_for(last, e), part);
         return found[e] != nullptr;
       });
   if (!is_possible) return std::nullopt;
@@ -325,8 +328,8 @@ std::optional<FitProblem::All> FitProblem::neighbours(const Eigen::VectorXd& q, 
 }
 
 bool FitProblem::derivatives(const Eigen::VectorXd& q, Eigen::VectorXd& result, Eigen::MatrixXd& jacobian,
-                             bool seeks, Trail* trail) const {
-  std::optional<All> found = neighbours(q, trail, result);
+                             bool seeks, LastMotions* last) const {
+  std::optional<All> found = neighbours(q, last, result);
   if (!found) return false;
   const All& neighbours = *found;
   jacobian.resize(rows_, q.size());
@@ -349,7 +352,7 @@ bool FitProblem::derivatives(const Eigen::VectorXd& q, Eigen::VectorXd& result, 
     else
       ok = false;
   });
-  if (trail != nullptr) trail->neighbours_ = std::move(*found);
+  if (last != nullptr) last->neighbours_ = std::move(*found);
   return ok.load();
 }
 

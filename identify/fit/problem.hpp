@@ -54,9 +54,9 @@ struct SignalRows {
   [[nodiscard]] Eigen::Index size() const { return end - begin; }
 };
 
-/// The motions at the last point of a search, from which those at its next points are found: steady states of
-/// smooth laws take a tenth of the time that they take from nothing.
-class Trail {
+/// The motions at the last point of a search. Those at its next points are found from them: so the steady states of
+/// smooth laws take a tenth of the time that they take otherwise.
+class LastMotions {
   friend class FitProblem;
   std::vector<std::unique_ptr<Neighbours>> neighbours_;  ///< of each experiment; empty: there was no point yet
 };
@@ -116,12 +116,13 @@ class FitProblem {
   [[nodiscard]] Eigen::MatrixXd slope(const Eigen::VectorXd& q) const;
 
   /// Predicted readings, not divided by the noise. False: the rig has no such motion, or a law refuses the values.
-  [[nodiscard]] bool outputs(const Eigen::VectorXd& q, Eigen::VectorXd& result, const Trail* trail = nullptr) const;
+  [[nodiscard]] bool outputs(const Eigen::VectorXd& q, Eigen::VectorXd& result,
+                             const LastMotions* last = nullptr) const;
   /// Outputs and their derivatives by the coordinates. `seeks`: a coordinate without an effect near `q` gets a
   /// difference over a wider step, so that a search can leave the place. Else jumps of an acceleration within a
-  /// step are left out. The trail, if there is one, then leads on from `q`.
+  /// step are left out. `last`, if given, then holds the motions at `q`.
   [[nodiscard]] bool derivatives(const Eigen::VectorXd& q, Eigen::VectorXd& result, Eigen::MatrixXd& jacobian,
-                                 bool seeks = false, Trail* trail = nullptr) const;
+                                 bool seeks = false, LastMotions* last = nullptr) const;
 
   [[nodiscard]] const Eigen::VectorXd& measured() const { return measured_; }
   /// 1 for each reading that counts, 0 for one that does not.
@@ -147,7 +148,7 @@ class FitProblem {
   [[nodiscard]] bool column(const Eigen::VectorXd& q, const Eigen::VectorXd& middle, const All& neighbours,
                             Eigen::Index i, double step, bool seeks, Eigen::VectorXd& slope) const;
   /// The motions at `q` and what finds those near it; nothing: there are none.
-  [[nodiscard]] std::optional<All> neighbours(const Eigen::VectorXd& q, const Trail* trail,
+  [[nodiscard]] std::optional<All> neighbours(const Eigen::VectorXd& q, const LastMotions* last,
                                               Eigen::VectorXd& result) const;
   /// Predicts the outputs of one experiment; false if the model has no such motion.
   using Predictor = std::function<bool(std::size_t experiment, const sim::Model& model,
@@ -155,7 +156,8 @@ class FitProblem {
   /// The outputs of all experiments at `q`, side by side. False if one has none.
   [[nodiscard]] bool predict_each(const Eigen::VectorXd& q, Eigen::VectorXd& result,
                                   const Predictor& predict) const;
-  [[nodiscard]] static const Neighbours* leader(const Trail* trail, std::size_t experiment);
+  /// What finds the motions of an experiment from the last ones; nullptr: nothing does so in less time.
+  [[nodiscard]] static const Neighbours* start_for(const LastMotions* last, std::size_t experiment);
   void mend_jumps(const Eigen::VectorXd& below, const Eigen::VectorXd& above, Eigen::VectorXd& slope) const;
   [[nodiscard]] std::optional<sim::Model> model_at(const Eigen::VectorXd& values) const;
   FitProblem(const FitProblem& whole, Experiments parts);

@@ -105,7 +105,7 @@ class Search {
  private:
   /// The last point of a search; the solver asks for some of them twice.
   struct Last {
-    Trail trail;
+    LastMotions last;
     Eigen::VectorXd q;
     Eigen::VectorXd outputs;
     Eigen::MatrixXd jacobian;
@@ -119,8 +119,8 @@ class Search {
     if (is_same && (last.has_jacobian || !with_jacobian)) return true;
     with_jacobian = with_jacobian || is_first;
     last.q = q;
-    last.is_known = with_jacobian ? problem_.derivatives(q, last.outputs, last.jacobian, true, &last.trail)
-                                  : problem_.outputs(q, last.outputs, &last.trail);
+    last.is_known = with_jacobian ? problem_.derivatives(q, last.outputs, last.jacobian, true, &last.last)
+                                  : problem_.outputs(q, last.outputs, &last.last);
     last.has_jacobian = with_jacobian && last.is_known;
     return last.is_known;
   }

@@ -87,7 +87,7 @@ TEST_CASE("fit: the phase of a mass goes on smoothly where it comes to rest", "[
   CHECK(lag_under(1.001 * largest_pull) == Approx(lag_under(0.9999 * largest_pull)).margin(0.03));
 }
 
-TEST_CASE("fit: a search finds along its trail the steady states that are found from nothing",
+TEST_CASE("fit: a search finds from its last motions the steady states that are found from nothing",
           "[identify][fit][pairs]") {
   // Orbits of smooth laws lead to those of the next point; those of exact laws are found anew.
   for (const std::string law : {"dahl", "coulomb"}) {
@@ -98,17 +98,17 @@ TEST_CASE("fit: a search finds along its trail the steady states that are found 
     const std::vector<identify::FitParameter> parameters = test::sought_in(rig, {"kinetic", "damping"}, 1.0);
     const identify::FitProblem problem(rig, parameters, experiments, {2.0, 1.2});
     Eigen::VectorXd q = problem.coordinates(Eigen::Vector2d(2.0, 1.2));
-    identify::Trail trail;
+    identify::LastMotions last;
     Eigen::VectorXd outputs;
     Eigen::MatrixXd slopes;
-    REQUIRE(problem.derivatives(q, outputs, slopes, true, &trail));
+    REQUIRE(problem.derivatives(q, outputs, slopes, true, &last));
     for (const double step : {0.01, 0.1, 0.5}) {
       CAPTURE(step);
       q += step * Eigen::Vector2d(1.0, -0.5);
       Eigen::VectorXd led, led_outputs, anew;
       Eigen::MatrixXd led_slopes, slopes_anew;
-      REQUIRE(problem.outputs(q, led, &trail));
-      REQUIRE(problem.derivatives(q, led_outputs, led_slopes, true, &trail));
+      REQUIRE(problem.outputs(q, led, &last));
+      REQUIRE(problem.derivatives(q, led_outputs, led_slopes, true, &last));
       REQUIRE(problem.derivatives(q, anew, slopes_anew, true));
       CHECK((led - anew).norm() < 1e-9 * anew.norm());
       CHECK((led_outputs - anew).norm() < 1e-9 * anew.norm());
@@ -117,7 +117,7 @@ TEST_CASE("fit: a search finds along its trail the steady states that are found 
     Eigen::VectorXd unused;
     const auto near = experiments.front()->neighbours(*identify::model_of(rig), {}, nullptr, unused);
     REQUIRE(near != nullptr);
-    CHECK(near->lead() == (law == "dahl"));
+    CHECK(near->is_worth_using() == (law == "dahl"));
   }
 }
 
