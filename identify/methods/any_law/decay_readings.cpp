@@ -124,9 +124,7 @@ class DecayReadings final : public ReadingModel {
     truth.model.oscillator.damping = p[1] * c_unit_;
     truth.model.initial.position = release_ * (1.0 + p[2]);
     truth.F0 = p[0] * F0_unit_;
-    sim::Model model = law.departure == nullptr
-                           ? departures::undisturbed(truth)
-                           : departures::departed(*law.departure, truth, reference_, law.severity);
+    sim::Model model = law.model(truth, reference_);
     model.solver.tolerance = accuracy;
     return model;
   }

@@ -23,6 +23,13 @@ namespace dualdamp::identify {
 struct LawAt {
   const departures::Departure* departure = nullptr;
   double severity = 0.0;
+
+  /// A rig under this law. `reference`: the motion that severities refer to.
+  [[nodiscard]] sim::Model model(const departures::Truth& truth,
+                                 const departures::ReferenceMotion& reference) const {
+    return departure == nullptr ? departures::undisturbed(truth)
+                                : departures::departed(*departure, truth, reference, severity);
+  }
 };
 
 /// An unknown beside F0 and c that is free in every fit.

@@ -260,9 +260,7 @@ class SteadyReadings final : public ReadingModel {
     truth.model.excitation = {
         .type = sim::ExcitationType::base_harmonic, .amplitude = state.Y, .frequency = state.omega};
     truth.F0 = p[0] * F0_unit_;
-    sim::Model model = law.departure == nullptr
-                           ? departures::undisturbed(truth)
-                           : departures::departed(*law.departure, truth, reference_, law.severity);
+    sim::Model model = law.model(truth, reference_);
     model.solver.tolerance = accuracy;
     return model;
   }
