@@ -17,7 +17,8 @@ constexpr std::array<Words, assumption_count> words = {{
     {"drive", "the drive is harmonic and steady"},
     {"stationarity", "nothing drifts"},
     {"friction_velocity", "friction over speed is a constant and a straight line"},
-    {"friction_displacement", "friction does not depend on the position or on the way since the last reversal"},
+    {"friction_displacement",
+     "friction does not depend on the position or on the distance since the last reversal"},
     {"symmetry", "friction is the same in both directions"},
 }};
 

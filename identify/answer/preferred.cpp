@@ -75,7 +75,7 @@ std::size_t widest_beside(const std::vector<Estimate>& estimates, std::size_t wi
 
 std::optional<std::size_t> preferred(const std::vector<Estimate>& estimates, const Ledger& ledger) {
   const auto place = [&](auto found) { return static_cast<std::size_t>(found - estimates.begin()); };
-  // It has all data, and what is violated is relaxed in it: a narrower interval is narrower by chance.
+  // It uses all data, and relaxes what is violated: another estimate has a narrower interval by chance.
   const auto joint = std::ranges::find(estimates, "joint_fit", &Estimate::method);
   if (joint != estimates.end() && std::isfinite(area(*joint))) {
     const std::optional<std::size_t> better = better_range(estimates, *joint);

@@ -206,12 +206,12 @@ std::string why_preferred(const Identification& all) {
     text += ", and " + std::to_string(usable) +
             " methods agree; the record has no more readings than parameters, so there is no interval";
   if (rivals > 1 && all.estimates[*all.answer].method == "joint_fit")
-    text += ", and it has all data; a narrower interval beside it is narrower by chance";
+    text += ", and it uses all data: another estimate with a narrower interval has it by chance";
   else if (rivals > 1 && has_few_readings(all.ledger) && !all.estimates[*all.answer].laws)
     text +=
         ", and of " + std::to_string(rivals) +
-        " such estimates its intervals are the widest that agree: of so few readings a narrower one is narrow by "
-        "chance";
+        " such estimates it has the widest intervals that agree: from so few readings, another estimate has narrower "
+        "ones by chance";
   else if (rivals > 1)
     text += ", and of " + std::to_string(rivals) + " such estimates its intervals are the narrowest";
   const std::vector<std::string> untested = names_of(all.ledger, Standing::untested);

@@ -173,7 +173,7 @@ std::vector<Departure> bristles() {
        .values_at = only_stiffness,
        .plausible = {{"", {11.6e4}, "the measured contact stiffness, liang2004identifying"}}},
       {.name = "elasto_plastic",
-       .meaning = "bristles that bend elastically before they give way",
+       .meaning = "bristles that bend elastically before they yield",
        .parameters = {bristles_parameter},
        .build = elasto_plastic,
        .severity = "deflection of the bristles F0/sigma0 over the amplitude X",

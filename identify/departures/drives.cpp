@@ -64,7 +64,7 @@ sim::Model detuning(const RigBase& base, DepartureValues p) {
   return spring_and_drive(base, base.model.oscillator.cubic_stiffness, p[0]);
 }
 
-/// Part of the mass rides on a spring and a damper of its own. The second mode lies at about four times the natural
+/// A spring and a damper of its own carry part of the mass. The second mode lies at about four times the natural
 /// frequency, between the odd harmonics of friction: close to one of them, rigs would differ by chance.
 sim::Model second_mode(const RigBase& base, DepartureValues p) {
   constexpr double frequency = 4.0;       // over the natural one
@@ -172,14 +172,14 @@ std::vector<Departure> springs() {
        .forced_only = true},
       {.name = "second_mode",
        .meaning =
-           "the structure has a second mode, four times as fast: part of the mass rides on a spring of its own",
+           "the structure has a second mode, four times as fast: a spring of its own carries part of the mass",
        .parameters = {{.name = "share",
                        .unit = "1",
-                       .meaning = "of the mass that rides on a spring and damper of its own",
+                       .meaning = "of the mass that a spring and damper of its own carry",
                        .range = {.low = 0.0, .high = 1.0, .low_open = true, .high_open = true}}},
        .build = second_mode,
        .severity =
-           "share of the mass that rides on a spring of its own, with 2 % of critical damping, the second mode at "
+           "share of the mass that a spring of its own carries, with 2 % of critical damping, the second mode at "
            "about four times the natural frequency",
        .largest = 0.5,
        .values_at = [](const RigBase&, double s) { return std::vector{s}; }},

@@ -231,8 +231,8 @@ std::string driven_record(const identify::Fit& held, const identify::Experiments
     const double predicted = size_of(held.outputs.segment(fitted.rows.end - quarter, quarter));
     if (last > part * size_of(measured.head(quarter)) && predicted < part * last)
       return experiment.label +
-             ": nothing states the drive of this record, nor did the fit for such a record; the record goes on where the rig "
-             "without a drive comes to rest: a drive seems to be missing. State it by " +
+             ": neither the scenario nor the fit states a drive for this record. The rig without a drive comes to rest, "
+             "and the record does not: a drive seems to be missing. State it by " +
              words(core::Setting::frequency) + " or " + words(core::Setting::value, "excitation", "{...}") +
              ", or '{type: none}' if there was none";
   }
