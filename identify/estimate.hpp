@@ -118,7 +118,7 @@ struct EstimateCurve {
 
 /// One of the laws that `law_selection` compares.
 struct LawCandidate {
-  std::string law;  ///< "coulomb_viscous", "saturating_viscous", ...
+  std::string law;  ///< "coulomb_viscous", "viscous_saturating", ...
   std::vector<FurtherParameter> parameters;
   double residual_deviation = 0.0;  ///< m
   double AICc = 0.0;                ///< infinite when the data are too few for it

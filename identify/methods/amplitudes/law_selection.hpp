@@ -3,7 +3,7 @@
 ///
 /// Candidates, by the fundamental of their force (identify/methods/amplitudes/fundamental_laws.hpp):
 /// coulomb_viscous; quadratic_drag,
-/// + d v|v|; power, F0 + C |v|^n; saturating_viscous, F0 + c v/(1 + |v|/v0); stribeck, + dF exp(-(v/vs)^2);
+/// + d v|v|; viscous_power, F0 + C |v|^n; viscous_saturating, F0 + c v/(1 + |v|/v0); stribeck, + dF exp(-(v/vs)^2);
 /// position_quadratic, F0 + c v + s x^2; position_linear. Each is fitted by least squares in x: X solves
 ///
 ///   ((k - m w^2) X)^2 + Phi(w X, X)^2 = (k Y)^2

@@ -1,10 +1,13 @@
 #include "identify/methods/amplitudes/fundamental_laws.hpp"
 
+#include <algorithm>
 #include <boost/math/quadrature/gauss_kronrod.hpp>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <functional>
 #include <numbers>
+
+#include "friction_models/registry.hpp"
 
 using namespace dualdamp::identify;
 using std::numbers::pi;
@@ -29,6 +32,14 @@ TEST_CASE("Dawson's integral has its known values") {
   CHECK(dawson(10.0) == Approx(0.05025384718759853).epsilon(1e-13));
   CHECK(dawson(30.0) == Approx(1.0 / 60.0 * (1.0 + 1.0 / 1800.0 + 3.0 / 1800.0 / 1800.0)).epsilon(1e-8));
   CHECK(dawson(1e-6) == Approx(1e-6).epsilon(1e-11));
+}
+
+TEST_CASE("A law that the engines know too has one name") {
+  for (const char* name : {"stribeck", "viscous_power", "viscous_saturating"}) {
+    CAPTURE(name);
+    CHECK(dualdamp::friction::find_law(name) != nullptr);
+    CHECK(std::ranges::count(fundamental_laws(), name, &FundamentalLaw::name) == 1);
+  }
 }
 
 TEST_CASE("The fundamental of a saturating law is its integral, on every branch") {

@@ -69,10 +69,10 @@ TEST_CASE("The five reconstructed pairs: Coulomb + viscous is rejected at 1 %, s
   CHECK(e.lack_of_fit->p_value < 0.01);
   CHECK(e.lack_of_fit->freedom == 2);
   REQUIRE(e.candidates.size() == 5);  // three parameters at most from five levels: no Stribeck law
-  CHECK(e.candidates.front().law == "saturating_viscous");
+  CHECK(e.candidates.front().law == "viscous_saturating");
   CHECK(e.candidates.back().law == "coulomb_viscous");
   CHECK(std::isinf(e.candidates.front().AICc));  // 5 pairs, 3 parameters and the variance
-  CHECK(e.reason.find("saturating_viscous ranks first") != std::string::npos);
+  CHECK(e.reason.find("viscous_saturating ranks first") != std::string::npos);
   CHECK(any_mentions(e.warnings, "cannot show which mechanism"));
   // At one frequency a law of position is a law of velocity.
   CHECK(candidate_named(e, "position_quadratic").BIC ==
@@ -134,7 +134,7 @@ TEST_CASE("Laws are recovered from the motion they make") {
   REQUIRE(e.outcome.ok());
   CHECK_FALSE(e.usable);
   const LawCandidate& best = e.candidates.front();
-  CHECK(best.law == "saturating_viscous");
+  CHECK(best.law == "viscous_saturating");
   // What harmonic balance leaves is taken out at the fit of another law: some percent remain.
   CHECK(parameter(best, "F0") == Approx(3.16).epsilon(0.05));
   CHECK(parameter(best, "c") == Approx(18.7).epsilon(0.08));
