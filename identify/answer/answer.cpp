@@ -173,8 +173,11 @@ void share_misfit_of_laws(std::vector<Estimate>& estimates) {
   for (const Estimate& ranges : estimates) {
     const std::string none = no_law_fits(ranges);
     if (none.empty()) continue;
-    for (Estimate& estimate : estimates)
-      if (estimate.usable && !estimate.laws) estimate.usable = false, estimate.reason = none;
+    for (Estimate& estimate : estimates) {
+      if (!estimate.usable || estimate.laws) continue;
+      estimate.usable = false;
+      estimate.reason = none;
+    }
   }
 }
 

@@ -275,7 +275,10 @@ AmplitudeFit fit_with(SteadyStates states, const SteadyParameters& begin, const 
     else
       fit.deviations.phase = std::max(fit.deviations.x, fit.deviations.Y);
     limit(fit.deviations, states.largest());
-    if (is_stated(known)) fit.deviations.x = known.sigma_x, fit.deviations.Y = known.sigma_Y;
+    if (is_stated(known)) {
+      fit.deviations.x = known.sigma_x;
+      fit.deviations.Y = known.sigma_Y;
+    }
   }
   Taken all(static_cast<std::size_t>(fit.at.g.size()));
   std::iota(all.begin(), all.end(), 0);

@@ -248,7 +248,7 @@ class Histories {
       at.g[static_cast<Eigen::Index>(taken[j])] += step[base + static_cast<Eigen::Index>(j)];
     at.p[1] = std::max(0.0, at.p[1]);
     const ForceParameters after = force_at(at);
-    if (after.m > 0.0 && after.k > 0.0) at.p[0] = 2.0 * zeta * std::sqrt(after.m * after.k) / scale;
+    if (after.m > 0.0 && after.k > 0.0) at.p[0] = zeta * critical_damping(after.m, after.k) / scale;
     return at;
   }
 

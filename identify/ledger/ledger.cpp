@@ -93,11 +93,13 @@ class Writer {
       const double blind = blind_[static_cast<std::size_t>(entry.assumption)];
       if (entry.standing != Standing::holds || !entry.reason.empty() || !std::isfinite(blind)) continue;
       const std::string size = "a departure that moves zeta or F0 by " + in_percent(blind) + " would be seen";
-      if (blind > most)
+      if (blind > most) {
         entry = {.assumption = entry.assumption,
                  .reason = "only " + size + would_show(entry.assumption, ledger.recorded)};
-      else
-        entry.reason = size, entry.sight = blind;
+      } else {
+        entry.reason = size;
+        entry.sight = blind;
+      }
     }
   }
 

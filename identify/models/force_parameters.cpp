@@ -9,19 +9,26 @@
 
 namespace dualdamp::identify {
 
+namespace {
+
+/// c of critical damping. Two roots, unlike critical_damping(): a search may try constants whose product leaves the
+/// range of double precision.
+double critical(const ForceParameters& force) { return 2.0 * std::sqrt(force.m) * std::sqrt(force.k); }
+
+}  // namespace
+
 ParameterSet parameters(const ForceParameters& force) {
   const bool sprung = force.k > 0.0;
-  return {sprung ? force.c / (2.0 * std::sqrt(force.m) * std::sqrt(force.k)) : unknown, force.c,
-          sprung ? force.F0 / force.k : unknown, force.F0};
+  return {sprung ? force.c / critical(force) : unknown, force.c, sprung ? force.F0 / force.k : unknown, force.F0};
 }
 
 void set_estimate(Estimate& estimate, const ForceParameters& force, const Eigen::Matrix4d& covariance,
                   double half_width, const ForceParameters& bias) {
   estimate.value = parameters(force);
   const ParameterSet& value = estimate.value;
-  const double twice_root = 2.0 * std::sqrt(force.m) * std::sqrt(force.k);
   // Rows: derivatives of zeta and x_f by (m, c, k, F0).
-  const Eigen::RowVector4d to_zeta(-0.5 * value.zeta / force.m, 1.0 / twice_root, -0.5 * value.zeta / force.k, 0.0);
+  const Eigen::RowVector4d to_zeta(-0.5 * value.zeta / force.m, 1.0 / critical(force), -0.5 * value.zeta / force.k,
+                                   0.0);
   const Eigen::RowVector4d to_x_f(0.0, 0.0, -value.x_f / force.k, 1.0 / force.k);
   const auto deviation = [&](const Eigen::RowVector4d& row) {
     return std::sqrt(row.dot((covariance * row.transpose()).transpose()));

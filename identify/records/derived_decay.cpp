@@ -88,9 +88,10 @@ class DecayReader {
     }
     width_ = std::max(half_period_ / 4.0, narrowest);
 
+    const std::size_t held = held_until();
     for (std::size_t i = 0; i + 1 < turns.size(); ++i)
-      if (turns[i] > 0 && !is_held(turns[i])) add(result, turns[i]);
-    add_first(result, turns.front());
+      if (turns[i] > 0 && turns[i] >= held) add(result, turns[i]);  // before that a turning point is noise
+    add_first(result, turns.front(), held);
     add_last(result, turns.back());
     const std::string fault = keep_decay(result);
     return fault.empty() ? result : refused(fault);
@@ -136,7 +137,7 @@ class DecayReader {
     std::vector<double> lengths;
     for (std::size_t i = 2; i + 1 < turns.size(); ++i)
       if (swing(i) >= least_share * largest) lengths.push_back(static_cast<double>(turns[i] - turns[i - 1]));
-    const std::size_t begin = is_held(turns[0]) ? held_until() : turns[0];
+    const std::size_t begin = std::max(turns[0], held_until());
     if (lengths.empty()) return static_cast<double>(turns[1]) - static_cast<double>(begin);
     return upper_median(std::move(lengths));
   }
@@ -197,12 +198,8 @@ class DecayReader {
     return i;
   }
 
-  /// Whether a turning point is noise while the mass is held.
-  [[nodiscard]] bool is_held(std::size_t turn) const { return turn < held_until(); }
-
   /// Adds the position of release: where the mass is held, or the first sample if the velocity is zero there.
-  void add_first(DerivedDecay& result, std::size_t first_turn) const {
-    const std::size_t held = held_until();
+  void add_first(DerivedDecay& result, std::size_t first_turn, std::size_t held) const {
     if (static_cast<double>(held) > 2.0 * width_) {
       const Mean mean = mean_of(0, held);
       put_first(result, held - 1, mean.value, mean.std);

@@ -37,7 +37,7 @@ std::optional<LackOfFit> added_term_test(const Eigen::MatrixXd& jacobian, const 
 }
 
 ParameterSet parameters(double zeta, double x_f, const KnownConstants& constants) {
-  // Two roots instead of sqrt(m k): the product may leave the range of double precision.
+  // Two roots, unlike critical_damping(): the product m k may leave the range of double precision.
   return {zeta, 2.0 * zeta * std::sqrt(constants.mass) * std::sqrt(constants.stiffness), x_f,
           constants.stiffness * x_f};
 }
