@@ -123,6 +123,13 @@ struct Departure {
   bool needs_sweeps = false;
   /// Changes what the laboratory states or reads, or the rig while it measures; may be absent.
   void (*mislead)(Laboratory& laboratory, const ReferenceMotion& reference, double s) = nullptr;
+
+  // For the library of laws of `any_law`, which has all other departures that do not mislead the laboratory.
+  bool outside_library = false;  ///< it is left out, for the reason at its row
+  std::string_view twin_of{};    ///< left out, because negative severities of this other law stand for it
+  double largest_below = 0.0;    ///< size of the largest negative severity that has a meaning; 0: there is none
+  /// It is another spring or frequency than stated, which may be off by this severity; 0: it is another law.
+  double spring_limit = 0.0;
 };
 
 /// The whole table, sorted by name.

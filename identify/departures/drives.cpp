@@ -128,7 +128,8 @@ std::vector<Departure> drives() {
        .severity = "1 less the forcing frequency over the stated one",
        .largest = 0.5,
        .values_at = [](const RigBase&, double s) { return std::vector{-s}; },
-       .forced_only = true},
+       .forced_only = true,
+       .twin_of = "detuning"},
       {.name = "detuning",
        .meaning = "the drive is not at the resonance that the method assumes",
        .parameters = {offset_parameter},
@@ -138,7 +139,9 @@ std::vector<Departure> drives() {
        .values_at = [](const RigBase&, double s) { return std::vector{s}; },
        .plausible = {{"above", {0.02}, "mass and spring known to 2 % each"},
                      {"below", {-0.02}, "mass and spring known to 2 % each"}},
-       .forced_only = true},
+       .forced_only = true,
+       .largest_below = 0.5,
+       .spring_limit = 0.01},
   };
 }
 
@@ -155,7 +158,9 @@ std::vector<Departure> springs() {
              const double X = base.reference.amplitude;
              return std::vector{s * base.model.oscillator.stiffness / (X * X)};
            },
-       .forced_only = true},
+       .forced_only = true,
+       .largest_below = 0.3,
+       .spring_limit = 0.1},
       {.name = "hardening_spring",
        .meaning = "the spring stiffens with its elongation",
        .parameters = {cubic_parameter},
@@ -182,7 +187,10 @@ std::vector<Departure> springs() {
            "share of the mass that a spring of its own carries, with 2 % of critical damping, the second mode at "
            "about four times the natural frequency",
        .largest = 0.5,
-       .values_at = [](const RigBase&, double s) { return std::vector{s}; }},
+       .values_at = [](const RigBase&, double s) { return std::vector{s}; },
+       // It takes as long as a bristle law, and at one frequency its inertia acts on the readings as another
+       // stiffness does, which `detuning` covers.
+       .outside_library = true},
       {.name = "softening_spring",
        .meaning = "the spring softens with its elongation",
        .parameters = {cubic_parameter},
@@ -195,7 +203,8 @@ std::vector<Departure> springs() {
              return std::vector{s * base.model.oscillator.stiffness / (X * X)};
            },
        .plausible = {{"6 %", {1e6}, "6 % softer at 10 mm"}},
-       .forced_only = true},
+       .forced_only = true,
+       .twin_of = "cubic_spring"},
   };
 }
 

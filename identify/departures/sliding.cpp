@@ -146,7 +146,9 @@ std::vector<Departure> by_speed() {
        .severity = "share of F0 that follows rate and state",
        .largest = 1.0,
        .values_at = [](const RigBase&, double s) { return std::vector{s}; },
-       .family = Family::memory},
+       .family = Family::memory,
+       // It takes four tenths of the time of all laws of the library together.
+       .outside_library = true},
       {.name = "static_friction",
        .meaning = "friction holds the mass at rest with more than F0",
        .parameters = {excess_parameter},
@@ -189,7 +191,8 @@ std::vector<Departure> by_place() {
        .largest = 1.0,
        .values_at = [](const RigBase& base,
                        double s) { return std::vector{-s * base.F0 / base.reference.amplitude}; },
-       .has_F0 = false},
+       .has_F0 = false,
+       .largest_below = 1.0},
       {.name = "rough_way",
        .meaning = "Coulomb friction varies at random along the path",
        .parameters = {{.name = "ratio",
@@ -204,7 +207,9 @@ std::vector<Departure> by_place() {
        .severity = "three standard deviations of the friction force along the path over F0, correlated over 0.1 X",
        .largest = 1.0,
        .values_at = [](const RigBase& base,
-                       double s) { return std::vector{s / 3.0, 0.1 * base.reference.amplitude}; }},
+                       double s) { return std::vector{s / 3.0, 0.1 * base.reference.amplitude}; },
+       // It has no F0 but that of its path.
+       .outside_library = true},
   };
 }
 
@@ -227,7 +232,9 @@ std::vector<Departure> by_warmth() {
              const double period = core::two_pi / base.reference.frequency;
              return std::vector{4.0 * base.F0 * base.reference.amplitude / period / s};
            },
-       .has_F0 = false},
+       .has_F0 = false,
+       // It has no F0 but that of its history.
+       .outside_library = true},
       {.name = "warming_contact",
        .meaning = "Coulomb friction falls as the contact warms, over a minute",
        .parameters = {power_parameter},

@@ -1,11 +1,9 @@
 #include "identify/methods/any_law/library.hpp"
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <cassert>
 #include <cmath>
-#include <iterator>
 #include <string_view>
 #include <utility>
 
@@ -16,10 +14,6 @@
 namespace dualdamp::identify {
 
 namespace {
-
-/// Departures that have a meaning for severities of either sign.
-constexpr std::array two_sided = {"cubic_spring", "detuning", "film_beside_damper", "position_slope",
-                                  "viscous_power"};
 
 /// Positive severity: a film takes half of the viscous force and thins with speed. Negative severity: a drag with
 /// the square of speed beside the damper. c is that of low speeds, as under `viscous_saturating`. To the first
@@ -64,7 +58,8 @@ const std::vector<departures::Departure>& further_laws() {
        .severity = "fall of the viscous force at the peak speed, of the first order",
        .largest = 10.0,
        .values_at = [](const departures::RigBase&, double s) { return std::vector{s}; },
-       .family = departures::Family::velocity},
+       .family = departures::Family::velocity,
+       .largest_below = 10.0},
       {.name = "partial_play",
        .meaning = "half of the friction lies behind free play",
        .parameters = {},
@@ -85,36 +80,18 @@ const std::vector<departures::Departure>& further_laws() {
   return list;
 }
 
-/// Departures that are not in the library. `rough_way` and `warming` have no F0. `rate_state` takes four tenths of
-/// the time of all others together. A second mode takes as long as a bristle law, and at one frequency its inertia
-/// acts on the readings as another stiffness does, which `detuning` covers.
-constexpr std::array no_laws = {"rate_state", "rough_way", "second_mode", "warming"};
-/// The other sign of a law that is two-sided here.
-constexpr std::array twins = {"detuned_below", "quadratic_drag", "softening_spring", "viscous_power_below"};
-
-/// Severity to which a two-sided law may be followed on its negative side.
-double furthest_below(const departures::Departure& departure) {
-  if (departure.name == "viscous_power") return -departures::find_departure("viscous_power_below")->largest;
-  return -departure.largest;
-}
-
-template <typename List>
-bool names(const List& list, std::string_view name) {
-  return std::ranges::find(list, name) != std::end(list);
-}
-
-/// All laws that the library can hold. Errors of the laboratory (`mislead`) are not laws.
+/// All laws that the library can hold, sorted by name. Errors of the laboratory (`mislead`) are not laws.
 const std::vector<departures::Departure>& all_laws() {
   static const std::vector<departures::Departure> list = [] {
     std::vector<departures::Departure> all = departures::departures();
     all.insert(all.end(), further_laws().begin(), further_laws().end());
-    [[maybe_unused]] const auto is_known = [&](std::string_view name) {
-      return std::ranges::find(all, name, &departures::Departure::name) != all.end();
+    [[maybe_unused]] const auto has_twin = [&](const departures::Departure& departure) {
+      const auto twin = std::ranges::find(all, departure.twin_of, &departures::Departure::name);
+      return departure.twin_of.empty() || (twin != all.end() && twin->largest_below == departure.largest);
     };
-    assert(std::ranges::all_of(two_sided, is_known) && std::ranges::all_of(no_laws, is_known) &&
-           std::ranges::all_of(twins, is_known));
+    assert(std::ranges::all_of(all, has_twin));
     std::erase_if(all, [](const departures::Departure& departure) {
-      return names(no_laws, departure.name) || names(twins, departure.name) || departure.mislead != nullptr;
+      return departure.outside_library || !departure.twin_of.empty() || departure.mislead != nullptr;
     });
     std::ranges::sort(all, {}, &departures::Departure::name);
     return all;
@@ -148,14 +125,12 @@ bool has_free_spring(const ReadingModel& model) {
   return std::ranges::find(model.nuisances(), "stiffness", &Nuisance::name) != model.nuisances().end();
 }
 
-bool is_of_spring(const departures::Departure& departure) {
-  return departure.name == "detuning" || departure.name == "cubic_spring";
-}
+bool is_of_spring(const departures::Departure& departure) { return departure.spring_limit > 0.0; }
 
 std::vector<LibraryLaw> law_library(const ReadingModel& model, const LawIntervalOptions& options) {
   std::vector<LibraryLaw> laws;
   for (const departures::Departure& departure : all_laws()) {
-    if (names(options.without, departure.name)) continue;
+    if (std::ranges::find(options.without, departure.name) != options.without.end()) continue;
     if (departure.forced_only && !model.is_driven()) continue;
     LibraryLaw law{.departure = &departure,
                    .largest = std::min(options.largest_severity, departure.largest),
@@ -163,13 +138,16 @@ std::vector<LibraryLaw> law_library(const ReadingModel& model, const LawInterval
     const bool of_spring = is_of_spring(departure);
     // If the readings determine spring and frequency, these are free under every law instead.
     if (of_spring && !model.nuisances().empty()) continue;
-    if (departure.name == "detuning") law.largest = 0.01, law.deviation = 0.005;
-    if (departure.name == "cubic_spring") law.largest = 0.1, law.deviation = 0.05;
-    if (names(two_sided, departure.name)) law.largest_below = std::max(-law.largest, furthest_below(departure));
+    if (of_spring) {
+      law.largest = departure.spring_limit;
+      law.deviation = 0.5 * departure.spring_limit;
+    }
+    const bool two_sided = departure.largest_below > 0.0;
+    if (two_sided) law.largest_below = -std::min(law.largest, departure.largest_below);
     // A larger error of spring or frequency is found by the ledger.
     if (options.further && !of_spring) {
       law.furthest = departure.largest;
-      law.furthest_below = furthest_below(departure);
+      if (two_sided) law.furthest_below = -departure.largest_below;
     }
     laws.push_back(law);
   }

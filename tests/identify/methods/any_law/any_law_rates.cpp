@@ -75,16 +75,11 @@ std::optional<Departed> departed_by(double wanted, LawRecord kind, const LawRig&
   return best;
 }
 
-/// Names to leave out: the departure, and the law of the library of which it is one side. A drag beside the damper
-/// is the negative side of a film beside it.
+/// Names to leave out: the departure, and the law of the library of which it is one side.
 std::vector<std::string> without(const identify::departures::Departure& departure) {
-  static const std::map<std::string, std::string> twins = {{"detuned_below", "detuning"},
-                                                           {"quadratic_drag", "film_beside_damper"},
-                                                           {"softening_spring", "cubic_spring"},
-                                                           {"viscous_power_below", "viscous_power"}};
-  const std::string name(departure.name);
-  const auto twin = twins.find(name);
-  return twin == twins.end() ? std::vector{name} : std::vector{name, twin->second};
+  std::vector<std::string> names = {std::string(departure.name)};
+  if (!departure.twin_of.empty()) names.emplace_back(departure.twin_of);
+  return names;
 }
 
 /// Means over records: coverage, interval score at 95 % (Gneiting and Raftery) and half width, over the truth.
