@@ -145,6 +145,12 @@ std::vector<Departure> drives() {
   };
 }
 
+/// The cubic spring that at the amplitude X has the force s k X.
+std::vector<double> cubic_at(const RigBase& base, double s) {
+  const double X = base.reference.amplitude;
+  return {s * base.model.oscillator.stiffness / (X * X)};
+}
+
 std::vector<Departure> springs() {
   return {
       {.name = "cubic_spring",
@@ -153,11 +159,7 @@ std::vector<Departure> springs() {
        .build = cubic_spring,
        .severity = "hardening k3 X^2 over the stiffness k",
        .largest = 10.0,
-       .values_at =
-           [](const RigBase& base, double s) {
-             const double X = base.reference.amplitude;
-             return std::vector{s * base.model.oscillator.stiffness / (X * X)};
-           },
+       .values_at = cubic_at,
        .forced_only = true,
        .largest_below = 0.3,
        .spring_limit = 0.1},
@@ -197,11 +199,7 @@ std::vector<Departure> springs() {
        .build = softening_spring,
        .severity = "softening -k3 X^2 over the stiffness k",
        .largest = 0.3,
-       .values_at =
-           [](const RigBase& base, double s) {
-             const double X = base.reference.amplitude;
-             return std::vector{s * base.model.oscillator.stiffness / (X * X)};
-           },
+       .values_at = cubic_at,
        .plausible = {{"6 %", {1e6}, "6 % softer at 10 mm"}},
        .forced_only = true,
        .twin_of = "cubic_spring"},

@@ -45,6 +45,14 @@ constexpr DepartureParameter exponent_parameter = {.name = "exponent",
                                                    .low = 0.1,
                                                    .high = 3.0};
 
+constexpr DepartureParameter drag_parameter{.name = "drag",
+                                            .unit = "N.s^2/m^2",
+                                            .meaning = "force over the square of speed",
+                                            .range = not_negative,
+                                            .start = 0.1,
+                                            .low = 1e-5,
+                                            .high = 3.0};
+
 }  // namespace
 
 std::vector<Departure> film_departures() {
@@ -53,13 +61,7 @@ std::vector<Departure> film_departures() {
       {
           {.name = "quadratic_drag",
            .meaning = "drag proportional to the square of speed, in addition to the damper",
-           .parameters = {{.name = "drag",
-                           .unit = "N.s^2/m^2",
-                           .meaning = "force over the square of speed",
-                           .range = not_negative,
-                           .start = 0.1,
-                           .low = 1e-5,
-                           .high = 3.0}},
+           .parameters = {drag_parameter},
            .build = quadratic_drag,
            .severity = "force of the drag over that of the damper at the peak speed",
            .largest = 10.0,

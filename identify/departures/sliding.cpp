@@ -138,17 +138,6 @@ std::vector<Departure> by_speed() {
        .largest = 1.0,
        .values_at = [](const RigBase& base,
                        double s) { return std::vector{s * weight_of(base) / base.reference.speed()}; }},
-      {.name = "rate_state",
-       .meaning = "a share of the friction follows rate and state",
-       .parameters =
-           {{.name = "share", .unit = "1", .meaning = "share of the friction", .range = {.low = 0.0, .high = 1.0}}},
-       .build = rate_state,
-       .severity = "share of F0 that follows rate and state",
-       .largest = 1.0,
-       .values_at = [](const RigBase&, double s) { return std::vector{s}; },
-       .family = Family::memory,
-       // It takes four tenths of the time of all laws of the library together.
-       .outside_library = true},
       {.name = "static_friction",
        .meaning = "friction holds the mass at rest with more than F0",
        .parameters = {excess_parameter},
@@ -213,14 +202,24 @@ std::vector<Departure> by_place() {
   };
 }
 
-/// Constant Coulomb friction, and friction that falls as the contact warms.
-std::vector<Departure> by_warmth() {
+/// Constant Coulomb friction, and friction that depends on earlier motion.
+std::vector<Departure> by_memory() {
   return {
       {.name = plain_name,
        .meaning = "no mechanism: the friction that the method assumes",
        .parameters = {},
        .build = coulomb_viscous,
        .plausible = {{"", {}, "what the method's own neglect of H bends"}}},
+      {.name = "rate_state",
+       .meaning = "a share of the friction follows rate and state",
+       .parameters =
+           {{.name = "share", .unit = "1", .meaning = "share of the friction", .range = {.low = 0.0, .high = 1.0}}},
+       .build = rate_state,
+       .severity = "share of F0 that follows rate and state",
+       .largest = 1.0,
+       .values_at = [](const RigBase&, double s) { return std::vector{s}; },
+       // It takes four tenths of the time of all laws of the library together.
+       .outside_library = true},
       {.name = "warming",
        .meaning = "Coulomb friction falls as the contact warms, over five periods",
        .parameters = {power_parameter},
@@ -247,7 +246,7 @@ std::vector<Departure> by_warmth() {
 
 std::vector<Departure> sliding_departures() {
   return joined({of_family(Family::velocity, by_direction()), of_family(Family::velocity, by_speed()),
-                 of_family(Family::position, by_place()), of_family(Family::memory, by_warmth())});
+                 of_family(Family::position, by_place()), of_family(Family::memory, by_memory())});
 }
 
 }  // namespace dualdamp::identify::departures
