@@ -301,16 +301,36 @@ Fit fit_rig(const Rig& rig, std::vector<FitParameter> parameters, const Experime
   }
 }
 
-double relative_error(const Fit& fit) {
+namespace {
+
+/// Sums over signals, of all residuals relative to their signal.
+struct RelativeSquare {
   double sum = 0.0;
   double count = 0.0;
-  for (const FittedSignal& signal : fit.signals) {
+
+  void add(const FittedSignal& signal) {
     const auto size = static_cast<double>(signal.rows.size());
     const double share = signal.rms / signal.range;
     sum += size * share * share;
     count += size;
   }
-  return std::sqrt(sum / count);
+  [[nodiscard]] double root_mean() const { return std::sqrt(sum / count); }
+};
+
+}  // namespace
+
+double relative_error(const Fit& fit) {
+  RelativeSquare all;
+  for (const FittedSignal& signal : fit.signals) all.add(signal);
+  return all.root_mean();
+}
+
+std::vector<double> relative_errors(const Fit& fit, std::size_t experiments) {
+  std::vector<RelativeSquare> of_each(experiments);
+  for (const FittedSignal& signal : fit.signals) of_each[signal.rows.experiment].add(signal);
+  std::vector<double> errors;
+  for (const RelativeSquare& one : of_each) errors.push_back(one.root_mean());
+  return errors;
 }
 
 SharedUncertainty shared_uncertainty(const Fit& fit) {

@@ -9,6 +9,7 @@
 #include "core/constants.hpp"
 #include "core/numbers.hpp"
 #include "friction_models/registry.hpp"
+#include "identify/fit/assumed_drive.hpp"
 #include "identify/fit/prediction.hpp"
 #include "scenarios/analyses/shared/record_drive.hpp"
 #include "scenarios/analyses/shared/record_holds.hpp"
@@ -175,68 +176,30 @@ std::string assumed_drive(const CheckedValues& values, const std::vector<DataIte
   return is_assumed ? drive_text(values.excitation, values.model) : std::string();
 }
 
-/// rms of the residuals over the rms of the signal for each experiment.
-std::vector<double> errors_of(const identify::Fit& fit, std::size_t experiments) {
-  std::vector<double> squares(experiments);
-  std::vector<double> counts(experiments);
-  for (const identify::FittedSignal& signal : fit.signals) {
-    const auto size = static_cast<double>(signal.rows.size());
-    squares[signal.rows.experiment] += size * std::pow(signal.rms / signal.range, 2);
-    counts[signal.rows.experiment] += size;
-  }
-  for (std::size_t e = 0; e < experiments; ++e) squares[e] = std::sqrt(squares[e] / counts[e]);
-  return squares;
+/// Why a record that the rig explains without the drive that was assumed is not judged; empty if there is none.
+std::string undriven_text(const identify::Rig& rig, const identify::Fit& held, const identify::Experiments& data,
+                          const std::string& drive, const core::SettingWords& words) {
+  const std::optional<identify::UndrivenRecord> found = identify::undriven_record(rig, held, data);
+  if (!found) return {};
+  constexpr int digits = 3;
+  return data[found->experiment]->label +
+         ": nothing states the drive of this record. Under the drive of the fit (" + drive +
+         ") the prediction misses by " + core::percent(found->with_drive, digits) + ", and without a drive by " +
+         core::percent(found->without_drive, digits) + ": " +
+         words(core::Setting::value, "excitation", "{type: none}") +
+         ", or state its drive (beside other records 'drive: none')";
 }
 
-/// A record that the rig explains without the drive that was assumed. `data`: without a drive, the records are
-/// those of free vibrations, which begin at their release.
-std::string undriven_record(const identify::Rig& rig, const identify::Fit& held, const identify::Experiments& data,
-                            const std::string& drive, const core::SettingWords& words) {
-  constexpr double part = 0.5;   // of the error under the drive
-  constexpr double good = 0.25;  // of the motion: a rig at rest misses by all of it
-  identify::Rig undriven = rig;
-  undriven.known.excitation = {};
-  std::vector<identify::FitParameter> of_records;
-  for (std::size_t e = 0; e < data.size(); ++e)
-    for (const identify::RecordParameter each : data[e]->record_free)
-      of_records.push_back(identify::parameter_of_record(*data[e], e, each, data.size() == 1));
-  const identify::Fit fit = identify::fit_rig(undriven, of_records, data, {.profile = false});
-  if (!fit.outcome.ok()) return {};
-  const std::vector<double> with = errors_of(held, data.size());
-  const std::vector<double> without = errors_of(fit, data.size());
-  for (std::size_t e = 0; e < data.size(); ++e)
-    if (without[e] < good && without[e] < part * with[e])
-      return data[e]->label + ": nothing states the drive of this record. Under the drive of the fit (" + drive +
-             ") the prediction misses by " + core::format_number(100.0 * with[e], 3) +
-             " %, and without a drive by " + core::format_number(100.0 * without[e], 3) +
-             " %: " + words(core::Setting::value, "excitation", "{type: none}") +
-             ", or state its drive (beside other records 'drive: none')";
-  return {};
-}
-
-/// A record that goes on where the rig without a drive comes to rest.
-std::string driven_record(const identify::Fit& held, const identify::Experiments& data,
-                          const core::SettingWords& words) {
-  constexpr double part = 0.5;
-  const auto size_of = [](const Eigen::VectorXd& values) {
-    return (values.array() - values.mean()).matrix().norm();
-  };
-  for (const identify::FittedSignal& fitted : held.signals) {
-    const identify::Experiment& experiment = *data[fitted.rows.experiment];
-    const Eigen::Index quarter = fitted.rows.size() / 4;
-    if (experiment.kind != identify::ExperimentKind::history || quarter < 2) continue;
-    const std::vector<double>& values = experiment.signals[fitted.rows.signal].measured;
-    const Eigen::Map<const Eigen::VectorXd> measured(values.data(), static_cast<Eigen::Index>(values.size()));
-    const double last = size_of(measured.tail(quarter));
-    const double predicted = size_of(held.outputs.segment(fitted.rows.end - quarter, quarter));
-    if (last > part * size_of(measured.head(quarter)) && predicted < part * last)
-      return experiment.label +
-             ": neither the scenario nor the fit states a drive for this record. The rig without a drive comes to rest, "
-             "and the record does not: a drive seems to be missing. State it by " +
-             words(core::Setting::frequency) + " or " + words(core::Setting::value, "excitation", "{...}") +
-             ", or '{type: none}' if there was none";
-  }
-  return {};
+/// The same for a record that moves on where the rig without a drive comes to rest.
+std::string driven_text(const identify::Fit& held, const identify::Experiments& data,
+                        const core::SettingWords& words) {
+  const std::optional<std::size_t> found = identify::record_with_unknown_drive(held, data);
+  if (!found) return {};
+  return data[*found]->label +
+         ": neither the scenario nor the fit states a drive for this record. The rig without a drive comes to rest, "
+         "and the record does not: a drive seems to be missing. State it by " +
+         words(core::Setting::frequency) + " or " + words(core::Setting::value, "excitation", "{...}") +
+         ", or '{type: none}' if there was none";
 }
 
 /// The records as they are if the assumed drive did not drive them; empty if none is assumed. Faults are told of
@@ -287,8 +250,8 @@ Answer PredictQuestion::run(const RunContext& /*context*/) const {
   const identify::Experiments& undriven = undriven_data_.size() == data_.size() ? undriven_data_ : data_;
   const auto refuses = [&](const identify::Fit& held) {
     if (assumed_drive_.empty()) return std::string();
-    return is_driven ? undriven_record(rig_, held, undriven, assumed_drive_, words_)
-                     : driven_record(held, data_, words_);
+    return is_driven ? undriven_text(rig_, held, undriven, assumed_drive_, words_)
+                     : driven_text(held, data_, words_);
   };
   identify::Prediction prediction = identify::predict_records(rig_, parameters_, uncertainty_, data_, {}, refuses);
   if (!prediction.outcome.ok()) return failed(prediction.outcome.reason);
