@@ -6,6 +6,7 @@
 
 #include "core/random.hpp"
 #include "friction_models/registry.hpp"
+#include "identify/fit/assumed_drive.hpp"
 #include "tests/identify/fit/random_rigs.hpp"
 #include "tests/identify/fit/synthetic.hpp"
 
@@ -146,6 +147,30 @@ TEST_CASE("prediction: a record without motion is not judged", "[identify][fit]"
   const identify::Prediction found = identify::predict_records(held, {}, {}, experiments_of(still));
   CHECK(!found.is_wrong);
   CHECK_THAT(found.text, Catch::Contains("no motion"));
+}
+
+TEST_CASE("prediction: a record tells that the drive assumed for it is not there, or that one is missing",
+          "[identify][fit]") {
+  const identify::Rig driven = test::rig_with(test::law_case_of("coulomb"));
+  identify::Rig undriven = driven;
+  undriven.known.excitation = {};
+  const auto held = [](const identify::Rig& rig, const identify::Experiments& data) {
+    std::vector<identify::FitParameter> own;
+    for (const identify::RecordParameter each : data.front()->record_free)
+      own.push_back(identify::parameter_of_record(*data.front(), 0, each, true));
+    return identify::fit_rig(rig, own, data, {.profile = false});
+  };
+  const identify::Experiments forced = experiments_of(test::history_of(driven, {}, 41));
+  const double release = 20.0 * test::truth_of(undriven, "kinetic") / undriven.known.oscillator.stiffness;
+  const identify::Experiments free = experiments_of(test::history_of(undriven, {.initial = {release, 0.0}}, 42));
+
+  const auto found = identify::undriven_record(driven, held(driven, free), free);
+  REQUIRE(found);
+  CHECK(found->experiment == 0);
+  CHECK(found->without_drive < 0.02);
+  CHECK_FALSE(identify::undriven_record(driven, held(driven, forced), forced));
+  CHECK(identify::record_with_unknown_drive(held(undriven, forced), forced) == 0U);
+  CHECK_FALSE(identify::record_with_unknown_drive(held(undriven, free), free));
 }
 
 TEST_CASE("prediction: what the fit does not determine proves nothing against the law", "[identify][fit]") {
