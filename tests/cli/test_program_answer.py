@@ -34,7 +34,7 @@ class ProgramAnswer(unittest.TestCase):
         return json.loads(self.call("identify", data, *options, "--out", tempfile.mkdtemp(dir=self.folder), "--json").stdout)["result"]
 
     def test_it_is_that_of_identify_without_a_range_over_laws(self):
-        own = [SCENARIO, "--set", "analysis.answer=true", "--set", "analysis.severities=[0.3]", "--set", "analysis.seeds=2",
+        own = [SCENARIO, "--set", "analysis.answer=true", "--set", "analysis.severities=[0.3]", "--set", "analysis.seeds=1",
                "--set", "expect=[{value: cases.failed, equals: 0}]"]
         export, out = self.folder / "own", self.folder / "scored"
         self.call("stress", "export", *own, "--out", export, "--seed", 7)

@@ -47,9 +47,9 @@ class RandomResponse(unittest.TestCase):
         """With next to no friction the response to a white force of density D has the variance D/(2 c k) and takes in the power D/(2 m).
 
         Here the force has the density D (sin u/u)^4, u = w/(4 B), which takes 2 % of the variance and 8 % of the power: both are integrals
-        over the receptance. They scatter by one over the root of zeta w T, 1.3 %.
+        over the receptance. They scatter by one over the root of zeta w T, 1.9 %.
         """
-        intensity, bandwidth, duration, noise = 0.5, 50, 1000, 1e-4
+        intensity, bandwidth, duration, noise = 0.5, 50, 500, 1e-4
         wn, damping = math.sqrt(STIFFNESS / MASS), 2 * 0.15 * math.sqrt(STIFFNESS * MASS)
         settings = []
         for text in ("system.damping_ratio=0.15", "system.friction={law: coulomb, kinetic: 1e-6 N}", "analysis.laws=[detuning]", "analysis.severities=[0.2]",

@@ -6,6 +6,7 @@ The first argument is the program, the second the root of the sources."""
 
 import json
 import sys
+import tempfile
 import unittest
 from pathlib import Path
 
@@ -89,11 +90,16 @@ sweep: {system.mass: [1 kg, 1.01 kg]}
 
 @unittest.skipIf(BROWSER is None, "there is no Chromium on this machine")
 class Page(Case):
+    @classmethod
+    def setUpClass(cls):
+        temporary = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(temporary.cleanup)
+        cls.browser = Browser(Path(temporary.name))
+        cls.addClassCleanup(cls.browser.close)
+
     def values(self, directory, *expressions):
         """The values of JavaScript expressions in the page of a result."""
-        browser = Browser(self.folder / "browser")
-        self.addCleanup(browser.close)
-        with View(browser, self.folder / directory / "report.html", (1000, 800)) as view:
+        with View(self.browser, self.folder / directory / "report.html", (1000, 800)) as view:
             values = [view.value(expression) for expression in expressions]
             self.assertEqual(view.console(), [])
         return values
