@@ -124,10 +124,7 @@ scenarios::Scenario scenario_of(const FitCommand& command) {
   if (command.robust) options.set.push_back({"analysis.robust=true", "--robust"});
   if (command.no_profile) options.set.push_back({"analysis.profile=false", "--no-profile"});
   add_drive(command, false, options);
-  scenarios::Scenario scenario =
-      scenarios::parse_scenario("schema: dualdamp/1\nsystem: {}\nanalysis: {type: fit}\n", "command line", options);
-  scenario.file = command.data.front();
-  return scenario;
+  return scenario_about(command.data.front(), "fit", options);
 }
 
 namespace {

@@ -53,10 +53,7 @@ scenarios::Scenario scenario_of(const IdentifyCommand& command) {
     for (const std::string& name : command.methods) names += (names.empty() ? "" : ", ") + in_quotes(name);
     options.set.push_back({"analysis.methods=[" + names + "]", "--method"});
   }
-  scenarios::Scenario scenario = scenarios::parse_scenario(
-      "schema: dualdamp/1\nsystem: {}\nanalysis: {type: identify}\n", "command line", options);
-  scenario.file = command.data;
-  return scenario;
+  return scenario_about(command.data, "identify", options);
 }
 
 scenarios::Scenario scenario_of(const NextCommand& command) {
@@ -70,10 +67,7 @@ scenarios::Scenario scenario_of(const NextCommand& command) {
     options.set.push_back({"excitation.type=base_harmonic", "--frequency"});
   set_measured_keys(command, options);
   if (from_scenario) return scenarios::load_scenario(command.data, options);
-  scenarios::Scenario scenario = scenarios::parse_scenario(
-      "schema: dualdamp/1\nsystem: {}\nanalysis: {type: design}\n", "command line", options);
-  scenario.file = command.data;
-  return scenario;
+  return scenario_about(command.data, "design", options);
 }
 
 }  // namespace dualdamp::cli

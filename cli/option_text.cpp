@@ -4,6 +4,8 @@
 #include <array>
 #include <cstddef>
 
+#include "scenarios/format/limits.hpp"
+
 namespace dualdamp::cli {
 
 std::string in_quotes(const std::string& text) {
@@ -64,6 +66,15 @@ std::pair<std::string, std::string> split_at_equals(const std::string& text) {
 void set_keys(std::initializer_list<KeyOption> options, scenarios::LoadOptions& load) {
   for (const KeyOption& one : options)
     if (!one.text.empty()) load.set.push_back({std::string(one.key) + "=" + one.text, one.option});
+}
+
+scenarios::Scenario scenario_about(const std::string& about, const std::string& analysis,
+                                   const scenarios::LoadOptions& options) {
+  const std::string text =
+      "schema: " + std::string(scenarios::schema_name) + "\nsystem: {}\nanalysis: {type: " + analysis + "}\n";
+  scenarios::Scenario scenario = scenarios::parse_scenario(text, "command line", options);
+  scenario.file = about;
+  return scenario;
 }
 
 std::array<MapOption, 3> map_options(const FileOptions& file) {

@@ -40,6 +40,11 @@ struct KeyOption {
 /// Sets the keys of those options that are given.
 void set_keys(std::initializer_list<KeyOption> options, scenarios::LoadOptions& load);
 
+/// A scenario whose keys are all stated by options. `about`: the file that it is named after.
+/// Errors: `core::InputError`.
+[[nodiscard]] scenarios::Scenario scenario_about(const std::string& about, const std::string& analysis,
+                                                 const scenarios::LoadOptions& options);
+
 /// An option such as `--unit x=mm`, which states one entry of a map each time that it is given.
 struct MapOption {
   const char* key;

@@ -3,10 +3,9 @@
 
 #include "scenarios/analysis.hpp"
 #include "scenarios/format/keys.hpp"
+#include "scenarios/format/limits.hpp"
 
 namespace dualdamp::scenarios {
-
-inline constexpr std::string_view schema_name = "dualdamp/1";
 
 /// The keys of a scenario whose `analysis` is one of these.
 [[nodiscard]] Section scenario_format(const AnalysisList& analyses);

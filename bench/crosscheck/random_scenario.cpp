@@ -4,6 +4,7 @@
 
 #include "core/constants.hpp"
 #include "core/numbers.hpp"
+#include "scenarios/format/limits.hpp"
 
 namespace dualdamp::crosscheck {
 
@@ -142,7 +143,7 @@ Json scenario_of(Draws& draws, Draws* more, bool with_late) {
   system["friction"] = random_friction(draws, sizes);
   if (more != nullptr) attach_mass(*more, sizes, system["friction"]);
   if (more != nullptr && with_late) add_late_laws(*more, sizes, drive.contains("frequency"), system["friction"]);
-  Json scenario = {{"schema", "dualdamp/1"}, {"system", system}, {"excitation", drive}};
+  Json scenario = {{"schema", scenarios::schema_name}, {"system", system}, {"excitation", drive}};
   const bool is_free = drive.at("type") == "none";
   if (is_free || draws.chance(0.4)) {
     const double x = draws.sign() * sizes.length() * draws.logarithmic(0.1, 10.0);

@@ -11,6 +11,7 @@
 #include "core/random.hpp"
 #include "friction_models/registry.hpp"
 #include "identify/fit/prediction.hpp"
+#include "scenarios/format/limits.hpp"
 #include "scenarios/run.hpp"
 #include "sim/motion/simulate.hpp"
 
@@ -92,7 +93,8 @@ double seconds_for_prediction() {
 
 double seconds_for_sweep() {
   const std::filesystem::path file = std::filesystem::temp_directory_path() / "dualdamp_speed_sweep.yaml";
-  std::ofstream(file) << "schema: dualdamp/1\n"
+  std::ofstream(file) << "schema: " << scenarios::schema_name
+                      << "\n"
                          "system: {mass: 1 kg, stiffness: 100 N/m, damping: 4 N.s/m, friction: {law: coulomb}}\n"
                          "excitation: {type: base_harmonic, frequency: natural}\n"
                          "analysis: {type: steady_state}\n"

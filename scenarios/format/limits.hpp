@@ -1,7 +1,11 @@
 #pragma once
-/// Limits of what a file may ask for.
+/// The version of the format, and limits of what a file may ask for.
+
+#include <string_view>
 
 namespace dualdamp::scenarios {
+
+inline constexpr std::string_view schema_name = "dualdamp/1";  ///< the key `schema` of each scenario
 
 inline constexpr double max_points = 1e6;   ///< values of a list, points of a curve
 inline constexpr double max_swept = 1e4;    ///< points of a sweep, whose lists have max_points rows in all

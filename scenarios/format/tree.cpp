@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/utf8.hpp"
+#include "scenarios/format/limits.hpp"
 #include "scenarios/format/text_checks.hpp"
 
 namespace dualdamp::scenarios {
@@ -135,7 +136,7 @@ Document::Document(std::string name, const std::string& text, core::SettingWords
   const bool empty = root_.kind == Node::Kind::null;
   throw InputError(Diagnostic{locate(empty ? Place{0, 1, 1} : root_.place),
                               empty ? "the file is empty" : "a scenario is a map of keys and values",
-                              "a file that begins with 'schema: dualdamp/1'",
+                              "a file that begins with 'schema: " + std::string(schema_name) + "'",
                               {},
                               {}});
 }

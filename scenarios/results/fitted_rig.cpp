@@ -9,6 +9,7 @@
 #include "identify/experiments/drive_values.hpp"
 #include "scenarios/format/excitations.hpp"
 #include "scenarios/format/law_values.hpp"
+#include "scenarios/format/limits.hpp"
 #include "sim/sampled_signal.hpp"
 
 namespace dualdamp::scenarios {
@@ -148,7 +149,7 @@ Json system_json(const identify::Rig& rig) {
 
 /// Title, system and drive, with the fitted numbers.
 Json rig_json(const identify::Fit& fit, const RigText& text, const sim::Excitation& drive) {
-  Json rig = {{"schema", "dualdamp/1"}, {"title", text.title}, {"system", system_json(fit.rig)}};
+  Json rig = {{"schema", schema_name}, {"title", text.title}, {"system", system_json(fit.rig)}};
   if (!text.excitation.is_object()) return rig;
   Json& excitation = rig["excitation"] = text.excitation;
   excitation.erase("frequency_uncertainty");
