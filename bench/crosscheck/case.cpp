@@ -12,6 +12,7 @@
 #include "core/diagnostics.hpp"
 #include "core/numbers.hpp"
 #include "friction_models/law_fault.hpp"
+#include "friction_models/modifiers/modifiers.hpp"
 #include "scenarios/scenario.hpp"
 
 namespace dualdamp::crosscheck {
@@ -59,9 +60,8 @@ std::vector<std::string> features(const Json& scenario) {
     result.push_back("law: " + law.at("law").get<std::string>());
     if (law.contains("static")) result.emplace_back("static above kinetic");
     if (law.contains("contact_damping")) result.emplace_back("damped contact");
-    for (const char* modifier :
-         {"drift", "position_slope", "load_gradient", "load_modulation", "fluctuation", "warming"})
-      if (law.contains(modifier)) result.push_back(std::string("modifier: ") + modifier);
+    for (const std::string_view modifier : friction::all_modifiers())
+      if (law.contains(modifier)) result.push_back("modifier: " + std::string(modifier));
   }
   return result;
 }

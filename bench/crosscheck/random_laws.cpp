@@ -246,7 +246,8 @@ class RandomLaws {
     }
   }
 
-  /// A list of its own: a new modifier in the list of modifiers would change all cases.
+  /// A list of its own: a new modifier in the list of modifiers would change all cases. `add_load` draws
+  /// `load_gradient` and `load_modulation`, from the seeds on that have late laws.
   static constexpr std::array<std::string_view, 4> drawn_modifiers = {"drift", "position_slope", "fluctuation",
                                                                       "warming"};
 
