@@ -65,6 +65,11 @@ const std::shared_ptr<bench::Processes>& processes() {
   return all;
 }
 
+/// Meets the others of several processes; throws if MPI cannot start.
+void join_processes() {
+  if (bench::Processes::several()) processes();
+}
+
 /// Whether this process prints nothing: of several processes, only the first one prints.
 bool is_silent() { return bench::Processes::several() && processes()->rank() != 0; }
 
@@ -234,7 +239,7 @@ int execute(const RunCommand& command) {
   if (const std::string problem = clash(command); !problem.empty())
     return say(refused(ExitStatus::usage, problem), style);
   const CommandOutput joined = guarded([] {
-    (void)is_silent();  // joins the other processes of mpirun
+    join_processes();
     return CommandOutput{};
   });
   if (joined.status != ExitStatus::done) return say(joined, style);
@@ -270,28 +275,28 @@ int execute(const CheckCommand& command) {
   return finish(outputs.worst());
 }
 
-/// Runs a scenario about data files. The results are named after the first data file.
-template <typename RecordCommand>
-int execute_on_records(const RecordCommand& command, const std::string& data, const char* suffix = "") {
+/// Runs a scenario about files. Unless an option names the directory, the results are named after the first file.
+template <typename FileCommand>
+int execute_on_files(const FileCommand& command, const std::string& file, const char* suffix = "",
+                     scenarios::RunOptions options = {}) {
   const Style style{command.json, command.quiet};
   return say(guarded([&] {
-               const fs::path standard = fs::path("results") / (stem_of(data) + suffix);
+               const fs::path standard = fs::path("results") / (stem_of(file) + suffix);
                Scenario scenario = scenario_of(command);
-               show_in(command.shown_units, scenario);
-               return run_and_write(std::move(scenario),
-                                    {.directory = command.out.empty() ? standard.string() : command.out},
-                                    command.quiet);
+               if constexpr (requires { command.shown_units; }) show_in(command.shown_units, scenario);
+               options.directory = command.out.empty() ? standard.string() : command.out;
+               return run_and_write(std::move(scenario), std::move(options), command.quiet);
              }),
              style);
 }
 
-int execute(const IdentifyCommand& command) { return execute_on_records(command, command.data); }
+int execute(const IdentifyCommand& command) { return execute_on_files(command, command.data); }
 
-int execute(const NextCommand& command) { return execute_on_records(command, command.data, "_next"); }
+int execute(const NextCommand& command) { return execute_on_files(command, command.data, "_next"); }
 
-int execute(const FitCommand& command) { return execute_on_records(command, command.data.front()); }
+int execute(const FitCommand& command) { return execute_on_files(command, command.data.front()); }
 
-int execute(const PredictCommand& command) { return execute_on_records(command, command.data.front()); }
+int execute(const PredictCommand& command) { return execute_on_files(command, command.data.front()); }
 
 int execute(const ExportCommand& command) {
   return say(guarded([&] {
@@ -303,17 +308,9 @@ int execute(const ExportCommand& command) {
 }
 
 int execute(const ScoreCommand& command) {
-  const Style style{command.json, command.quiet};
-  return say(guarded([&] {
-               const fs::path standard = fs::path("results") / (stem_of(command.file) + "-scored");
-               // The estimates of the methods are stored, and are the same for all entries.
-               return run_and_write(scenario_of(command),
-                                    {.directory = command.out.empty() ? standard.string() : command.out,
-                                     .threads = command.jobs,
-                                     .found = scenarios::FoundCases::resume},
-                                    command.quiet);
-             }),
-             style);
+  // The estimates of the methods are stored, and are the same for all entries.
+  return execute_on_files(command, command.file, "-scored",
+                          {.threads = command.jobs, .found = scenarios::FoundCases::resume});
 }
 
 int execute(const ReportCommand& command) {
