@@ -6,8 +6,8 @@
 #include <set>
 #include <utility>
 
+#include "bench/contest/answers.hpp"
 #include "bench/contest/export.hpp"
-#include "bench/contest/key.hpp"
 #include "bench/stress_test.hpp"
 #include "core/diagnostics.hpp"
 #include "core/units.hpp"

@@ -9,7 +9,6 @@
 #include <string>
 #include <vector>
 
-#include "bench/score/case_answer.hpp"
 #include "scenarios/results/files.hpp"
 
 namespace dualdamp::bench {
@@ -26,10 +25,5 @@ struct Key {
 [[nodiscard]] scenarios::OutputFile key_file(const Key& key);
 
 [[nodiscard]] Key read_key(const std::string& path);
-
-/// Reads the answers of a program, a CSV file with the columns `case`, `zeta`, `F0`, `zeta_low`, `zeta_high`,
-/// `F0_low`, `F0_high`, `p_value`, `usable`, in any order; all but the first may be missing, and so may fields and
-/// rows.
-[[nodiscard]] Entry read_entry(const std::string& name, const std::string& path, const Key& key);
 
 }  // namespace dualdamp::bench

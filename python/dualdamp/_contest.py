@@ -19,6 +19,9 @@ from ._library import core
 from ._run import run_source, source_of
 from ._systems import quantity
 
+# A larger number would overflow in products (core/numbers.hpp, most_magnitude).
+_LARGEST = 1e60
+
 # Columns of a row of answers; docs/benchmark.md explains them.
 _COLUMNS = ("zeta", "F0", "zeta_low", "zeta_high", "F0_low", "F0_high", "p_value", "usable")
 
@@ -278,7 +281,7 @@ def _cell(number, column, value):
         raise InvalidScenario(f"case {number}: {column!r} is no number: {value!r}")
     if np.isnan(found):
         return ""
-    low, high = (0, 1) if column == "p_value" else (-1e60, 1e60)
+    low, high = (0, 1) if column == "p_value" else (-_LARGEST, _LARGEST)
     if not low <= found <= high:
         raise InvalidScenario(f"case {number}: {column!r} is out of range: {found!r}, not from {low} to {high}")
     return repr(found)

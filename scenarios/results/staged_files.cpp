@@ -104,10 +104,4 @@ void StagedFiles::publish() {
   names_.clear();
 }
 
-void write_files(const std::string& directory, const std::vector<OutputFile>& files) {
-  StagedFiles staged(directory);
-  for (const OutputFile& file : files) staged.write(file);
-  staged.publish();
-}
-
 }  // namespace dualdamp::scenarios

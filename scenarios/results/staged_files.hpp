@@ -48,7 +48,4 @@ class StagedFiles {
   std::vector<std::string> names_;
 };
 
-/// Writes all files, or none.
-void write_files(const std::string& directory, const std::vector<OutputFile>& files);
-
 }  // namespace dualdamp::scenarios

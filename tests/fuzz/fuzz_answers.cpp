@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 
+#include "bench/contest/answers.hpp"
 #include "bench/contest/key.hpp"
 #include "core/diagnostics.hpp"
 #include "tests/fuzz/harness.hpp"

@@ -12,7 +12,7 @@
 #include <thread>
 
 #include "files.hpp"
-#include "scenarios/results/staged_files.hpp"
+#include "tests/support/written_files.hpp"
 
 using namespace dualdamp;
 using scenarios::CellKind;
@@ -76,7 +76,7 @@ TEST_CASE("output: a file that fails half way leaves the old one and no part of 
   fs::remove_all(folder);
   const std::string longer(200'000, 'x');  // more than any buffer
   const auto write = [&](const scenarios::Writer& writer) {
-    scenarios::write_files(folder.string(), {{"a", writer}});
+    testing::write_files(folder.string(), {{"a", writer}});
   };
   write([&](std::ostream& out) { out << longer << "end"; });
   CHECK(testing::text_of(folder / "a") == longer + "end");
@@ -86,12 +86,12 @@ TEST_CASE("output: a file that fails half way leaves the old one and no part of 
                   }),
                   std::bad_alloc);
   CHECK(testing::text_of(folder / "a") == longer + "end");
-  CHECK_THROWS_AS(scenarios::write_files(folder.string(), {{"a", [](std::ostream& out) { out << "new"; }},
-                                                           {"b", [](std::ostream&) { throw std::bad_alloc(); }}}),
+  CHECK_THROWS_AS(testing::write_files(folder.string(), {{"a", [](std::ostream& out) { out << "new"; }},
+                                                         {"b", [](std::ostream&) { throw std::bad_alloc(); }}}),
                   std::bad_alloc);
   CHECK(testing::text_of(folder / "a") == longer + "end");
   CHECK(std::distance(fs::directory_iterator(folder), fs::directory_iterator()) == 1);
-  CHECK_THROWS_AS(scenarios::write_files((folder / "a").string(), {}), scenarios::OutputError);
+  CHECK_THROWS_AS(testing::write_files((folder / "a").string(), {}), scenarios::OutputError);
   fs::remove_all(folder);
 }
 
@@ -103,7 +103,7 @@ TEST_CASE("output: a link in place of the subdirectory is refused, and what it l
   std::ofstream(folder / "mine" / "a") << "text";
   fs::create_directories(folder / "results");
   fs::create_directory_symlink(folder / "mine", folder / "results" / ".dualdamp.partial");
-  CHECK_THROWS_WITH(scenarios::write_files((folder / "results").string(), {{"b", [](std::ostream&) {}}}),
+  CHECK_THROWS_WITH(testing::write_files((folder / "results").string(), {{"b", [](std::ostream&) {}}}),
                     Catch::Contains("it is a link"));
   CHECK(testing::text_of(folder / "mine" / "a") == "text");
   CHECK_FALSE(fs::exists(folder / "mine" / "b"));
@@ -120,7 +120,7 @@ TEST_CASE("output: files that several write at once are those of one of them", "
       out << writer << std::flush;
       std::this_thread::yield();
     };
-    for (int i = 0; i < 20; ++i) scenarios::write_files(folder.string(), {{"a", text}, {"b", text}, {"c", text}});
+    for (int i = 0; i < 20; ++i) testing::write_files(folder.string(), {{"a", text}, {"b", text}, {"c", text}});
   };
   {
     std::vector<std::jthread> writers;

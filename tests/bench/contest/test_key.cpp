@@ -3,14 +3,13 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <fstream>
 #include <numeric>
 
 #include "core/diagnostics.hpp"
-#include "scenarios/results/staged_files.hpp"
+#include "tests/support/written_files.hpp"
 
 using namespace dualdamp;
 namespace fs = std::filesystem;
@@ -33,7 +32,7 @@ TEST_CASE("key: each case once, in an order that the seed decides") {
 TEST_CASE("key: reads back as it was written, and refuses anything else") {
   const fs::path folder = fs::temp_directory_path() / ("dualdamp-key-" + std::to_string(::getpid()));
   const bench::Key key = bench::make_key("abc", 9007199254740991, 7);
-  scenarios::write_files(folder, {bench::key_file(key)});
+  testing::write_files(folder, {bench::key_file(key)});
   const bench::Key back = bench::read_key(folder / "key.json");
   CHECK(back.scenario == "abc");
   CHECK(back.seed == key.seed);
@@ -48,15 +47,4 @@ TEST_CASE("key: reads back as it was written, and refuses anything else") {
     CHECK_THROWS_AS(bench::read_key(folder / "bad.json"), core::InputError);
   }
   fs::remove_all(folder);
-}
-
-TEST_CASE("answers: usable is said in several words, in small or capital letters") {
-  const fs::path path = fs::temp_directory_path() / ("dualdamp-usable-" + std::to_string(::getpid()) + ".csv");
-  std::ofstream(path) << "case,usable\n1,YES\n2,True\n3,1\n4,no\n5,FALSE\n6,\n";
-  const bench::Key key = bench::make_key("abc", 1, 6);
-  const bench::Entry entry = bench::read_entry("mine", path, key);
-  using enum bench::CaseAnswer::Usable;
-  const std::array<bench::CaseAnswer::Usable, 6> said = {yes, yes, yes, no, no, missing};
-  for (std::size_t i = 0; i < said.size(); ++i) CHECK(entry.answers[key.numbers[i]].usable == said[i]);
-  fs::remove(path);
 }
