@@ -173,10 +173,10 @@ std::string verdict(const StudyAnswer& answer, const MechanismStudy& study) {
   const Explanation& best = answer.explanations.front();
   if (!best.fit.outcome.ok()) return "No mechanism could be fitted.";
   constexpr int digits = 2;
-  std::string text =
-      std::string(best.mechanism->name) + " comes closest: chi2 " + core::format_number(best.fit.chi2, digits) +
-      " with " + std::to_string(best.unknowns) + " unknowns for " + std::to_string(2 * study.estimates.size()) +
-      " numbers, none of them off by more than " + core::format_number(100.0 * best.misfit, digits) + " %. ";
+  std::string text = std::string(best.mechanism->name) + " comes closest: chi2 " +
+                     core::format_number(best.fit.chi2, digits) + " with " + std::to_string(best.unknowns) +
+                     " unknowns for " + std::to_string(2 * study.estimates.size()) +
+                     " numbers, none of them off by more than " + core::percent(best.misfit, digits) + ". ";
   if (!best.aliases.empty())
     text += "Within the standard errors it cannot be told from " + core::joined(best.aliases, " and ") +
             ": amplitudes at one frequency do not tell mechanisms apart. ";

@@ -257,7 +257,8 @@ VectorXd MechanismSearch::start(std::size_t number) const {
   // estimates of all data.
   const PartEstimate& estimate = number == 0 ? study_.estimates.back() : study_.estimates.front();
   const double below = number == 0 ? 0.85 : 0.95;
-  const double c = 2.0 * estimate.zeta * std::sqrt(apparatus_.oscillator.mass * apparatus_.oscillator.stiffness);
+  const double c =
+      estimate.zeta * identify::critical_damping(apparatus_.oscillator.mass, apparatus_.oscillator.stiffness);
   VectorXd p = VectorXd::Ones(static_cast<Index>(unknowns()));
   p[0] = below * estimate.F0 / study_.friction.F0;
   p[1] = below * c / study_.friction.c;

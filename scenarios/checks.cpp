@@ -6,6 +6,7 @@
 
 #include "core/diagnostics.hpp"
 #include "core/numbers.hpp"
+#include "identify/record.hpp"
 #include "scenarios/check_expectations.hpp"
 #include "scenarios/format/excitations.hpp"
 #include "scenarios/format/values.hpp"
@@ -134,7 +135,7 @@ void resolve_damping(CheckedFile& file) {
   const auto ratio = file.number_at("system", "damping_ratio");
   if (!m || !k || !ratio) return;
   Json& system = file.values()["system"];
-  const double damping = *ratio * 2.0 * std::sqrt(*m * *k);
+  const double damping = *ratio * identify::critical_damping(*m, *k);
   if (!std::isfinite(damping)) return;  // mass and stiffness are refused
   system.erase("damping_ratio");
   system["damping"] = damping;
@@ -160,17 +161,16 @@ void check_mass_and_stiffness(CheckedFile& file) {
         "sqrt(m k) of 1e-40 to 1e40 " + core::unit_for(file.coordinate(), "N.s/m"));
 }
 
-/// Squares and products of all numbers must be neither zero nor infinite: below 1e-160 m the energies of a motion
-/// vanish, and forces with squares in them are wrong. Mass, stiffness and damping have ranges of their own.
+/// Below 1e-160 m the energies of a motion vanish, and forces with squares in them are wrong. Mass, stiffness and
+/// damping have ranges of their own.
 void check_magnitudes(CheckedFile& file, const Json& value, const std::string& path) {
-  constexpr double least = 1e-60;
-  constexpr double most = 1e60;
   if (path == "system.mass" || path == "system.stiffness" || path == "system.damping") return;
   if (value.is_number_float()) {
     const double size = std::abs(value.get<double>());
-    if (size == 0.0 || (size >= least && size <= most)) return;
-    file.complain(path, "'" + path + "' is too " + (size > most ? "large" : "small") + " to compute with",
-                  "0, or 1e-60 to 1e60 in SI", core::format_number(value.get<double>(), 6));
+    if (size == 0.0 || (size >= core::least_magnitude && size <= core::most_magnitude)) return;
+    file.complain(
+        path, "'" + path + "' is too " + (size > core::most_magnitude ? "large" : "small") + " to compute with",
+        "0, or " + std::string(core::magnitude_range) + " in SI", core::format_number(value.get<double>(), 6));
   } else if (value.is_object()) {
     for (const auto& [key, item] : value.items())
       check_magnitudes(file, item, path.empty() ? key : path + "." + key);
@@ -207,7 +207,7 @@ void resolve_frequency(CheckedFile& file) {
                       "natural, or a frequency");
       return;
     }
-    const double zeta = *c / (2.0 * std::sqrt(*m * *k));
+    const double zeta = *c / identify::critical_damping(*m, *k);
     if (std::abs(zeta) >= 1.0) {
       file.complain("excitation.frequency", "there is no damped frequency: the damping ratio is not below 1",
                     "natural, or a frequency", "damping ratio " + core::format_number(zeta, 6));
@@ -285,7 +285,7 @@ void check_size_of_uncertainties(CheckedFile& file) {
     file.complain(std::string(section) + "." + uncertainty_key(key),
                   "the uncertainty of '" + path + "' is too large",
                   "less than 100 % of its value; without a value the methods that do not need it are used",
-                  core::format_number(100.0 * *uncertainty / std::abs(*value), 3) + " %");
+                  core::percent(*uncertainty / std::abs(*value), 3));
   }
 }
 

@@ -249,7 +249,7 @@ const std::vector<Experiment>& experiments() {
   return list;
 }
 
-TrueFriction truth() { return {damping / (2.0 * std::sqrt(mass * stiffness)), friction_force}; }
+TrueFriction truth() { return {damping / identify::critical_damping(mass, stiffness), friction_force}; }
 
 std::vector<Cell> accuracy(const std::vector<const identify::MethodEntry*>& methods,
                            const std::vector<double>& noises, int seeds) {

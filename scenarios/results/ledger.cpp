@@ -1,7 +1,5 @@
 #include "scenarios/results/ledger.hpp"
 
-#include <cmath>
-
 #include "core/numbers.hpp"
 #include "identify/methods.hpp"
 #include "scenarios/format/json.hpp"
@@ -58,12 +56,6 @@ Json answer_json(const identify::Identification& found) {
           {"reason", found.reason}};
 }
 
-std::string percent(const std::optional<double>& share) {
-  constexpr int digits = 2;
-  if (!share || !std::isfinite(*share)) return "-";
-  return (*share < 0.0 ? "" : "+") + core::format_number(100.0 * *share, digits) + " %";
-}
-
 Table assumption_table(const std::vector<LedgerEntry>& entries) {
   const auto text = [&](const std::string& name, auto get) { return text_column(name, entries, get); };
   const auto real = [&](const std::string& name, std::optional<double> LedgerEntry::* member) {
@@ -85,8 +77,8 @@ Table readable_assumptions(const std::vector<LedgerEntry>& entries) {
       "assumptions",
       {text("assumption", [](const LedgerEntry& e) { return std::string(identify::name_of(e.assumption)); }),
        text("status", [](const LedgerEntry& e) { return std::string(identify::name_of(e.standing)); }),
-       text("relaxed: zeta", [](const LedgerEntry& e) { return percent(e.zeta_change); }),
-       text("F0", [](const LedgerEntry& e) { return percent(e.F0_change); }),
+       text("relaxed: zeta", [](const LedgerEntry& e) { return change_text(e.zeta_change.value_or(none)); }),
+       text("F0", [](const LedgerEntry& e) { return change_text(e.F0_change.value_or(none)); }),
        text("p",
             [](const LedgerEntry& e) {
               constexpr int digits = 2;

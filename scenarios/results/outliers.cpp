@@ -16,13 +16,6 @@ std::string rounded(double value) {
   return core::format_number(value, digits);
 }
 
-std::string percent(double share) {
-  constexpr double rounding = 1e-6;
-  if (!std::isfinite(share)) return "-";
-  if (std::abs(share) < rounding) return "0 %";
-  return (share < 0.0 ? "" : "+") + rounded(100.0 * share) + " %";
-}
-
 }  // namespace
 
 void add_outliers(const std::vector<identify::Outlier>& outliers, bool bounded, Answer& answer) {
@@ -48,8 +41,8 @@ void add_sensitivities(const std::vector<identify::Sensitivity>& sensitivities, 
   Table table{
       "sensitivities",
       {text_column("1 % more", sensitivities, &Sensitivity::constant),
-       text_column("moves zeta by", sensitivities, [](const Sensitivity& s) { return percent(s.zeta_change); }),
-       text_column("F0 by", sensitivities, [](const Sensitivity& s) { return percent(s.F0_change); })}};
+       text_column("moves zeta by", sensitivities, [](const Sensitivity& s) { return change_text(s.zeta_change); }),
+       text_column("F0 by", sensitivities, [](const Sensitivity& s) { return change_text(s.F0_change); })}};
   table.is_file = false;
   answer.tables.push_back(std::move(table));
 }

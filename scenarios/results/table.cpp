@@ -17,6 +17,13 @@ std::string quantities_text(const std::vector<Quantity>& quantities) {
   return text;
 }
 
+std::string change_text(double share) {
+  constexpr double rounding = 1e-6;
+  constexpr int digits = 2;
+  if (!std::isfinite(share)) return "-";
+  return std::abs(share) < rounding ? "0 %" : core::signed_percent(share, digits);
+}
+
 std::size_t Column::size() const {
   if (!choices.empty()) return choices.size();
   return kind == CellKind::text ? texts.size() : numbers.size();

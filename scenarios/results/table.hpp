@@ -55,6 +55,9 @@ struct Column {
 /// A number that does not exist.
 inline constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
+/// A relative change for a cell of a table: "+3 %"; "0 %" where it is rounding only, "-" where there is none.
+[[nodiscard]] std::string change_text(double share);
+
 /// A column of the values of `get` for each item.
 template <typename Item, typename Get>
 Column column(std::string name, std::string unit, const std::vector<Item>& items, Get get) {

@@ -69,6 +69,14 @@ TEST_CASE("output: a table that is no list of the result is a file only", "[scen
   CHECK(Tree::parse(document_text(result)).at("result").at("points").is_null());
 }
 
+TEST_CASE("output: a relative change that is rounding only is none, and one that does not exist has no number",
+          "[scenarios][output]") {
+  CHECK(scenarios::change_text(0.0312) == "+3.1 %");
+  CHECK(scenarios::change_text(-0.5) == "-50 %");
+  CHECK(scenarios::change_text(-9e-7) == "0 %");
+  CHECK(scenarios::change_text(none) == "-");
+}
+
 TEST_CASE("output: a file that fails half way leaves the old one and no part of itself", "[scenarios][output]") {
   namespace fs = std::filesystem;
   const fs::path folder = fs::temp_directory_path() /

@@ -216,9 +216,8 @@ std::vector<std::string> drive_warnings(const sim::Model& model) {
   constexpr double least = 2e-4;
   if (!(smooth > least * std::sqrt(square))) return {};
   return {
-      "straight lines between the samples of the drive miss it by " +
-      core::format_number(100.0 * smooth / std::sqrt(square), 2) +
-      " % on average, and the estimates may be wrong by as much or more: if the drive is smooth, use interpolation: "
+      "straight lines between the samples of the drive miss it by " + core::percent(smooth / std::sqrt(square), 2) +
+      " on average, and the estimates may be wrong by as much or more: if the drive is smooth, use interpolation: "
       "cubic"};
 }
 

@@ -88,9 +88,8 @@ std::string other_drive(const History& history, const sim::Model& model, bool ph
   const double miss = difference(model, history, measured, phase_is_sought);
   if (miss <= far) return {};
   const std::string column = base ? "y" : "force";
-  return "the record holds " + column + ", and it differs from the drive by " +
-         core::format_number(100.0 * miss, 2) + " % of " + column + ": if it drove the mass, " +
-         words(core::Setting::drive, column) + "; or leave out the column";
+  return "the record holds " + column + ", and it differs from the drive by " + core::percent(miss, 2) + " of " +
+         column + ": if it drove the mass, " + words(core::Setting::drive, column) + "; or leave out the column";
 }
 
 }  // namespace
