@@ -18,7 +18,10 @@ namespace dualdamp::scenarios {
 
 namespace {
 
+/// Tolerance of the second computation: its errors are far below all differences that count. With a smaller one its
+/// steps would add up more rounding than they save.
 constexpr double tight = 1e-13;
+/// Two multipliers that are nearly equal move by the square root of an error of the motion, of 1e-8 here.
 constexpr double multiplier_tolerance = 1e-4;
 
 /// Numbers about the computation of a result.
@@ -283,8 +286,8 @@ class Comparison {
   Verification result_;
 };
 
-/// Another way to compute the same motions.
-struct Way {
+/// A second computation of the same motions.
+struct OtherComputation {
   std::string words;
   sim::Solver solver;
 };
@@ -297,19 +300,22 @@ bool is_heavily_damped(const sim::Oscillator& oscillator) {
 }
 
 /// Steps of the other kind; for a motion of the exact engine those of both kinds.
-std::vector<Way> other_ways(const sim::Model& model) {
+std::vector<OtherComputation> other_computations(const sim::Model& model) {
   const std::string end = " at tolerance " + core::format_number(tight, 1);
-  const Way explicit_way = {"smooth engine, explicit steps" + end, {sim::SolverKind::explicit_steps, tight}};
-  const Way implicit_way = {"smooth engine, implicit steps" + end, {sim::SolverKind::implicit_steps, tight}};
-  if (sim::is_exact(model) && is_heavily_damped(model.oscillator)) return {implicit_way, explicit_way};
-  if (sim::is_exact(model)) return {explicit_way, implicit_way};
-  if (model.solver.kind == sim::SolverKind::implicit_steps) return {explicit_way};
-  return {implicit_way};
+  const OtherComputation by_explicit = {"smooth engine, explicit steps" + end,
+                                        {sim::SolverKind::explicit_steps, tight}};
+  const OtherComputation by_implicit = {"smooth engine, implicit steps" + end,
+                                        {sim::SolverKind::implicit_steps, tight}};
+  if (sim::is_exact(model) && is_heavily_damped(model.oscillator)) return {by_implicit, by_explicit};
+  if (sim::is_exact(model)) return {by_explicit, by_implicit};
+  if (model.solver.kind == sim::SolverKind::implicit_steps) return {by_explicit};
+  return {by_implicit};
 }
 
-Answer answer_by(const Way& way, const Scenario& scenario, const Question& question, const RunOptions& options) {
+Answer answer_by(const OtherComputation& computation, const Scenario& scenario, const Question& question,
+                 const RunOptions& options) {
   sim::Model model = scenario.model;
-  model.solver = way.solver;
+  model.solver = computation.solver;
   try {
     return question.run({model, tight, scenario.resolved, options});
   } catch (const friction::LawFault& fault) {
@@ -317,14 +323,14 @@ Answer answer_by(const Way& way, const Scenario& scenario, const Question& quest
   }
 }
 
-/// Verification by the first way that agrees, otherwise by the first with a result.
-Verification compare_ways(const Scenario& scenario, const Question& question, const std::string& part,
-                          const RunOptions& options, const Answer& answer) {
+/// Verification by the first computation that agrees, otherwise by the first with a result.
+Verification compare_computations(const Scenario& scenario, const Question& question, const std::string& part,
+                                  const RunOptions& options, const Answer& answer) {
   std::optional<Verification> apart;
   Verification none{.agrees = false};
-  for (const Way& way : other_ways(scenario.model)) {
-    const Answer other = answer_by(way, scenario, question, options);
-    none.engine = way.words + part;
+  for (const OtherComputation& computation : other_computations(scenario.model)) {
+    const Answer other = answer_by(computation, scenario, question, options);
+    none.engine = computation.words + part;
     if (other.result.is_null()) {
       none.reason = answer.result.is_null() ? "there is no result to verify: " + other.failure
                                             : "the other computation has no result: " + other.failure;
@@ -335,18 +341,19 @@ Verification compare_ways(const Scenario& scenario, const Question& question, co
       return none;
     }
     Verification result = compare_answers(answer, other, scenario.result_fields, sizes_of_rounding(scenario.model));
-    result.engine = way.words + part;
+    result.engine = computation.words + part;
     if (result.agrees) return result;
     if (!apart) apart = std::move(result);
   }
   return apart ? *std::move(apart) : none;
 }
 
-/// The more serious of both.
+/// The one that does not agree, or else the one nearer to its tolerance. If neither agrees, the first.
 Verification worse(Verification a, Verification b) {
   const long quantities = a.quantities + b.quantities;
-  const auto share = [](const Verification& v) { return v.agrees ? v.largest_difference / v.tolerance : 2.0; };
-  Verification result = b.quantities > 0 && share(b) > share(a) ? std::move(b) : std::move(a);
+  const auto share = [](const Verification& v) { return v.largest_difference / v.tolerance; };
+  const bool is_b = b.quantities > 0 && a.agrees && (!b.agrees || share(b) > share(a));
+  Verification result = is_b ? std::move(b) : std::move(a);
   result.quantities = quantities;
   return result;
 }
@@ -386,8 +393,8 @@ Verification verify(const Scenario& scenario, const RunOptions& options, const A
       all.result.is_null() ? std::optional<Sampled>() : scenario.question->sampled();
   const std::optional<Answer> part = sampled ? std::optional(sampled->part(all)) : std::nullopt;
   const Answer& answer = part ? *part : all;
-  Verification result = compare_ways(scenario, sampled ? *sampled->question : *scenario.question,
-                                     sampled ? ", " + sampled->words : "", options, answer);
+  Verification result = compare_computations(scenario, sampled ? *sampled->question : *scenario.question,
+                                             sampled ? ", " + sampled->words : "", options, answer);
   if (result.quantities == 0) return result;
   const std::optional<OtherWay> more =
       scenario.question->other_way({scenario.model, scenario.tolerance, scenario.resolved, options}, answer);
