@@ -204,7 +204,7 @@ class Parser {
         "Known standard deviation of a measured output amplitude or extreme, such as '0.02 mm'");
     add("--sigma-Y", identify_.sigma_Y, "Known standard deviation of a measured input amplitude");
     add_gains(command, identify_.gain_uncertainties);
-    command.add_flag("--robust", identify_.robust, "Bounds the influence of outliers (Huber), and replaces spikes");
+    command.add_flag("--robust", identify_.robust, "Bound the influence of outliers (Huber), and replace spikes");
     add_file_options(command, identify_);
     add_shown_units(command, identify_);
     add_output_options(command, identify_);
@@ -279,8 +279,8 @@ class Parser {
                     "Number of starts of the search (default: 40, or 8 if every parameter has a stated value)")
         ->check(whole_number(10'000))
         ->type_name("N");
-    command.add_flag("--robust", fit_.robust, "Bounds the influence of outliers (Huber)");
-    command.add_flag("--no-profile", fit_.no_profile, "Leaves out the intervals by the profile of the likelihood");
+    command.add_flag("--robust", fit_.robust, "Bound the influence of outliers (Huber)");
+    command.add_flag("--no-profile", fit_.no_profile, "Leave out the intervals by the profile of the likelihood");
     add_record_options(command, fit_);
   }
 

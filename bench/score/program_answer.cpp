@@ -51,7 +51,7 @@ std::string lacks_nothing(const identify::Record& /*record*/) { return ""; }
 
 constinit const identify::MethodEntry program_answer{
     "answer",
-    "what the program stands by without a range over laws: all quick methods, judged by the ledger of assumptions",
+    "the answer of the program without a range over laws: all quick methods, judged by the ledger of assumptions",
     "what the ledger finds to hold",
     "docs/verdict.md",
     "",

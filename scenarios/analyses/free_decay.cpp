@@ -16,7 +16,7 @@ ResultFields free_decay_fields() {
   return {
       {"peaks[].t", "s", "time of the extreme"},
       {"peaks[].x", "m", "its position, signed"},
-      {"came_to_rest", "", "fewer extremes than wanted because the mass sticks for good"},
+      {"came_to_rest", "", "fewer extremes than wanted because the mass never moves again"},
       {"pauses", "",
        "fewer extremes than wanted because the mass has been held for 100 natural periods; what acts on it still "
        "changes, so that it may move again"},
