@@ -1,171 +1,23 @@
 #include "scenarios/sweep.hpp"
 
 #include <algorithm>
-#include <fstream>
 #include <map>
 #include <memory>
 #include <tuple>
 
 #include "core/cancellation.hpp"
 #include "core/numbers.hpp"
-#include "core/provenance.hpp"
 #include "friction_models/registry.hpp"
-#include "scenarios/analyses/shared/long_run.hpp"
 #include "scenarios/check_expectations.hpp"
 #include "scenarios/format/checked_file.hpp"
 #include "scenarios/format/limits.hpp"
-#include "scenarios/format/swept_keys.hpp"
 #include "scenarios/format/values.hpp"
-#include "scenarios/results/files.hpp"
-#include "scenarios/run.hpp"
-#include "scenarios/scenario_format.hpp"
-#include "scenarios/scenario_reading.hpp"
-#include "scenarios/sweep_answer.hpp"
+#include "scenarios/sweep_points.hpp"
+#include "scenarios/sweep_question.hpp"
 
 namespace dualdamp::scenarios {
 
 namespace {
-
-/// The points of a sweep: the document without its sections `sweep` and `expect`, and what differs.
-class Points {
- public:
-  Points(Document base, SweptKeys swept, std::string name, LoadOptions options)
-      : base_(std::move(base)),
-        swept_(std::move(swept)),
-        name_(std::move(name)),
-        options_(std::move(options)),
-        format_(scenario_format(options_.analyses)) {}
-
-  [[nodiscard]] std::size_t size() const {
-    std::size_t count = 1;
-    for (const SweptKey& key : swept_.keys) count *= key.values.size();
-    return count;
-  }
-  [[nodiscard]] const SweptKeys& swept() const { return swept_; }
-  [[nodiscard]] const Document& base() const { return base_; }
-  [[nodiscard]] const Section& format() const { return format_; }
-  [[nodiscard]] const std::string& name() const { return name_; }
-
-  /// Index of the value of a key at a point; the last key varies fastest.
-  [[nodiscard]] std::size_t index(std::size_t point, std::size_t key) const {
-    for (std::size_t i = swept_.keys.size(); --i > key;) point /= swept_.keys[i].values.size();
-    return point % swept_.keys[key].values.size();
-  }
-
-  [[nodiscard]] Document document(std::size_t point) const {
-    Document document = base_;
-    for (std::size_t i = 0; i < swept_.keys.size(); ++i) {
-      const SweptKey& key = swept_.keys[i];
-      document.put(key.path, key.place, key.values[index(point, i)]);
-    }
-    return document;
-  }
-
-  [[nodiscard]] Scenario scenario(const Document& document, Reading reading) const {
-    return scenario_of(document, std::move(reading), name_, options_);
-  }
-  [[nodiscard]] Scenario scenario(std::size_t point) const {
-    const Document document = this->document(point);
-    return scenario(document, read(document, format_));
-  }
-
-  [[nodiscard]] std::vector<SweptColumn> columns() const {
-    std::vector<SweptColumn> columns;
-    for (std::size_t i = 0; i < swept_.keys.size(); ++i) {
-      const SweptKey& key = swept_.keys[i];
-      SweptColumn& column = columns.emplace_back(SweptColumn{key.path, key.unit, {}, {}});
-      for (std::size_t point = 0; point < size(); ++point) column.numbers.push_back(key.number(index(point, i)));
-    }
-    return columns;
-  }
-
- private:
-  Document base_;
-  SweptKeys swept_;
-  std::string name_;
-  LoadOptions options_;
-  Section format_;
-};
-
-class SweepQuestion final : public Question, public Campaign {
- public:
-  SweepQuestion(Points points, std::vector<SweptColumn> columns, std::vector<ResultField> fields,
-                std::vector<std::string_view> main, std::string inputs)
-      : points_(std::move(points)),
-        columns_(std::move(columns)),
-        fields_(std::move(fields)),
-        main_(std::move(main)),
-        inputs_(std::move(inputs)) {}
-
-  [[nodiscard]] std::string size(const RunContext& /*context*/) const override {
-    std::string text = std::to_string(points_.size()) + " points: ";
-    const char* separator = "";
-    for (const SweptKey& key : points_.swept().keys) {
-      text += separator + key.path + " (" + std::to_string(key.values.size()) + " values)";
-      separator = ", ";
-    }
-    return text;
-  }
-
-  [[nodiscard]] Answer run(const RunContext& context) const override {
-    const RunOptions& options = context.options;
-    std::vector<std::string> lines(points_.size());
-    if (options.directory.empty()) {
-      Meter meter(0, points_.size(), options);
-      share_out(points_.size(), options, [&](std::size_t point) {
-        lines[point] = line(point, options);
-        meter.add();
-      });
-    } else if (!run_with_file(context, lines)) {
-      return {};
-    }
-    try {
-      return answer_of_sweep(lines, columns_, fields_, main_);
-    } catch (const Json::exception&) {
-      // Lines of an earlier run, which may have been changed.
-      core::Diagnostic problem{.message = "a line does not hold a point of this sweep",
-                               .allowed = "the lines that this sweep wrote; or overwrite them"};
-      problem.place.file = options.directory + "/points.jsonl";
-      throw core::InputError(std::move(problem));
-    }
-  }
-
- private:
-  [[nodiscard]] std::string line(std::size_t point, const RunOptions& options) const {
-    return line_of(point, columns_, scenarios::run(points_.scenario(point), {.threads = options.threads}));
-  }
-
-  /// False in all processes but the first.
-  [[nodiscard]] bool run_with_file(const RunContext& context, std::vector<std::string>& lines) const {
-    const RunOptions& options = context.options;
-    ProcessGroup& processes = *options.processes;
-    CaseFile file(options.directory, "points", fingerprint(context.resolved + "\n" + inputs_), points_.size(),
-                  processes.rank());
-    open_cases(file, points_.size(), options);
-    Meter meter(file.finished(), points_.size(), options);
-    share_out(points_.size(), options, [&](std::size_t point) {
-      if (file.is_finished(point)) return;
-      file.add(line(point, options));
-      meter.add();
-    });
-    if (processes.rank() != 0) file.close();
-    processes.wait();
-    if (processes.rank() != 0) return false;
-    file.finish();
-    std::ifstream finished(file.path());
-    std::string head;
-    std::getline(finished, head);
-    for (std::string& line : lines) std::getline(finished, line);
-    if (!finished) throw OutputError("points of the sweep are missing in " + file.path());
-    return true;
-  }
-
-  Points points_;
-  std::vector<SweptColumn> columns_;
-  std::vector<ResultField> fields_;
-  std::vector<std::string_view> main_;
-  std::string inputs_;  ///< digests of the other files that the points read
-};
 
 /// Problems of points; a problem of several points is reported once.
 class Problems {
@@ -206,7 +58,7 @@ class Problems {
 /// Reads and checks all points.
 class Sweep {
  public:
-  Sweep(Points points, const LoadOptions& options)
+  Sweep(SweepPoints points, const LoadOptions& options)
       : points_(std::move(points)), options_(options), columns_(points_.columns()) {}
 
   /// The scenario of the whole sweep; `expect`: its expected values.
@@ -394,7 +246,7 @@ class Sweep {
     return expectations(reading.values, document, reading);
   }
 
-  Points points_;
+  SweepPoints points_;
   const LoadOptions& options_;
   std::vector<SweptColumn> columns_;
   Problems problems_;
@@ -418,7 +270,7 @@ Scenario swept_scenario(Document document, const std::string& name, const LoadOp
                           std::move(*earlier),
                           {}});
   if (!problems.empty()) throw_sorted(std::move(problems), name);
-  Points points(std::move(document), std::move(*swept), name, options);
+  SweepPoints points(std::move(document), std::move(*swept), name, options);
   if (static_cast<double>(points.size()) > max_swept)
     throw core::InputError(core::Diagnostic{points.base().locate(place),
                                             "the sweep has too many points",
