@@ -5,7 +5,7 @@
 namespace dualdamp::bench {
 
 std::string CaseDeparture::name() const {
-  if (is_truth()) return truth_name;
+  if (is_truth()) return std::string(identify::departures::plain_name);
   return std::string(first->name) + (beside == nullptr ? "" : " + " + std::string(beside->name));
 }
 

@@ -8,9 +8,6 @@
 
 namespace dualdamp::bench {
 
-/// Name of the truth among the names of departures.
-inline constexpr const char* truth_name = "coulomb_viscous";
-
 struct CaseDeparture {
   const Departure* first = nullptr;   ///< nullptr: friction is Coulomb + viscous and all is as assumed
   const Departure* beside = nullptr;  ///< a second one, for which `leaves_friction_alone`; or nullptr

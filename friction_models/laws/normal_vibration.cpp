@@ -42,7 +42,7 @@ std::vector<std::string> NormalVibration::warnings(const ParameterValues& values
   const double weight = values.number("weight");
   if (largest <= weight) return {};
   const std::string unit = values.unit("N");
-  return {"fast slip carries the whole weight and opens the contact for good: the lift comes to " +
+  return {"fast slip carries the whole weight and opens the contact and keeps it open: the lift comes to " +
           core::format_number(largest, 4) + " " + unit + ", the weight is " + core::format_number(weight, 4) + " " +
           unit};
 }

@@ -56,7 +56,7 @@ class Decay {
     return true;
   }
 
-  /// Looks whether the mass sticks for good at once, and after 1, 2, 4, ... natural periods of the stick.
+  /// Looks at once whether the mass never moves again, and after 1, 2, 4, ... natural periods of the stick.
   bool follow_stick() {
     const double last = FreeDecay::patience * period_;
     for (double look = 0.0;; look = std::min(std::max(period_, 2.0 * look), last)) {

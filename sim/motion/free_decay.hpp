@@ -17,7 +17,7 @@ struct Extreme {
 struct FreeDecay {
   core::Outcome outcome;
   std::vector<Extreme> extremes;  ///< the initial position is the first if the mass is released from rest
-  bool came_to_rest = false;      ///< fewer than requested because the mass sticks for good
+  bool came_to_rest = false;      ///< fewer than requested because the mass never moves again
   bool pauses = false;            ///< fewer because the mass is held for `patience`, but may move again
   bool creeps = false;            ///< fewer because the motion has no turning point within `patience`
   double accuracy = 0.0;          ///< error of the engine, relative to the motion

@@ -1,5 +1,5 @@
 #pragma once
-/// Whether a mass that sticks, without a drive, sticks for good.
+/// Whether a mass that sticks, without a drive, never moves again.
 
 #include "sim/engine/engine.hpp"
 #include "sim/model.hpp"
