@@ -9,6 +9,7 @@
 #include <string>
 
 #include "friction_models/laws/viscous_saturating.hpp"
+#include "identify/records/signals.hpp"
 #include "tests/identify/estimates.hpp"
 #include "tests/identify/histories.hpp"
 #include "tests/support/source_tree.hpp"
