@@ -17,6 +17,13 @@ ROOT = Path(sys.argv[2]).resolve()
 EXAMPLES = ROOT / "scenarios/examples"
 FIT = ("fit", "coulomb", EXAMPLES / "free_run.csv", "--mass", "1 kg", "--stiffness", "1000 N/m", "--out", "fit")  # x is in mm
 
+PAIRS = "Y [mm],x [mm]\n4,27.1\n5,37.2\n6,47.2\n7,57.3\n"
+NEXT = """schema: dualdamp/1
+system: {mass: 1 kg, stiffness: 1000 N/m}
+excitation: {type: base_harmonic, frequency: 302 rpm}
+analysis: {type: design, data: pairs.csv, without: [bouc_wen, contact_compliance, dahl, elasto_plastic, friction_lag, generalized_maxwell_slip, lugre]}
+"""
+
 
 class Terminal(Case):
     def test_numbers_of_a_fit(self):
@@ -47,12 +54,8 @@ class Terminal(Case):
         self.assertRegex(self.run_program(*FIT).stdout, r"position +mm +29\.99")
 
     def test_units_of_readings_that_the_result_does_not_repeat(self):
-        self.write("pairs.csv", "Y [mm],x [mm]\n4,27.1\n5,37.2\n6,47.2\n7,57.3\n")
-        self.write("next.yaml", """schema: dualdamp/1
-system: {mass: 1 kg, stiffness: 1000 N/m}
-excitation: {type: base_harmonic, frequency: 302 rpm}
-analysis: {type: design, data: pairs.csv, without: [bouc_wen, contact_compliance, dahl, elasto_plastic, friction_lag, generalized_maxwell_slip, lugre]}
-""")
+        self.write("pairs.csv", PAIRS)
+        self.write("next.yaml", NEXT)
         asked = "no quantity of the result is in a unit that was asked for: "
         repeats = "; what the data or the scenario states in such units is not repeated in the result"
         self.assertIn(f"{asked}mm, rpm{repeats}; its quantities are in N\n", self.run_program("run", "next.yaml", "--out", "next", "--show-in", "mm,rpm").stderr)
@@ -120,6 +123,20 @@ class Page(Case):
         self.assertFalse(any("asked for" in text for text in notes), notes)
         self.assertIn("positionmm29.9994", files[0])
         self.assertRegex(files[1], r"rms \[mm\].*0\.009998")
+
+    def test_what_to_measure_next(self):
+        self.write("pairs.csv", PAIRS)
+        self.write("next.yaml", NEXT)
+        self.run_program("run", "next.yaml", "--out", "next")
+        result = json.loads((self.folder / "next/result.json").read_text())["result"]
+        box, rows, titles = self.values(
+            "next", "document.querySelector('section.answer').textContent",
+            "[...document.querySelectorAll('[aria-label=\"Measurements\"] tbody tr')].map((row) => row.children[1].textContent)",
+            "[...document.querySelectorAll('.charts figcaption .row')].map((title) => title.firstChild.textContent)")
+        self.assertIn(result["advice"], box)
+        self.assertIn("%.4g" % result["hull95"]["zeta"][1], box)
+        self.assertEqual(rows, [candidate["measurement"] for candidate in result["candidates"]])
+        self.assertEqual(titles, ["How far the ranges shrink", "ζ, law by law", "F0, law by law"])
 
     def test_estimates(self):
         self.run_program("run", EXAMPLES / "identify_free_decay.yaml", "--show-in", "kN", "--out", "decay")
