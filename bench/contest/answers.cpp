@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <charconv>
 #include <cmath>
+#include <optional>
 #include <sstream>
 #include <string_view>
 #include <utility>
@@ -39,6 +41,15 @@ std::vector<std::string> fields_of(const std::string& line) {
   for (std::string field; std::getline(stream, field, ',');) fields.push_back(unquoted(field));
   if (line.ends_with(',')) fields.emplace_back();
   return fields;
+}
+
+/// A number as programs write it in CSV: also +4, .5 and 000001.
+std::optional<double> number_of(std::string_view text) {
+  if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
+  double value = 0.0;
+  const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
+  const bool is_whole = end == text.data() + text.size();
+  return code == std::errc() && is_whole && std::isfinite(value) ? std::optional(value) : std::nullopt;
 }
 
 /// The columns of a file of answers.
@@ -93,20 +104,20 @@ class EntryReader {
       refuse_answers(path_, line_, "the column 'case' is missing", all_columns());
   }
 
-  /// NaN for an empty field, `nan` or `none`.
+  /// NaN for an empty field, `nan`, `NA` or `none`.
   [[nodiscard]] double value(const std::string& text, Column column) const {
-    if (text.empty() || text == "nan" || text == "NaN" || text == "none") return not_stated;
-    const core::NumberText parsed = core::parse_number(text);
-    if (!parsed.value)
+    if (text.empty() || text == "nan" || text == "NaN" || text == "NA" || text == "none") return not_stated;
+    const std::optional<double> number = number_of(text);
+    if (!number)
       refuse_answers(path_, line_,
                      "'" + std::string(column_names.at(static_cast<std::size_t>(column))) + "' is no number",
-                     "a number; nothing, nan or none for no value", text);
+                     "a number; nothing, nan, NA or none for no value", text);
     // Larger numbers would overflow in products, and a motion with such damping cannot be computed.
-    if (std::abs(*parsed.value) > core::most_magnitude)
+    if (std::abs(*number) > core::most_magnitude)
       refuse_answers(path_, line_, "a number is too large to compute with", "-1e60 to 1e60", text);
-    if (column == Column::p_value && !(*parsed.value >= 0.0 && *parsed.value <= 1.0))
+    if (column == Column::p_value && !(*number >= 0.0 && *number <= 1.0))
       refuse_answers(path_, line_, "'p_value' is out of range", "0 to 1", text);
-    return *parsed.value;
+    return *number;
   }
 
   [[nodiscard]] CaseAnswer::Usable usable_of(const std::string& text) const {

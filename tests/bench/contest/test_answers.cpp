@@ -4,8 +4,11 @@
 
 #include <array>
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
+
+#include "core/diagnostics.hpp"
 
 using namespace dualdamp;
 namespace fs = std::filesystem;
@@ -18,5 +21,22 @@ TEST_CASE("answers: usable is said in several words, in small or capital letters
   using enum bench::CaseAnswer::Usable;
   const std::array<bench::CaseAnswer::Usable, 6> said = {yes, yes, yes, no, no, missing};
   for (std::size_t i = 0; i < said.size(); ++i) CHECK(entry.answers[key.numbers[i]].usable == said[i]);
+  fs::remove(path);
+}
+
+TEST_CASE("answers: numbers are read as programs write them, and nothing else is") {
+  const fs::path path = fs::temp_directory_path() / ("dualdamp-numbers-" + std::to_string(::getpid()) + ".csv");
+  const bench::Key key = bench::make_key("abc", 1, 3);
+  std::ofstream(path) << "case,zeta,F0\n000001,.1,+4\n\"2\",1e-2,NA\n";
+  const bench::Entry entry = bench::read_entry("mine", path, key);
+  CHECK(entry.answers[key.numbers[0]].zeta == 0.1);
+  CHECK(entry.answers[key.numbers[0]].F0 == 4.0);
+  CHECK(entry.answers[key.numbers[1]].zeta == 0.01);
+  CHECK(std::isnan(entry.answers[key.numbers[1]].F0));
+  for (const char* wrong : {"1,0x1,4", "1,+-1,4", "1,1 2,4", "1,inf,4", "1.5,1,4", "0,1,4", "1,1e999,4"}) {
+    CAPTURE(wrong);
+    std::ofstream(path) << "case,zeta,F0\n" << wrong << "\n";
+    CHECK_THROWS_AS(bench::read_entry("mine", path, key), core::InputError);
+  }
   fs::remove(path);
 }
