@@ -39,7 +39,7 @@ function steppedView(name, over, label) {
   const ofBoth = (column) => ways.flatMap(([way, colour, kind]) => {
     const here = (get) => get("direction") === way;
     const shown = part(name, over, column, here, { label: way, colour, kind });
-    return [shown, { ...shown, kind: way === "up" ? "points" : "open", size: shown.x.length > 200 ? 1 : 2.5 }];
+    return [shown, { ...shown, kind: "points", size: shown.x.length > 200 ? 1 : 2.5 }];
   });
   return [["x", "Output amplitude", "output amplitude x"], ["phase", "Phase", "phase"], ["stops", "Stops in a period", "stops"]]
     .filter(([column]) => values(name, column)).map(([column, title, text], i) => chart({

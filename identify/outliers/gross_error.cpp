@@ -131,7 +131,10 @@ std::vector<Reading> all_readings(const Record& record) {
 std::optional<GrossError> gross_error(const Record& record, const KnownConstants& constants,
                                       const std::vector<Reading>& suspects) {
   std::optional<GrossError> worst;
-  for (const Reading& reading : suspects.empty() ? all_readings(record) : suspects) {
+  const std::vector<Reading> all = all_readings(record);
+  constexpr std::size_t fewest = 4;  // two parameters, the reading itself, and one to judge it by
+  if (all.size() < fewest) return worst;
+  for (const Reading& reading : suspects.empty() ? all : suspects) {
     if (!can_be_wrong(reading)) continue;
     const std::optional<GrossError> found = against_others(record, constants, reading);
     if (!found || !is_gross(*found, record)) continue;

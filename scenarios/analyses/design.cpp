@@ -4,6 +4,7 @@
 #include <iterator>
 #include <utility>
 
+#include "identify/outliers/outliers.hpp"
 #include "scenarios/analyses/shared/identify_options.hpp"
 #include "scenarios/format/json.hpp"
 #include "scenarios/format/values.hpp"
@@ -127,6 +128,8 @@ Answer DesignQuestion::run(const RunContext& context) const {
   std::vector<std::string> warnings;
   const identify::Record record = record_->record(context, warnings);
   const IdentifyQuestion::Methods& methods = record_->methods();
+  if (const auto gross = identify::bounded_influence(record, methods.constants).gross)
+    return failed(identify::text_of(*gross) + ": correct this reading or remove it");
   identify::ParameterSet moved;
   if (methods.uncertainties.any()) {
     const identify::Estimate by =

@@ -16,6 +16,13 @@ function ellipse(estimate) {
   };
 }
 
+/** The interval of each number by itself, where the two have no covariance. */
+function cross({zeta, F0, interval95}) {
+  const known = (ends) => ends && ends[0] !== null && ends[1] !== null;
+  if (!known(interval95?.zeta) || !known(interval95?.F0)) return null;
+  return {x: [...interval95.zeta, null, zeta, zeta], y: [F0, F0, null, ...interval95.F0]};
+}
+
 /** Numbers of the estimates in the unit that the user wrote, else in SI. */
 const unitsOfEstimates = {c: 'N.s/m', F0: 'N', x_f: 'm'};
 const shownAs = (key, list) =>
@@ -61,6 +68,9 @@ function answerBox({answer, answer_reason: reason}) {
       make('p', {}, `By ${answer.method}: ${reason}.`));
 }
 
+/** A p-value below the smallest number is none, not zero. */
+const pText = (p) => (p === 0 ? 'p < 1e-300' : `p = ${short(p, 2)}`);
+
 const standings = {
   holds: ['✓ holds', 'good'],
   violated: ['✗ violated', 'bad'],
@@ -69,7 +79,8 @@ const standings = {
 const shareOf = (value) => {
   if (value === null || value === undefined) return null;
   // Rounding errors of zero count as zero.
-  return Math.abs(value) < 1e-9 ? '0 %' : `${value < 0 ? '−' : '+'}${short(Math.abs(100 * value), 2)} %`;
+  const size = Math.abs(value);
+  return size < 1e-6 ? '0 %' : `${value < 0 ? '−' : '+'}${short(100 * size, size < 1 ? 2 : 3)} %`;
 };
 
 /** One line of the ledger: it wraps on a narrow screen instead of running out of it. */
@@ -78,7 +89,7 @@ function ledgerLine(entry) {
   const changes = [['ζ', entry.zeta_change], ['F0', entry.F0_change]].filter(
       ([, value]) => value !== null && value !== undefined);
   const facts = [
-    entry.test, entry.p_value === null ? null : `p = ${short(entry.p_value, 2)}`,
+    entry.test, entry.p_value === null ? null : pText(entry.p_value),
     changes.length ? `relaxed: ${changes.map(([name, value]) => `${name} ${shareOf(value)}`).join(', ')}` : null
   ].filter(Boolean);
   return make(
@@ -273,7 +284,7 @@ function identifyView(result) {
   const known = estimates.filter((e) => e.zeta !== null && e.F0 !== null);
   const others = known.filter((e) => e.method !== answer?.method);
   const series = [...known.filter((e) => e.method === answer?.method), ...others].flatMap((e, i) => {
-    const around = ellipse(e);
+    const around = ellipse(e) ?? cross(e);
     const isAnswer = e.method === answer?.method;
     const [label, colour] = [isAnswer ? `${e.method} (the answer)` : e.method, isAnswer ? '--ink' : i];
     return [
@@ -285,7 +296,7 @@ function identifyView(result) {
     ...fitCharts(result),
     known.length ? chart({
       title: 'Damping ratio and friction force',
-      note: 'the 95 % ellipse: the two are correlated; open where the method does not stand by its number',
+      note: 'the 95 % ellipse: the two are correlated; a cross: the 95 % interval of each; open where the method does not stand by its number',
       x: {label: 'ζ', unit: ''},
       y: {label: 'F0', unit: unitAt('estimates[].F0', 'N')},
       series

@@ -406,10 +406,11 @@ analysis: {{type: simulate, duration: 3 s, sample_rate: 500 Hz}}
 
     def test_data_anywhere(self):
         with tempfile.TemporaryDirectory() as elsewhere:
-            path = Path(elsewhere) / "it's data: #1.csv"
-            path.write_text(self.PAIRS)
-            self.run_program("identify", path, *self.KNOWN, "--out", "out")
-            self.assertIn("result.json", tree(self.folder / "out"))
+            for name in ("it's data: #1.csv", "\tof \"two\"\nlines\\.csv"):
+                path = Path(elsewhere) / name
+                path.write_text(self.PAIRS)
+                self.run_program("identify", path, *self.KNOWN, "--out", "out")
+                self.assertIn("result.json", tree(self.folder / "out"))
 
     def test_free_decay_needs_no_frequency(self):
         self.write("decay.csv", "t [s],x [mm]\n0,20\n0.3,-15\n0.6,11\n0.9,-8\n1.2,5\n")

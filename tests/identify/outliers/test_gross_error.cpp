@@ -31,6 +31,15 @@ constexpr KnownConstants rig = {1.042, 1568.0, 2.0 * M_PI * 6.17};
 
 TEST_CASE("A wrong digit in one of five readings is found, whichever it is, and bounded influence leaves it out") {
   CHECK_FALSE(gross_error(five_pairs(), rig));
+  for (std::size_t few : {0, 1, 2, 3}) {
+    Record record = five_pairs();
+    record.pairs->pairs.resize(few);
+    CHECK_FALSE(gross_error(record, rig));
+    record = {};
+    record.decay.emplace();
+    record.decay->extremes.assign(few, 1e-3);
+    CHECK_FALSE(gross_error(record, rig));
+  }
   for (const double factor : {0.1, 10.0, 100.0, 1000.0})
     for (std::size_t i = 0; i < 5; ++i) {
       CAPTURE(factor, i);

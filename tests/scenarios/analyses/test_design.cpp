@@ -167,3 +167,14 @@ TEST_CASE("design: data that state their own frequencies, and data without stead
   CHECK_THROWS_AS(read(""), core::InputError);
   std::remove("design_data.csv");
 }
+
+TEST_CASE("design: beside a gross error there is no advice", "[scenarios][design]") {
+  std::ofstream("gross_data.csv") << "Y [mm],x [mm]\n4,27.1\n5,37.3\n6,4720\n7,57.3\n8,67.2\n";
+  const scenarios::RunResult run = scenarios::run(scenarios::parse_scenario(
+      "schema: dualdamp/1\nsystem: {mass: 1 kg, stiffness: 1000 N/m}\n"
+      "excitation: {type: base_harmonic, frequency: natural}\nanalysis: {type: design, data: gross_data.csv}\n",
+      "test.yaml"));
+  CHECK(run.status == core::ExitStatus::numerical_failure);
+  CHECK(run.failure.find("x of pair 3 is 1e+02 times what all other readings expect") != std::string::npos);
+  std::remove("gross_data.csv");
+}
