@@ -33,6 +33,15 @@ constexpr double creeping = 1e-3;
 /// A deviation from an orbit below this part of the motion counts as zero.
 constexpr double arrived = 1e-9;
 
+/// Error of a Floquet multiplier under the exact engine: a double root is known to half the digits.
+constexpr double least_multiplier_error = 1.5e-8;
+
+/// A motion that does not close comes nearer to an orbit if its Floquet multiplier is below 1 by more than
+/// rounding, and is not there yet if the product with the number of periods is still small. On a continuum a motion
+/// that creeps is displaced by 1/n in period n, so that this product is of order 1.
+constexpr double multiplier_rounding = 1e-10;
+constexpr double not_there = 0.1;
+
 /// A motion that closes this well is compared with its rounding.
 constexpr double near_rounding = 1e-8;
 
@@ -66,6 +75,9 @@ class Rounding : public PeriodObserver {
 constexpr const char* neighbours =
     "not unique: a Floquet multiplier lies on the unit circle, so that neighbouring orbits are steady too; this is "
     "the one that the motion approaches";
+constexpr const char* hardly_attracting =
+    "hardly attracts: a Floquet multiplier is within 1e-6 of the unit circle, so that the motion approaches this "
+    "steady state very slowly; whether neighbouring orbits are steady too, the computation cannot tell";
 constexpr const char* repelling =
     "unstable: a Floquet multiplier lies outside the unit circle; the motion stays on this "
     "orbit only while nothing disturbs it";
@@ -121,14 +133,9 @@ std::optional<Orbit> Approach::find(SteadyState& result) {
 std::optional<Orbit> Approach::look(const ForcingPeriod& period, SteadyState& result) {
   std::optional<Orbit> orbit = closed(period.end);
   if (!orbit && has_arrived(period.end)) orbit = at_start(*candidate_);
-  if (orbit && !has_past_) orbit = solver_.with_shortest_period(*std::move(orbit));
+  if (orbit && !has_past_) orbit = solver_.refined(solver_.with_shortest_period(*std::move(orbit)));
   if (orbit) {
-    const double radius = has_past_ || !period.moves ? 0.0 : orbit->period.radius();
-    if (radius > 1.0 + neutral_margin) {
-      result.warnings.emplace_back(repelling);
-    } else if (radius >= 1.0 - neutral_margin) {
-      result.warnings.emplace_back(neighbours);
-    }
+    if (!has_past_ && period.moves) warn_of_multipliers(orbit->period.radius(), result);
     return orbit;
   }
   if (!has_past_) try_candidate(period.end);
@@ -137,6 +144,21 @@ std::optional<Orbit> Approach::look(const ForcingPeriod& period, SteadyState& re
     divergence_ = divergence(period.end);
   }
   return std::nullopt;
+}
+
+/// Largest error of a Floquet multiplier on the unit circle.
+double Approach::error_of_multiplier() const {
+  return std::max(least_multiplier_error, 10.0 * map_.engine().accuracy());
+}
+
+void Approach::warn_of_multipliers(double radius, SteadyState& result) const {
+  if (radius > 1.0 + neutral_margin) {
+    result.warnings.emplace_back(repelling);
+  } else if (radius >= 1.0 - error_of_multiplier()) {
+    result.warnings.emplace_back(neighbours);
+  } else if (radius >= 1.0 - neutral_margin) {
+    result.warnings.emplace_back(hardly_attracting);
+  }
 }
 
 /// Whether the motion has used its share of the work; attempts to find an orbit near it have their own share.
@@ -258,7 +280,7 @@ void Approach::try_candidate(const State& state) {
   if (candidate_ && solver_.same(candidate_->orbit, *orbit)) return;
   if (candidate_) others_.push_back(std::move(candidate_->orbit));
   const double resolution = std::max(arrived, 100.0 * map_.engine().accuracy());
-  Attraction attraction(orbit->period, omega_, resolution);
+  Attraction attraction(orbit->period, omega_, resolution, solver_.error(*orbit));
   attraction.observe(state);
   candidate_.emplace(Candidate{std::move(*orbit), std::move(attraction), passed_});
 }
@@ -281,7 +303,7 @@ std::optional<Orbit> Approach::nearly_there(SteadyState& result) {
   if (!candidate_->attraction.has_come_nearer()) return std::nullopt;
   result.warnings.emplace_back("the motion still approaches this steady state after " + std::to_string(passed_) +
                                " forcing periods");
-  return at_start(*candidate_);
+  return solver_.refined(solver_.with_shortest_period(at_start(*candidate_)));
 }
 
 /// Mean logarithmic growth of a perturbation in one forcing period: approximately the largest Lyapunov exponent.
@@ -308,7 +330,7 @@ double Approach::divergence(const State& state) {
 }
 
 /// Why the integration found no orbit.
-core::Outcome Approach::failure() const {
+core::Outcome Approach::failure() {
   const core::Outcome& followed = map_.outcome();
   // Work grows with the amplitude, so it may end before the growth is certain.
   const bool is_cut_short = is_followed_enough() || followed.kind == core::OutcomeKind::event_limit;
@@ -345,6 +367,14 @@ core::Outcome Approach::failure() const {
   }
   const std::string after = " after " + std::to_string(passed_) + " forcing periods";
   if (recurrence_.closure(1) < creeping) {
+    const double radius =
+        has_past_ ? 1.0 : solver_.patient_map_over(1).from(map_.engine().state(), Monodromy::with).free_radius();
+    const double nearer = 1.0 - radius;
+    if (nearer > multiplier_rounding && nearer * static_cast<double>(passed_) < not_there)
+      return {core::OutcomeKind::no_steady_state,
+              "no steady state found: the motion approaches one too slowly: its distance falls by " +
+                  core::format_number(nearer, 2) + " of itself in each forcing period, so that it is not there" +
+                  after};
     return {core::OutcomeKind::not_unique,
             "not unique: steady states form a continuum, and the motion still creeps along it" + after};
   }

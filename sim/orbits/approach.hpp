@@ -50,10 +50,12 @@ class Approach {
   [[nodiscard]] Orbit at_start(const Candidate& candidate);
   [[nodiscard]] std::optional<Orbit> nearly_there(SteadyState& result);
   [[nodiscard]] double divergence(const State& state);
+  [[nodiscard]] double error_of_multiplier() const;
+  void warn_of_multipliers(double radius, SteadyState& result) const;
   [[nodiscard]] bool is_followed_enough() const;
   [[nodiscard]] bool creeps() const;
   [[nodiscard]] bool needs_divergence() const;
-  [[nodiscard]] core::Outcome failure() const;
+  [[nodiscard]] core::Outcome failure();
 
   const Model& model_;
   SteadyStateOptions options_;

@@ -36,8 +36,11 @@ MatrixXd power_of(const MatrixXd& matrix, int exponent) {
 
 }  // namespace
 
-Attraction::Attraction(const ForcingPeriod& orbit, double omega, double resolution)
-    : orbit_(orbit.begin), resolution_(resolution), free_(orbit.free_coordinates()) {
+Attraction::Attraction(const ForcingPeriod& orbit, double omega, double resolution, double error)
+    : orbit_(orbit.begin),
+      resolution_(resolution),
+      arrived_(std::max(resolution, error)),
+      free_(orbit.free_coordinates()) {
   const VectorXd at = coordinates(orbit.begin);
   const double size = std::max(orbit.size, std::abs(at[1]) / omega);
   scale_ = VectorXd::Constant(at.size(), size);
@@ -80,7 +83,7 @@ State Attraction::at(const VectorXd& deviation) const {
 
 bool Attraction::arrives_soon() const {
   constexpr int soon = 20;
-  return last_.norm() > resolution_ && (power_of(monodromy_, soon) * last_).norm() <= resolution_;
+  return last_.norm() > arrived_ && (power_of(monodromy_, soon) * last_).norm() <= arrived_;
 }
 
 bool Attraction::holds_ahead(PeriodMap& map) const {
@@ -90,10 +93,10 @@ bool Attraction::holds_ahead(PeriodMap& map) const {
     const int step = std::max(1, ahead / 4);
     before = power_of(monodromy_, step) * before;
     ahead += step;
-    if (!(before.norm() > resolution_)) break;
+    if (!(before.norm() > arrived_)) break;
     const VectorXd after = from_orbit(map.from(at(before), Monodromy::without).end);
     if (!map.outcome().ok() || after.size() == 0) return false;
-    if (after.norm() > resolution_ && !comes_closer(before, after)) return false;
+    if (after.norm() > arrived_ && !comes_closer(before, after)) return false;
   }
   return true;
 }
@@ -109,7 +112,7 @@ void Attraction::observe(const State& state) {
   const VectorXd now = from_orbit(state);
   const bool comparable = now.size() > 0 && last_.size() > 0;
   // At v = 0 the mode must be the same too, because friction jumps there.
-  const bool there = now.size() > 0 && now.norm() <= resolution_ && same_mode(state, orbit_);
+  const bool there = now.size() > 0 && now.norm() <= arrived_ && same_mode(state, orbit_);
   const bool closer = comparable && !there && comes_closer(last_, now);
   approaching_ = there || closer ? approaching_ + 1 : 0;
   deviation_ = now.size() > 0 ? norm(now) : std::numeric_limits<double>::infinity();

@@ -30,8 +30,9 @@ namespace dualdamp::sim {
 class Attraction {
  public:
   /// `orbit`: a period of the orbit with its monodromy matrix; `resolution`: a smaller deviation, relative to the
-  /// size of the motion, counts as zero.
-  Attraction(const ForcingPeriod& orbit, double omega, double resolution);
+  /// size of the motion, counts as zero; `error`: of the orbit (`error_of_orbit`): within it no motion comes
+  /// closer.
+  Attraction(const ForcingPeriod& orbit, double omega, double resolution, double error = 0.0);
 
   /// Takes the state of the motion one period after that of the last call.
   void observe(const State& state);
@@ -58,7 +59,8 @@ class Attraction {
   [[nodiscard]] double norm(const Eigen::VectorXd& d) const { return (root_ * d).norm(); }
 
   State orbit_;
-  double resolution_;
+  double resolution_;               ///< of coordinates that a period never changes
+  double arrived_;                  ///< a deviation of the others that counts as zero
   std::vector<Eigen::Index> free_;  ///< coordinates that a period of the orbit changes
   Eigen::VectorXd scale_;           ///< of all coordinates
   Eigen::MatrixXd monodromy_;       ///< scaled, of the free coordinates

@@ -1,8 +1,11 @@
 #include "sim/orbits/newton.hpp"
 
+#include <Eigen/LU>
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
+#include <vector>
 
 namespace dualdamp::sim {
 
@@ -15,6 +18,22 @@ double correction_left(const ForcingPeriod& period, double omega) {
   const Eigen::VectorXd step = newton_step(period, omega);
   if (step.size() == 0) return std::numeric_limits<double>::infinity();
   return distance(period.begin, displaced(period.begin, step), period.size, omega);
+}
+
+double error_of_orbit(const ForcingPeriod& period, double omega, double closure) {
+  constexpr double largest = 1e-2;
+  if (!period.ends_in_its_mode() || !period.monodromy.allFinite()) return 0.0;
+  const Eigen::VectorXd at = coordinates(period.begin);
+  const double size = std::max(period.size, std::abs(at[1]) / omega);
+  if (period.monodromy.rows() != at.size() || period.monodromy.cols() != at.size() || !(size > 0.0)) return 0.0;
+  Eigen::VectorXd scale = Eigen::VectorXd::Constant(at.size(), size);
+  scale[1] = size * omega;
+  for (Eigen::Index i = 2; i < at.size(); ++i) scale[i] = std::max(std::abs(at[i]), size);
+  const std::vector<Eigen::Index> free = period.free_coordinates();
+  const Eigen::MatrixXd scaled = scale.cwiseInverse().asDiagonal() * period.monodromy * scale.asDiagonal();
+  const auto n = static_cast<Eigen::Index>(free.size());
+  const Eigen::MatrixXd inverse = (Eigen::MatrixXd::Identity(n, n) - scaled(free, free)).inverse();
+  return inverse.allFinite() ? std::min(largest, closure * inverse.norm()) : largest;
 }
 
 NewtonResult close_orbit(PeriodMap& map, const NewtonOptions& options, ForcingPeriod& period) {

@@ -32,6 +32,11 @@ struct Closure {
 /// monodromy matrix gives no correction, as in a continuum.
 [[nodiscard]] double correction_left(const ForcingPeriod& period, double omega);
 
+/// Largest error of an orbit that closes within `closure`, relative to the motion: `closure` times the norm of
+/// (I - M)^-1. An orbit that attracts slowly closes nearly as well at some distance from it. At most 1e-2, because
+/// a monodromy matrix says nothing of states far away.
+[[nodiscard]] double error_of_orbit(const ForcingPeriod& period, double omega, double closure);
+
 /// Changes `period`, which needs its monodromy matrix, to an orbit. A period of transient replaces a step that does
 /// not bring the orbit closer.
 [[nodiscard]] NewtonResult close_orbit(PeriodMap& map, const NewtonOptions& options, ForcingPeriod& period);

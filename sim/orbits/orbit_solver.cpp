@@ -1,5 +1,6 @@
 #include "sim/orbits/orbit_solver.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "sim/neutral_margin.hpp"
@@ -62,12 +63,29 @@ std::optional<Orbit> OrbitSolver::near(const State& state, int periods) {
 
 Orbit OrbitSolver::with_shortest_period(Orbit orbit) {
   const int periods = orbit.period_ratio;
+  const double limit = periods > 1 ? std::max(options_.rounding, error(orbit)) : options_.rounding;
   for (int divisor = 1; divisor < periods; ++divisor) {
     if (periods % divisor != 0) continue;
     ForcingPeriod shorter = patient_map_over(divisor).from(orbit.period.begin, Monodromy::with);
-    if (shorter.closure(options_.omega) <= options_.rounding) return {std::move(shorter), divisor};
+    if (shorter.closure(options_.omega) <= limit) return {std::move(shorter), divisor};
   }
   return orbit;
+}
+
+double OrbitSolver::error(const Orbit& orbit) const {
+  const double error = error_of_orbit(orbit.period, options_.omega, options_.rounding);
+  return error > same_orbit ? error : 0.0;
+}
+
+Orbit OrbitSolver::refined(Orbit orbit) {
+  if (!(error(orbit) > 0.0 && orbit.period.free_radius() < 1.0 - neutral_margin)) return orbit;
+  NewtonOptions finest = options_;
+  finest.tolerance = 0.0;
+  finest.most_transients = 0;
+  Orbit better = orbit;
+  const NewtonResult newton = close_orbit(patient_map_over(orbit.period_ratio), finest, better.period);
+  newton_steps_ += newton.steps;
+  return newton.found ? better : orbit;
 }
 
 std::optional<Orbit> OrbitSolver::near_motion_from(State state) {
@@ -92,8 +110,8 @@ Orbit OrbitSolver::later(const Orbit& orbit, long periods) {
 }
 
 bool OrbitSolver::same(const Orbit& a, const Orbit& b) const {
-  return a.period_ratio == b.period_ratio &&
-         distance(a.period.begin, b.period.begin, a.period.size, options_.omega) < same_orbit;
+  return a.period_ratio == b.period_ratio && distance(a.period.begin, b.period.begin, a.period.size,
+                                                      options_.omega) < std::max(same_orbit, error(a) + error(b));
 }
 
 bool OrbitSolver::coincide(const Orbit& a, const Orbit& b) {

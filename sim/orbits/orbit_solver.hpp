@@ -17,7 +17,8 @@ struct Orbit {
   int period_ratio = 1;
 };
 
-/// Two orbits whose distance, relative to their size, is below this are the same.
+/// Two orbits whose distance, relative to their size, is below this or below the sum of their errors
+/// (`error_of_orbit`) are the same.
 inline constexpr double same_orbit = 1e-6;
 
 class OrbitSolver {
@@ -31,6 +32,11 @@ class OrbitSolver {
   /// The same orbit with its shortest period. Beside a continuum a period may hardly attract, so that Newton's
   /// method finds the orbit only as one of several periods.
   [[nodiscard]] Orbit with_shortest_period(Orbit orbit);
+  /// The same orbit closed as well as rounding allows, if the solver's closure leaves more than `same_orbit` of
+  /// error.
+  [[nodiscard]] Orbit refined(Orbit orbit);
+  /// Error of an orbit that this solver accepts, relative to the motion; 0 if below `same_orbit`.
+  [[nodiscard]] double error(const Orbit& orbit) const;
   /// An orbit of one forcing period on which the mass moves, near the state or near the motion from it some periods
   /// later: Newton's method from a distant state may end at a rest, or fail.
   [[nodiscard]] std::optional<Orbit> near_motion_from(State state);

@@ -79,6 +79,7 @@ class OrbitFinder {
   [[nodiscard]] std::optional<Orbit> only_orbit_from(const State& start, SteadyState& result);
   [[nodiscard]] State after_transient(double x, double v, SteadyState& result);
   [[nodiscard]] SteadyState outlined(const Orbit& orbit);
+  [[nodiscard]] bool is_mirror_image(const SteadyState& a, const SteadyState& b) const;
   [[nodiscard]] std::optional<SteadyState> mirror_image(const SteadyState& of, OrbitSolver& solver);
   void add_mirror_images(SteadyState& result);
   void warn_of_distance(const ForcingPeriod& period, SteadyState& result);
@@ -96,6 +97,7 @@ class OrbitFinder {
   std::optional<OrbitAccount> account_;  ///< of the sliding orbit that Newton's method began on, if it stayed there
   core::SearchCount searched_;           ///< in addition to those of the engine
   double rounding_closure_ = 0.0;
+  double error_ = 0.0;  ///< the largest one of the orbits (`error_of_orbit`)
 };
 
 /// The start of the orbit without sticking that attracts every motion, if batches find it: no motion is integrated.
@@ -183,9 +185,10 @@ SteadyState OrbitFinder::outlined(const Orbit& orbit) {
 
 OtherState other_state(const SteadyState& state) { return {state.peak, state.trough, state.period_ratio}; }
 
-/// Whether b is the mirror image of a in x = 0.
-bool is_mirror_image(const SteadyState& a, const SteadyState& b) {
-  return std::abs(a.peak + b.trough) + std::abs(a.trough + b.peak) <= image * 0.5 * (a.peak - a.trough);
+/// Whether b is the mirror image of a in x = 0. Each of the four values may have the error of its orbit.
+bool OrbitFinder::is_mirror_image(const SteadyState& a, const SteadyState& b) const {
+  const double gap = std::abs(a.peak + b.trough) + std::abs(a.trough + b.peak);
+  return gap <= std::max(image, 4.0 * error_) * 0.5 * (a.peak - a.trough);
 }
 
 /// Whether the drive half a forcing period later is its own mirror image, up to a constant force, which friction
@@ -306,8 +309,11 @@ void OrbitFinder::find(SteadyState& result) {
       result.outcome = {};
     }
     if (orbit && motions_ == Motions::may_part && !has_past) {
-      for (const Orbit& other : other_orbits(model_, *orbit, approach.others(), solver))
+      error_ = solver.error(*orbit);
+      for (const Orbit& other : other_orbits(model_, *orbit, approach.others(), solver)) {
+        error_ = std::max(error_, solver.error(other));
         others_.push_back(outlined(other));
+      }
     }
     result.newton_steps += solver.newton_steps();
     searched_ += solver.count();
