@@ -74,7 +74,8 @@ Orbit OrbitSolver::with_shortest_period(Orbit orbit) {
 
 double OrbitSolver::error(const Orbit& orbit) const {
   const double error = error_of_orbit(orbit.period, options_.omega, options_.rounding);
-  return error > same_orbit ? error : 0.0;
+  constexpr double slow = 1e3;  // periods: orbits that attract faster need no care, at a loose tolerance neither
+  return error > std::max(same_orbit, slow * options_.rounding) ? error : 0.0;
 }
 
 Orbit OrbitSolver::refined(Orbit orbit) {

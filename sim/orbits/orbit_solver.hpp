@@ -32,10 +32,11 @@ class OrbitSolver {
   /// The same orbit with its shortest period. Beside a continuum a period may hardly attract, so that Newton's
   /// method finds the orbit only as one of several periods.
   [[nodiscard]] Orbit with_shortest_period(Orbit orbit);
-  /// The same orbit closed as well as rounding allows, if the solver's closure leaves more than `same_orbit` of
+  /// The same orbit closed as well as rounding allows, if it attracts so slowly that the solver's closure leaves an
   /// error.
   [[nodiscard]] Orbit refined(Orbit orbit);
-  /// Error of an orbit that this solver accepts, relative to the motion; 0 if below `same_orbit`.
+  /// Error of an orbit that this solver accepts, relative to the motion; 0 if it attracts fast enough for the error
+  /// to be of the order of the closure.
   [[nodiscard]] double error(const Orbit& orbit) const;
   /// An orbit of one forcing period on which the mass moves, near the state or near the motion from it some periods
   /// later: Newton's method from a distant state may end at a rest, or fail.
