@@ -59,7 +59,9 @@ TradeOff trade_off(const WeakDirection& direction, const std::vector<FitParamete
   });
   TradeOff found;
   for (const Eigen::Index i : order) found.parameters.push_back(parameters[static_cast<std::size_t>(i)].name);
-  const double open = 2.0 * direction.deviation * largest;
+  const double reach = direction.reach[first];
+  const double open = std::isfinite(reach) ? reach * std::abs(direction.share[first] / direction.change[first])
+                                           : 2.0 * direction.deviation * largest;
   const double near_zero = direction.near_zero[first];
   const std::string quantity =
       core::format_number(open * near_zero, 2) + " " + parameters[static_cast<std::size_t>(first)].unit;

@@ -17,6 +17,10 @@ struct WeakDirection {
   double rounding = 0.0;   ///< a smaller `effect` may be rounding
   /// One unit of `share` of a parameter whose own value is too small to be a unit, in its unit; else 0.
   Eigen::VectorXd near_zero;
+  /// How far the profile of each parameter lets it go from its value, in its unit; not finite: the profile does not
+  /// end, or there is none. The deviation holds near the estimate only: at the end of a range, where an effect
+  /// begins, it says nothing.
+  Eigen::VectorXd reach;
 };
 
 [[nodiscard]] TradeOff trade_off(const WeakDirection& direction, const std::vector<FitParameter>& parameters);

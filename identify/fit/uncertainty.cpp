@@ -349,6 +349,19 @@ class Uncertainty {
     return std::accumulate(variances_.begin(), variances_.end(), 0.0) / static_cast<double>(variances_.size());
   }
 
+  /// How far the profiles let the parameters go. That of a parameter at an end of its range ends on one side only.
+  [[nodiscard]] Eigen::VectorXd reaches() const {
+    Eigen::VectorXd all = Eigen::VectorXd::Constant(size_, unknown);
+    for (Eigen::Index i = 0; i < size_; ++i) {
+      const FittedParameter& fitted = fit_.parameters[static_cast<std::size_t>(i)];
+      const double below = fitted.value - fitted.profile95[0];
+      const double above = fitted.profile95[1] - fitted.value;
+      all[i] = fitted.at_bound ? std::fmax(below, above) : std::max(below, above);
+      if (!fitted.at_bound && std::isnan(below)) all[i] = unknown;
+    }
+    return all;
+  }
+
   void add_trade_offs() {
     std::vector<FitParameter> parameters;
     for (const FittedParameter& fitted : fit_.parameters) parameters.push_back(fitted.parameter);
@@ -358,7 +371,8 @@ class Uncertainty {
     const auto add = [&](const Eigen::VectorXd& direction, double deviation) {
       const Eigen::VectorXd change = full_changes().cwiseProduct(direction);
       fit_.not_identifiable.push_back(trade_off(
-          {slope_ * change, direction, effects(change), deviation, rounding * strongest_, near_zero}, parameters));
+          {slope_ * change, direction, effects(change), deviation, rounding * strongest_, near_zero, reaches()},
+          parameters));
     };
     const Eigen::VectorXd ratio = judged_changes().cwiseQuotient(full_changes());
     for (const Eigen::VectorXd& direction : lost_) add(ratio.cwiseProduct(direction).normalized(), infinity);
