@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <ostream>
 
+#include "cli/report/asked_units.hpp"
 #include "cli/report/comparison.hpp"
 #include "cli/report/main_chart.hpp"
 #include "cli/report/result_directory.hpp"
@@ -38,7 +39,7 @@ void add_plot(CommandOutput& output, const std::string& directory, const std::st
 std::string compare_results(const std::vector<std::string>& directories, const std::string& out,
                             const std::string& units) {
   const std::vector<scenarios::OutputFile> files = comparison(directories, units);
-  std::string messages;
+  std::string messages = warning_of_asked_units(directories, units);
   for (const std::string& warning : write_keeping(out, files)) messages += warning + "\n";
   for (const scenarios::OutputFile& file : files)
     messages += "wrote " + (fs::path(out) / file.name).string() + "\n";

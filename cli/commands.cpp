@@ -30,6 +30,7 @@
 #include "cli/new_scenario.hpp"
 #include "cli/option_text.hpp"
 #include "cli/print.hpp"
+#include "cli/report/asked_units.hpp"
 #include "cli/report/report.hpp"
 #include "cli/report/result_directory.hpp"
 #include "cli/stress.hpp"
@@ -326,6 +327,8 @@ int execute(const ReportCommand& command) {
                                                       (says_more ? " (" + error.message() + ")" : ""));
       }
       CommandOutput done;
+      if (const std::string idle = warning_of_asked_units({directory}, command.shown_units); !idle.empty())
+        done.messages += directory + ": " + idle;
       for (const std::string& warning : write_keeping(directory, {report_page(directory, command.shown_units)}))
         done.messages += warning + "\n";
       done.messages += "wrote " + (fs::path(directory) / "report.html").string() + "\n";

@@ -90,11 +90,7 @@ std::string unit_warning(const Scenario& scenario, const std::vector<Table>& tab
   std::vector<std::string> there;
   for (const std::string& kind : kinds)
     if (!kind.empty() && kind != "1") there.push_back(core::unit_for(scenario.model.oscillator.coordinate, kind));
-  return "no quantity of the result is in a unit that was asked for: " + core::joined(unused) +
-         (are_stated(unused, scenario.written_units)
-              ? "; what the data or the scenario states in such units is not repeated in the result"
-              : "") +
-         (there.empty() ? "; its numbers have no units" : "; its quantities are in " + core::joined(there));
+  return warning_of_units(unused, scenario.written_units, there);
 }
 
 /// The result of an answer: its summary and its comparison with the expected values.

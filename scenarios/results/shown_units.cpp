@@ -4,6 +4,7 @@
 #include <array>
 #include <span>
 
+#include "core/diagnostics.hpp"
 #include "core/units.hpp"
 
 namespace dualdamp::scenarios {
@@ -131,6 +132,9 @@ std::vector<std::string> unused_units(const std::map<std::string, std::string>& 
   return unused;
 }
 
+namespace {
+
+/// Whether a quantity of the kind of one of these requested units is written in some unit.
 bool are_stated(const std::vector<std::string>& requested, const std::map<std::string, std::string>& written) {
   const auto kinds_of_unit = [](const std::string& unit) {
     ShownUnits kinds;
@@ -144,6 +148,19 @@ bool are_stated(const std::vector<std::string>& requested, const std::map<std::s
       return wanted.contains(kind.first);
     });
   });
+}
+
+}  // namespace
+
+std::string warning_of_units(const std::vector<std::string>& unused,
+                             const std::map<std::string, std::string>& written,
+                             const std::vector<std::string>& there) {
+  if (unused.empty()) return {};
+  return "no quantity of the result is in a unit that was asked for: " + core::joined(unused) +
+         (are_stated(unused, written)
+              ? "; what the data or the scenario states in such units is not repeated in the result"
+              : "") +
+         (there.empty() ? "; its numbers have no units" : "; its quantities are in " + core::joined(there));
 }
 
 bool is_legible(double largest, const ShownUnit& unit) {

@@ -36,9 +36,11 @@ using ShownUnits = std::map<std::string, ShownUnit, std::less<>>;  ///< by kind 
 [[nodiscard]] std::vector<std::string> unused_units(const std::map<std::string, std::string>& written,
                                                     const std::set<std::string>& kinds);
 
-/// Whether a quantity of the kind of one of these requested units is written in some unit.
-[[nodiscard]] bool are_stated(const std::vector<std::string>& requested,
-                              const std::map<std::string, std::string>& written);
+/// Warning that no quantity of a result has these requested units; empty if there are none. `there`: the units that
+/// its quantities have.
+[[nodiscard]] std::string warning_of_units(const std::vector<std::string>& unused,
+                                           const std::map<std::string, std::string>& written,
+                                           const std::vector<std::string>& there);
 
 /// Whether an entry of the written units is a requested one.
 [[nodiscard]] bool is_asked_for(std::string_view path);

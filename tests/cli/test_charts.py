@@ -158,6 +158,13 @@ class Charts(Case):
         self.assertEqual([float(line.split(",")[-2]) for line in lines[1:]], [0.05, 0.06] * 2)
         self.assertIn("input amplitude Y [mm]", self.drawing("both/compare.svg")[0])
 
+    def test_units_that_no_quantity_has(self):
+        self.run_program("run", "curve.yaml", "--out", "out", "--quiet")
+        told = "no quantity of the result is in a unit that was asked for: s"
+        self.assertIn(told, self.run_program("report", "out", "--show-in", "s,mm").stderr)
+        self.assertIn(told, self.run_program("compare", "out", "out", "--out", "both", "--show-in", "s").stderr)
+        self.assertNotIn(told, self.run_program("compare", "out", "out", "--out", "both", "--show-in", "mm").stderr)
+
     def test_compare_a_sweep_of_curves_with_a_curve(self):
         self.run_program("run", "curve.yaml", "--out", "one")
         self.run_program("run", "curve.yaml", "--out", "sweep", "--set", "sweep={system.mass: [1, 2]}", "--plot", "sweep.svg")
