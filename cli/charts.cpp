@@ -20,6 +20,7 @@ std::string plot_result(const std::string& directory, const std::string& file, c
   const Chart chart = main_chart(directory, units);
   const fs::path path(file);
   std::string messages;
+  if (!chart.note.empty()) messages += "warning: " + file + ": " + chart.note + "; all are in the tables\n";
   for (const std::string& warning :
        write_keeping(path.has_parent_path() ? path.parent_path().string() : ".",
                      {{path.filename().string(), [&](std::ostream& out) { write_svg(out, chart); }}}))

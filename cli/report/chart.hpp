@@ -35,6 +35,7 @@ struct ChartSeries {
 
 struct Chart {
   std::string title;
+  std::string note;  ///< what the chart leaves out; empty: nothing
   ChartAxis x;
   ChartAxis y;
   std::vector<ChartSeries> series;

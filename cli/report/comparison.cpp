@@ -251,6 +251,8 @@ class Comparison {
     chart_.title =
         has_one_title ? compared_.front().title : "Comparison of " + std::to_string(compared_.size()) + " results";
     int colour = 0;
+    for (const Compared& one : compared_)
+      if (!one.chart.note.empty()) chart_.title += "; " + one.label + ": " + one.chart.note;
     for (Compared& one : compared_) {
       const bool has_several = one.chart.series.size() > 1;
       bool is_first = true;

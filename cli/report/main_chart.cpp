@@ -6,6 +6,7 @@
 #include <map>
 #include <numeric>
 #include <ranges>
+#include <set>
 #include <tuple>
 
 #include "bench/analyses.hpp"
@@ -252,15 +253,43 @@ class ChartMaker {
     return are_curves ? curves(points, rows, *x, *y) : numbers(points);
   }
 
+  /// The points whose curves are drawn, at most twelve: evenly spaced values of each key, all of them combined.
+  /// `curvesOf` of sweep.js selects the same ones.
+  [[nodiscard]] std::set<std::size_t> points_drawn() const {
+    constexpr std::size_t most = 12;
+    constexpr std::size_t most_of_shorter = 3;
+    std::vector<std::size_t> counts;
+    for (const std::string& key : swept_keys())
+      counts.push_back(std::max<std::size_t>(run_.document()["scenario"]["sweep"][key].size(), 1));
+    counts.resize(2, 1);
+    std::vector<std::size_t> taken = counts;
+    if (counts[0] * counts[1] > most) {
+      const std::size_t shorter = counts[0] < counts[1] ? 0 : 1;
+      taken[shorter] = std::min(counts[shorter], most_of_shorter);
+      taken[1 - shorter] = std::min(counts[1 - shorter], most / taken[shorter]);
+    }
+    const auto place = [&](std::size_t key,
+                           std::size_t i) {  // the i-th value that is taken, rounded as Math.round does
+      const std::size_t gaps = taken[key] - 1;
+      return gaps == 0 ? 0 : (2 * i * (counts[key] - 1) + gaps) / (2 * gaps);
+    };
+    std::set<std::size_t> drawn;
+    for (std::size_t i = 0; i < taken[0]; ++i)
+      for (std::size_t j = 0; j < taken[1]; ++j) drawn.insert(place(0, i) * counts[1] + place(1, j));
+    return drawn;
+  }
+
   /// A selection of the curves, if there are many.
   bool curves(const StoredTable& points, const StoredTable& rows, const StoredColumn& x, const StoredColumn& y) {
-    constexpr std::size_t most = 12;
     const std::vector<Group> all = groups_of(rows, "point");
-    const std::size_t shown = std::min(all.size(), most);
-    for (std::size_t i = 0; i < shown; ++i) {
-      const Group& group = all[shown < 2 ? 0 : i * (all.size() - 1) / (shown - 1)];
-      add(label_of(points, group.label), x, y, SeriesKind::line, group.rows, false);
+    const std::set<std::size_t> drawn = points_drawn();
+    for (const Group& group : all) {
+      std::string label = label_of(points, group.label);
+      if (drawn.contains(static_cast<std::size_t>(*core::parse_number(group.label).value)))
+        add(std::move(label), x, y, SeriesKind::line, group.rows, false);
     }
+    if (const std::size_t shown = chart_.series.size(); shown < all.size())
+      chart_.note = std::to_string(shown) + " of " + std::to_string(all.size()) + " curves";
     chart_.x.label = std::string(analysis_->chart.x_label);
     chart_.y.label = std::string(analysis_->chart.y_label);
     finish(x, y);

@@ -207,7 +207,7 @@ class Drawing {
          << fmt::format(
                 "<text class=\"ink\" x=\"{:.2f}\" y=\"24\" font-size=\"15\" font-weight=\"bold\" "
                 "fill=\"#1b1f24\">{}</text>\n",
-                left, escaped(chart_.title));
+                left, escaped(chart_.title + (chart_.note.empty() ? "" : ": " + chart_.note)));
   }
 
   void label(const std::string& text, const std::string& place, std::string_view anchor = "middle") {

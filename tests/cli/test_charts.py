@@ -165,6 +165,22 @@ class Charts(Case):
         self.assertIn(told, self.run_program("compare", "out", "out", "--out", "both", "--show-in", "s").stderr)
         self.assertNotIn(told, self.run_program("compare", "out", "out", "--out", "both", "--show-in", "mm").stderr)
 
+    def test_twelve_of_many_curves(self):
+        """Evenly spaced values of each key, all of them combined, and the number of those that are left out."""
+        short = ("--set", "analysis.amplitudes=[20 cm, 30 cm]")
+        many = "sweep={system.mass: {from: 1, to: 30, count: 30}}"
+        result = self.run_program("run", "curve.yaml", "--out", "many", "--set", many, *short, "--plot", "many.svg")
+        self.assertIn("many.svg: 12 of 30 curves", result.stderr)
+        texts, series = self.drawing("many.svg")
+        self.assertIn("a rig: 12 of 30 curves", texts)
+        self.assertEqual(len(series), 12)
+        pairs = "sweep={system.mass: {from: 1, to: 10, count: 10}, system.damping: [3, 4]}"
+        self.run_program("run", "curve.yaml", "--out", "pairs", "--set", pairs, *short, "--plot", "pairs.svg")
+        labels = [text for text in self.drawing("pairs.svg")[0] if text.startswith("mass = ")]
+        masses = (1, 3, 5, 6, 8, 10)  # Math.round(0, 1.8, 3.6, 5.4, 7.2, 9) values after the first
+        self.assertEqual(labels, [f"mass = {mass}, damping = {damping}" for mass in masses for damping in (3, 4)])
+        self.assertNotIn("curves", self.run_program("run", "curve.yaml", "--out", "few", "--set", "sweep={system.mass: [1, 2]}", "--plot", "few.svg").stderr)
+
     def test_compare_a_sweep_of_curves_with_a_curve(self):
         self.run_program("run", "curve.yaml", "--out", "one")
         self.run_program("run", "curve.yaml", "--out", "sweep", "--set", "sweep={system.mass: [1, 2]}", "--plot", "sweep.svg")
