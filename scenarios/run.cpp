@@ -56,6 +56,7 @@ void summarise(const Scenario& scenario, const Json& result, Table& table) {
     table.columns[2].texts.push_back(unit == "1" ? "" : shown.unit);
   };
   for (const ResultField& field : scenario.result_fields) {
+    if (field.is_for_programs) continue;
     const std::string stem = field.path.substr(0, field.path.find("[]"));
     std::string pointer = "/" + stem;
     std::ranges::replace(pointer, '.', '/');
@@ -86,7 +87,6 @@ std::string unit_warning(const Scenario& scenario, const std::vector<Table>& tab
   for (const ResultField& field : scenario.result_fields) kinds.insert(kind_of(field.unit, field.path));
   for (const Table& table : tables) kinds.merge(kinds_of(table));
   const std::vector<std::string> unused = unused_units(scenario.written_units, kinds);
-  if (unused.empty()) return {};
   std::vector<std::string> there;
   for (const std::string& kind : kinds)
     if (!kind.empty() && kind != "1") there.push_back(core::unit_for(scenario.model.oscillator.coordinate, kind));

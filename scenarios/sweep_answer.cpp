@@ -196,6 +196,7 @@ class SweepAnswer {
   [[nodiscard]] std::vector<ColumnBuilder> columns_of(const ResultField& field) const {
     const std::size_t bracket = field.path.find("[]");
     std::vector<ColumnBuilder> columns;
+    if (field.is_for_programs) return columns;
     if (bracket == std::string::npos) {
       ColumnBuilder column(field.path, field.unit);
       for (const Json& point : points_) {

@@ -13,6 +13,8 @@ struct ResultField {
   std::string path;  ///< into the result, with `[]` for any index
   std::string unit;  ///< SI; "1" for a plain number, empty for what is no number; or `unit_of_drive`
   std::string meaning;
+  /// Read by other analyses only, such as the text of a scenario: not printed, and in no table of a sweep.
+  bool is_for_programs = false;
 };
 
 }  // namespace dualdamp::scenarios

@@ -181,7 +181,7 @@ ResultFields fit_fields() {
        "covariance of the parameters, in their order, without changes along 'undetermined'; 0: no covariance"},
       {"undetermined[][]", "", "changes of the parameters, in their order, that the data do not show at any size"},
       {"fitted_readings[]", "1",
-       "marks of the fitted readings, five numbers for each signal, by which 'predict' knows them again"},
+       "marks of the fitted readings, five numbers for each signal, by which 'predict' knows them again", true},
       {"starts", "1", "starts that were tried"},
       {"laws[].law", "", "laws that were compared, best first"},
       {"laws[].parameters", "1", "number of fitted parameters"},
@@ -192,9 +192,10 @@ ResultFields fit_fields() {
       {"laws[].reason", "", "why there is no fit"},
       {"rig", "",
        "title, system and drive of the fitted rig as text, for predictions; constants that the fit lacked are left "
-       "out"},
-      {"scenario", "", "the fitted rig as the text of a scenario, with the first record's curve"},
-      {"scenarios[]", "", "the same for each record"}};
+       "out",
+       true},
+      {"scenario", "", "the fitted rig as the text of a scenario, with the first record's curve", true},
+      {"scenarios[]", "", "the same for each record", true}};
 }
 
 ResultFields validation_fields(const std::string& prefix) {

@@ -78,6 +78,10 @@ sweep: {system.mass: [1 kg, 1.01 kg]}
         said = self.run_program("run", "fit.yaml", "--out", "sweep", "--show-in", "um,kN")
         self.assertRegex(said.stdout, r"residual\.rms \[um\][^\n]*\n +1 +0 +9\.99")
         self.assertNotIn("asked for", said.stderr)
+        rows = [line for line in (self.folder / "sweep/sweep.csv").read_text().splitlines() if not line.startswith("#")]
+        self.assertEqual(len(rows), 3)  # the heading, and a row for each point
+        for name in ("fitted_readings", "scenario", "rig"):
+            self.assertNotIn(name, said.stdout + rows[0])
 
     def test_estimates_with_their_intervals(self):
         said = self.run_program("run", EXAMPLES / "identify_free_decay.yaml", "--out", "decay", "--show-in", "kN,N.s/mm")
