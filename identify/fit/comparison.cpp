@@ -152,4 +152,21 @@ void compare_fits(std::vector<Fit>& fits, bool robust) {
   }
 }
 
+std::string warning_of_weights(const std::vector<Fit>& fits) {
+  constexpr double enough = 10.0;
+  const auto is_compared = [](const Fit& fit) { return fit.outcome.ok() && !std::isnan(fit.AICc); };
+  if (std::ranges::count_if(fits, is_compared) < 2) return {};
+  const Fit& best =
+      *std::ranges::min_element(fits, {}, [&](const Fit& fit) { return is_compared(fit) ? fit.AICc : infinity; });
+  double freedom = 0.0;
+  for (std::size_t s = 0; s < best.signals.size(); ++s) {
+    if (is_as_stated(fits, s)) return {};
+    freedom += best.signals[s].freedom;
+  }
+  if (!(freedom < enough)) return {};
+  return "the weights of the laws rest on " + core::format_number(freedom, 2) +
+         " degrees of freedom and on no stated noise: by chance a wrong law may take nearly all the weight; state the "
+         "noise of the signals, or measure more";
+}
+
 }  // namespace dualdamp::identify

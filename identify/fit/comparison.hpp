@@ -6,6 +6,7 @@
 ///
 /// D is the deviance per sample (`Fit::deviance`), K the number of parameters and of deviations.
 
+#include <string>
 #include <vector>
 
 #include "identify/fit/fit.hpp"
@@ -19,5 +20,10 @@ namespace dualdamp::identify {
 /// the weights of normal readings are about those of plain fits. A parameter counts 2 E(psi^2)/E(psi') in place of
 /// 2, which is the mean gain of the sum by a parameter that the data do not need (ronchetti1985).
 void compare_fits(std::vector<Fit>& fits, bool robust = false);
+
+/// Warning that the weights of the laws rest on few degrees of freedom and on no stated noise; empty: they do not.
+/// Each fit then has a deviation of its own, from its few residuals: chance may make that of a wrong law so small
+/// that it takes all the weight.
+[[nodiscard]] std::string warning_of_weights(const std::vector<Fit>& fits);
 
 }  // namespace dualdamp::identify

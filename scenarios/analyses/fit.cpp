@@ -215,6 +215,8 @@ Answer FitQuestion::run(const RunContext& /*context*/) const {
   if (!best.outcome.ok()) return failed(best.outcome.reason);
   Answer answer;
   answer.warnings = warnings_;
+  if (std::string weights = identify::warning_of_weights(fits); !weights.empty())
+    answer.warnings.push_back(std::move(weights));
   answer.result["law"] = laws_text(best.rig);
   add_fit(best, data_, answer);
   answer.result["laws"] = nullptr;
