@@ -4,6 +4,7 @@
 #include <numeric>
 #include <utility>
 
+#include "core/diagnostics.hpp"
 #include "core/numbers.hpp"
 #include "identify/experiments/experiment.hpp"
 #include "identify/records/held_path.hpp"
@@ -94,9 +95,53 @@ class FrictionLoop final : public Experiment {
     return outputs.allFinite();
   }
 
-  /// Says if the mass sticks under forces that the friction does not hold.
   [[nodiscard]] std::vector<std::string> objections(const sim::Model& model,
                                                     const RecordValues& of_record) const override {
+    std::vector<std::string> all = objections_of_sticks(model, of_record);
+    const std::size_t samples = samples_of_reversal(model, of_record);
+    const std::string missing = core::joined(derived, " and ");
+    if (samples > 0 && samples <= reach_of_difference)
+      all.push_back(
+          "the contact reverses within " + std::to_string(samples) + " sample" + (samples == 1 ? "" : "s") +
+          ", where " + missing +
+          " by differences of seven points is not exact: a contact stiffness may lie outside its interval; "
+          "measure " +
+          missing + ", or sample faster");
+    return all;
+  }
+
+ private:
+  /// Samples to one side that a difference of seven points needs, and one for the place of the reversal between
+  /// two.
+  static constexpr std::size_t reach_of_difference = 4;
+
+  /// After how many samples most of the friction has changed its sign at a reversal: the median over reversals. 0
+  /// if all signals were measured, or if no law has a memory: `bridge` allows for the jump of a rigid friction.
+  [[nodiscard]] std::size_t samples_of_reversal(const sim::Model& model, const RecordValues& of_record) const {
+    std::vector<double> force(x_.size(), 0.0);
+    bool has_any = false;
+    for (const friction::Law& law : model.friction) {
+      if (!filter_ || turns_.empty() || !law.has_memory()) continue;
+      has_any = true;
+      if (!add(law, of_record[RecordParameter::offset], of_record[RecordParameter::travel], force)) return 0;
+    }
+    const auto [low, high] = std::ranges::minmax(force);
+    if (!has_any || !(high > low)) return 0;
+    constexpr double most = 0.8;
+    std::vector<std::size_t> counts;
+    for (const std::size_t i : turns_) {
+      std::size_t end = i;
+      while (end + 1 < force.size() && std::abs(force[end] - force[i - 1]) < most * (high - low)) ++end;
+      counts.push_back(std::max<std::size_t>(end - i, 1));
+    }
+    const auto middle = counts.begin() + static_cast<std::ptrdiff_t>(counts.size() / 2);
+    std::ranges::nth_element(counts, middle);
+    return *middle;
+  }
+
+  /// Says if the mass sticks under forces that the friction does not hold.
+  [[nodiscard]] std::vector<std::string> objections_of_sticks(const sim::Model& model,
+                                                              const RecordValues& of_record) const {
     if (!std::ranges::any_of(model.friction, &friction::Law::holds_mass) ||
         std::ranges::any_of(model.friction, depends_on_past))
       return {};
@@ -132,7 +177,6 @@ class FrictionLoop final : public Experiment {
             " N: its static level is higher, or the mass did not rest"};
   }
 
- private:
   [[nodiscard]] static bool depends_on_past(const friction::Law& law) {
     return law.has_memory() || law.has_rates() || law.delay() > 0.0 || law.advances();
   }

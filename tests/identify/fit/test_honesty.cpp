@@ -99,6 +99,25 @@ TEST_CASE("loop: a mass that sticks under more than the friction holds is told",
   CHECK_THAT(fit.warnings.front(), Catch::Contains("the friction of the fit holds at most 2 N"));
 }
 
+TEST_CASE("loop: a contact that reverses within some samples is told where the acceleration was not measured",
+          "[identify][fit]") {
+  // At some 3 m/s^2 the contact of 2 N reverses within 0.8 samples at 1e6 N/m, and within 18 at 2e3 N/m.
+  const auto objections = [](double stiffness, bool has_mass) {
+    const identify::Rig rig = test::rig_with(
+        {"contact_compliance", {{"kinetic", 2.0}, {"contact_stiffness", stiffness}}, {"contact_stiffness"}});
+    std::string fault;
+    const identify::Experiments experiments = identify::experiments_of(
+        test::loop_of(rig, 5e-3, 0.0, 1), {.name = "loop", .loop = true, .has_mass = has_mass}, fault);
+    REQUIRE(fault.empty());
+    return experiments.front()->objections(*identify::model_of(test::loop_alone(rig)), {});
+  };
+  const std::vector<std::string> fast = objections(1e6, true);
+  REQUIRE(fast.size() == 1);
+  CHECK_THAT(fast.front(), Catch::Contains("measure a, or sample faster"));
+  CHECK(objections(2e3, true).empty());
+  CHECK(objections(1e6, false).empty());
+}
+
 TEST_CASE("loop: samples rest at zero speed, or where noise stays at one level", "[identify][fit]") {
   const auto resting = [](const std::vector<double>& v, double noise, std::size_t spread) {
     std::string marks;
