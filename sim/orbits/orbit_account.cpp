@@ -141,7 +141,11 @@ void OrbitAccount::write(SteadyState& result) {
   result.sticks = std::move(sticks_);
   result.stick_count = sticks_by_speed_ ? slow_spans(samples * spacing_) : static_cast<int>(result.sticks.size());
   result.sequence = std::move(sequence_);
-  if (result.sticks.size() == 1 && stops_ == 0) {
+  if (is_held) {
+    result.warnings.emplace_back(
+        "the motion creeps towards this rest position by ever smaller slips, and reaches it only in the limit; other "
+        "rest positions that friction can hold are steady too");
+  } else if (result.sticks.size() == 1 && stops_ == 0) {
     result.warnings.emplace_back("the mass never moves: any rest position that friction can hold is steady too");
   }
   if (!full_) return;
