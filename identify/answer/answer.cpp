@@ -41,8 +41,8 @@ bool keeps_its_findings(const Estimate& estimate, const Ledger& ledger) {
   return (method->needs == RecordKind::history && !ledger.tests_histories) || rests_on_departure(estimate, ledger);
 }
 
-/// A range over laws of which none fits, and any other estimate where the joint model misses the record, is a
-/// number that does not describe it.
+/// A range over laws of which none fits, any other estimate where the joint model misses the record, and one that
+/// the motion itself excludes are numbers that do not describe it.
 bool misses(Estimate& estimate, const Ledger& ledger) {
   if (!estimate.sound) return false;
   if (!ledger.gross_error.empty())
@@ -53,8 +53,10 @@ bool misses(Estimate& estimate, const Ledger& ledger) {
     estimate.reason = ledger.force_excess;
   else if (ledger.misfit && !estimate.laws)
     estimate.reason = misfit_size(*ledger.misfit);
-  else if (const std::string negative = negative_friction(ledger); !negative.empty() && !estimate.laws)
-    estimate.reason = negative;
+  else if (const std::string fault = fault_of_joint(ledger); !fault.empty() && !estimate.laws)
+    estimate.reason = fault;
+  else if (const std::string beyond = beyond_motion(estimate, ledger.largest, ledger.coordinate); !beyond.empty())
+    estimate.reason = "its " + beyond;
   else
     return false;
   estimate.usable = false;

@@ -15,6 +15,7 @@
 #include "identify/ledger/estimate/joint_estimate.hpp"
 #include "identify/ledger/force_balance.hpp"
 #include "identify/ledger/history_model.hpp"
+#include "identify/ledger/estimate/relative_changes.hpp"
 #include "identify/ledger/relaxation_tests.hpp"
 #include "identify/ledger/stated_noise.hpp"
 #include "identify/statistics/decompositions.hpp"
@@ -51,26 +52,6 @@ MaybeModel testable_model(const Record& record, const KnownConstants& constants,
   return model;
 }
 
-/// Relative changes. Where a value is smaller than its standard error, changes are relative to that error.
-class Scale {
- public:
-  Scale(const JointModel& model, double freedom)
-      : zeta_(std::abs(model.value.zeta)), F0_(std::abs(model.value.F0)) {
-    const std::optional<Eigen::MatrixXd> covariance = unit_covariance(model.base);
-    if (!covariance || !(freedom > 0.0)) return;
-    const Eigen::VectorXd left = left_beside(model.base, model.residuals);
-    const double deviation = model.is_stated ? 1.0 : std::sqrt(left.squaredNorm() / std::max(1.0, freedom));
-    zeta_ = std::max(zeta_, deviation * std::sqrt((*covariance)(0, 0)));
-    F0_ = std::max(F0_, deviation * std::sqrt((*covariance)(1, 1)));
-  }
-  [[nodiscard]] double zeta(double change) const { return change / zeta_; }
-  [[nodiscard]] double F0(double change) const { return change / F0_; }
-
- private:
-  double zeta_;
-  double F0_;
-};
-
 class Writer {
  public:
   Writer(const JointModel& model, const RelaxationTests& tests, const KnownConstants& stated,
@@ -81,6 +62,7 @@ class Writer {
     for (const FoundDeparture& departure : tests_.departures) charge(departure, ledger);
     for (const FoundDeparture& departure : tests_.departures) join_constants(departure, ledger);
     for (const RelaxationTest& test : tests_.tests) hold(test, ledger);
+    charge_unexplained(ledger);
     for (LedgerEntry& entry : ledger.entries)
       if (entry.standing == Standing::untested) explain(ledger, entry);
   }
@@ -169,9 +151,7 @@ class Writer {
                          ? "the drive steps between two samples, and where between them is not known: a delay of " +
                                rounded(test.coefficient) + " s, less than their distance of " +
                                rounded(model_.step_interval) + " s, stands for it"
-                         : "a departure is seen and moves zeta and F0 by less than " +
-                               in_percent(options_.least_change) +
-                               (any(harming) ? " if it is this; " + alternatives(departure, test) : "");
+                         : harmless() + (any(harming) ? " if it is this; " + alternatives(departure, test) : "");
       if (harms && is_uneven(test))
         entry.reason += std::string("; ") + (test.zeta_part == 0.0 ? "F0" : "zeta") +
                         " of a part of the record is off its mean by " + in_percent(unevenness(test));
@@ -308,6 +288,34 @@ class Writer {
     entry.reason.clear();
   }
 
+  /// Tests may still reject beside all departures found: what was fitted does not explain the record.
+  void charge_unexplained(Ledger& ledger) const {
+    std::vector<RelaxationTest> rejecting = tests_.tests;
+    std::erase_if(rejecting, [](const RelaxationTest& test) { return test.p_value >= family_level; });
+    std::ranges::sort(rejecting, {}, &RelaxationTest::p_value);
+    std::vector<Assumption> named;
+    for (const RelaxationTest& test : rejecting) {
+      LedgerEntry& entry = ledger.entry(assumption_of(test));
+      if (entry.standing == Standing::violated) continue;
+      if (!matters(test)) {
+        if (entry.reason.empty()) entry.reason = harmless();
+        continue;
+      }
+      set(test, entry);
+      entry.standing = Standing::violated;
+      entry.is_like_speed = model_.relaxations[test.index].is_like_speed;
+      entry.reason = "its test still rejects beside the " + std::to_string(tests_.departures.size()) +
+                     " departures found, which do not explain the record";
+      named.push_back(entry.assumption);
+    }
+    ledger.is_unexplained = !named.empty();
+    if (ledger.is_unexplained) ledger.departures.push_back(std::move(named));
+  }
+
+  [[nodiscard]] std::string harmless() const {
+    return "a departure is seen and moves zeta and F0 by less than " + in_percent(options_.least_change);
+  }
+
   /// Why there is nothing to test of the drive; nothing if its history would show it.
   [[nodiscard]] static std::string about_drive(const Ledger& ledger) {
     if (ledger.recorded.drive && ledger.tests_histories)
@@ -345,7 +353,7 @@ class Writer {
   const RelaxationTests& tests_;
   const KnownConstants& stated_;
   const LedgerOptions& options_;
-  Scale scale_;
+  RelativeChanges scale_;
   std::array<double, assumption_count> blind_ = [] {
     std::array<double, assumption_count> none{};
     none.fill(std::numeric_limits<double>::quiet_NaN());
@@ -390,7 +398,8 @@ Ledger tested_ledger(const Record& record, const KnownConstants& constants, cons
   const bool is_friction = std::ranges::any_of(ledger.departures, [](const std::vector<Assumption>& named) {
     return std::ranges::any_of(named, [](Assumption a) { return is_of_friction(a) && a != Assumption::symmetry; });
   });
-  if (is_friction || !(constants.stiffness > 0.0 && constants.mass > 0.0) || ledger.misfit) return ledger;
+  const bool is_fitted = !is_friction && !ledger.is_unexplained && !ledger.misfit;
+  if (!is_fitted || !(constants.stiffness > 0.0 && constants.mass > 0.0)) return ledger;
   ledger.joint = joint_estimate(model, tests);
   ledger.unseen = unseen_friction(model, tests, *ledger.joint);
   for (const FoundDeparture& departure : tests.departures)
@@ -403,6 +412,7 @@ Ledger tested_ledger(const Record& record, const KnownConstants& constants, cons
 
 Ledger ledger_of(const Record& record, const KnownConstants& constants, const LedgerOptions& options) {
   Ledger ledger = tested_ledger(record, constants, options);
+  ledger.largest = largest_friction(record, constants);
   charge_force_balance(record, constants, options.uncertainties, ledger);
   return ledger;
 }

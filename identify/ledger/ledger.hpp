@@ -5,7 +5,8 @@
 /// One joint model of the record (amplitude_model.hpp, decay_model.hpp, history_model.hpp) is relaxed in one way
 /// after another; all tests share one family level (relaxation_tests.hpp). A departure is charged to the assumption
 /// whose relaxation explains it best, and to those that explain it as well. It violates each of them whose
-/// relaxation changes zeta or F0 by `least_change` or more. A smaller change is reported and violates nothing.
+/// relaxation changes zeta or F0 by `least_change` or more. A smaller change is reported and violates nothing. So does
+/// a test that still rejects when no further departure is looked for, and no joint estimate is left then.
 ///
 /// Constants and gains with a stated uncertainty violate nothing as long as errors of at most 2.6 times the
 /// uncertainty (1 %) explain the departure. The departure is reported, and stays relaxed in the joint estimate.
@@ -25,6 +26,7 @@
 
 #include "identify/assumption.hpp"
 #include "identify/estimate.hpp"
+#include "identify/ledger/estimate/largest_friction.hpp"
 #include "identify/options.hpp"
 #include "identify/record.hpp"
 #include "identify/uncertainty/uncertain_constants.hpp"
@@ -110,9 +112,13 @@ struct Ledger {
   /// Steady states that need more force than their drive gives, a sentence (force_balance.hpp). No estimate with
   /// the constants as stated describes them.
   std::string force_excess = {};
+  LargestFriction largest = {};  ///< no estimate above it is usable
+  /// A test that matters still rejects beside all departures found: no joint estimate describes the record.
+  bool is_unexplained = false;
   std::vector<std::string> relaxed;  ///< tests of the relaxations that the joint estimate has free
   /// Estimate of the joint model with the departures relaxed. Nothing without a model, without mass and stiffness,
-  /// or if a departure that matters may be one of friction over speed or displacement, or beside a misfit.
+  /// or if a departure that matters may be one of friction over speed or displacement, or beside a misfit or an
+  /// unexplained rest.
   std::optional<Estimate> joint;
   /// The interval of `joint`, and beyond it what departures that no test sees may make of zeta and F0.
   std::optional<UnseenRange> unseen;

@@ -27,8 +27,10 @@ inline constexpr double misfit_share = 0.1;
 /// "the joint model misses these data by 12 times their noise (p = 1e-9)"
 [[nodiscard]] std::string misfit_size(const Misfit& misfit);
 
-/// Histories that, with all that is relaxed, need friction that is negative by twice its interval: a sentence. What
-/// one method makes of them by energy or forces is then no better. Empty otherwise.
-[[nodiscard]] std::string negative_friction(const Ledger& ledger);
+/// Why the joint model, with all that is relaxed, does not determine friction, a sentence: histories need friction
+/// that is negative by twice its interval, states fit negative friction that they do not determine, or the estimate
+/// reaches above the largest friction with which the mass can move. What one method makes of such data, by energy
+/// or forces, is then no better. Empty otherwise.
+[[nodiscard]] std::string fault_of_joint(const Ledger& ledger);
 
 }  // namespace dualdamp::identify
