@@ -56,7 +56,8 @@ std::string why_untested(const Identification& all) {
 /// What would help where the histories themselves could not be tested; empty otherwise.
 std::string what_would_test(const Ledger& ledger) {
   if (!ledger.data.empty() || !ledger.recorded.histories || ledger.entries.empty()) return {};
-  return "; what would help: a longer record, or one of more swings, in which the assumptions can be tested (" +
+  return "; what would help: check the constants, the units, the sensors and the drive; smaller swings, in which a spring "
+         "is linear; or a record of more swings, in which the assumptions can be tested (" +
          ledger.entries.front().reason + ")";
 }
 

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <vector>
 
+#include "core/constants.hpp"
 #include "core/numbers.hpp"
 #include "identify/ledger/history_rows.hpp"
 
@@ -26,53 +29,128 @@ double share_missed(ForwardFit& fit) {
   return moved > 0.0 ? std::sqrt(std::max(0.0, left - noise) / moved) : 0.0;
 }
 
+constexpr double good_part = 0.2;  ///< of the motion
+
+/// Mean of x - y - f/k over all histories: the middle that the motion would have about a right zero is zero.
+double middle_of(const Record& record, double stiffness) {
+  double sum = 0.0;
+  double count = 0.0;
+  for (const History& history : record.histories)
+    for (std::size_t i = 0; i < history.x.size(); ++i, count += 1.0)
+      sum += history.x[i] - (history.y.empty() ? 0.0 : history.y[i]) -
+             (history.force.empty() ? 0.0 : history.force[i] / stiffness);
+  return count > 0.0 ? sum / count : 0.0;
+}
+
+/// The signal later by some samples, or earlier; its ends are held.
+void shift(std::vector<double>& signal, std::ptrdiff_t samples) {
+  const std::vector<double> before = signal;
+  const auto count = static_cast<std::ptrdiff_t>(before.size());
+  for (std::ptrdiff_t i = 0; i < count; ++i)
+    signal[static_cast<std::size_t>(i)] =
+        before[static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(i - samples, 0, count - 1))];
+}
+
 }  // namespace
 
-const FreedFit* FreedConstants::with(By by) {
-  const auto [item, is_new] = found_.try_emplace(by);
-  std::optional<FreedFit>& found = item->second;
-  const bool is_mass = by == By::mass;
+std::optional<FreedFit> FreedConstants::fitted(const Record& record, const KnownConstants& constants) {
+  Estimate unused;
+  ForwardFit fit(record, constants, {}, unused);
+  if (!fit.problem().empty() || fit.tests().size() != stated_.tests().size()) return std::nullopt;
+  const ForceParameters force = fit.layout().force(fit.found().parameters);
+  const double change = std::isnan(constants.mass)        ? force.m - constants_.mass
+                        : std::isnan(constants.stiffness) ? force.k - constants_.stiffness
+                                                          : 0.0;
+  std::vector<ForwardTest> tests = stated_.tests();
+  return FreedFit{fit.as_start(stated_.layout(), tests), change, share_missed(fit)};
+}
+
+std::optional<FreedFit> FreedConstants::with_constant(By by) {
   KnownConstants constants = constants_;
-  double& own = is_mass ? constants.mass : constants.stiffness;
-  if (is_new && !std::isnan(own)) {
-    own = unknown;
-    Estimate unused;
-    ForwardFit fit(record_, constants, {}, unused);
-    if (fit.problem().empty()) {
-      const ForceParameters force = fit.layout().force(fit.found().parameters);
-      std::vector<ForwardTest> tests = stated_.tests();
-      found = FreedFit{fit.as_start(stated_.layout(), tests),
-                       is_mass ? force.m - constants_.mass : force.k - constants_.stiffness, share_missed(fit)};
+  double& own = by == By::mass ? constants.mass : constants.stiffness;
+  if (std::isnan(own)) return std::nullopt;
+  own = unknown;
+  return fitted(record_, constants);
+}
+
+/// The middle of a short record is the zero but for a part of a swing; steps lead on from there.
+std::optional<FreedFit> FreedConstants::with_zero() {
+  if (missed_as_stated() < good_part || !(constants_.stiffness > 0.0)) return std::nullopt;
+  const double zero = middle_of(record_, constants_.stiffness);
+  Record moved = record_;
+  for (History& history : moved.histories)
+    for (double& x : history.x) x -= zero;
+  std::optional<FreedFit> fit = fitted(moved, constants_);
+  if (fit) fit->change = zero / stated_.layout().length();
+  return fit;
+}
+
+/// A drive that is later by the delay moves the mass as much later. Steps of this delay lead to the best one.
+std::optional<FreedFit> FreedConstants::with_delay() {
+  constexpr double some = 0.05;  // of the motion
+  constexpr double step = 0.03;  // of a natural period
+  constexpr int most = 5;
+  if (missed_as_stated() < some || !(constants_.stiffness > 0.0) || !(constants_.mass > 0.0)) return std::nullopt;
+  const double rate = record_.histories.front().sample_rate;
+  const double samples = step * rate * core::two_pi / constants_.natural_frequency();
+  std::optional<FreedFit> best;
+  for (const int direction : {1, -1})
+    for (int i = 1; i <= most; ++i) {
+      const std::ptrdiff_t by = std::lround(direction * std::max(1.0, samples) * i);
+      Record moved = record_;
+      for (History& history : moved.histories)
+        for (std::vector<double>* drive : {&history.y, &history.force}) shift(*drive, by);
+      std::optional<FreedFit> fit = fitted(moved, constants_);
+      if (!fit || (best && fit->missed >= best->missed)) break;
+      best = std::move(fit);
+      best->change = static_cast<double>(by) / rate;
     }
-  }
-  return found ? &*found : nullptr;
+  return best;
+}
+
+const FreedFit* FreedConstants::with(const FreedPart& part) {
+  const bool is_of_x = part.sensor == MotionSensor::x;
+  const bool has_fit = part.kind == Kind::constant || (is_of_x && (part.kind == Kind::zero || part.kind == Kind::delay));
+  if (!has_fit) return nullptr;
+  const auto [item, is_new] = found_.try_emplace({part.kind, part.by});
+  if (is_new)
+    item->second = part.kind == Kind::zero    ? with_zero()
+                   : part.kind == Kind::delay ? with_delay()
+                                              : with_constant(part.by);
+  return item->second ? &*item->second : nullptr;
+}
+
+double FreedConstants::missed_as_stated() {
+  if (!missed_) missed_ = share_missed(stated_);
+  return *missed_;
 }
 
 const FreedFit* FreedConstants::best() {
   const FreedFit* best = nullptr;
-  for (const By by : {By::mass, By::stiffness})
-    if (const FreedFit* other = with(by); other != nullptr && (best == nullptr || other->missed < best->missed))
+  for (const FreedPart& part : {FreedPart{.kind = Kind::constant, .by = By::mass},
+                                FreedPart{.kind = Kind::constant, .by = By::stiffness}, FreedPart{.kind = Kind::zero},
+                                FreedPart{.kind = Kind::delay}})
+    if (const FreedFit* other = with(part); other != nullptr && (best == nullptr || other->missed < best->missed))
       best = other;
   return best;
 }
 
 const FreedFit* FreedConstants::much_nearer() {
-  constexpr double good_part = 0.2;
   constexpr double much = 0.5;
-  const double stated = share_missed(stated_);
+  const double stated = missed_as_stated();
   const FreedFit* other = stated < good_part ? nullptr : best();
   return other != nullptr && other->missed < much * stated ? other : nullptr;
 }
 
 std::string FreedConstants::fault() {
   constexpr double most = 0.5;
-  double least = share_missed(stated_);
+  double least = missed_as_stated();
   if (least < most) return {};
   if (const FreedFit* other = best()) least = std::min(least, other->missed);
   if (least < most) return {};
   constexpr int digits = 2;
   return "the simulated motion misses " + core::percent(least, digits) +
-         " of the measured one, whatever the mass and the stiffness";
+         " of the measured one, whatever the mass, the stiffness, the zero of x and its delay";
 }
 
 }  // namespace dualdamp::identify

@@ -62,13 +62,15 @@ class Histories {
     Taken all(list_.relaxations.size());
     std::iota(all.begin(), all.end(), std::size_t{0});
     Fitted best{start_, linearised(start_, taken, Whitening::off)};
-    const bool of_constants = std::ranges::any_of(taken, [this](auto each) { return is_constant(each); });
+    bool is_near = taken.empty();
     for (const std::size_t number : taken) {
-      const std::optional<Place> other = is_constant(number) ? freed(number) : std::nullopt;
-      if (other) best.take_nearer({*other, linearised(*other, taken, Whitening::off)});
+      const std::optional<Place> other = freed(number);
+      if (!other) continue;
+      best.take_nearer({*other, linearised(*other, taken, Whitening::off)});
+      is_near = is_near || is_constant(number) || freed_.with(list_.parts[number]) == freed_.much_nearer();
     }
     descend(taken, best);
-    if (!taken.empty() && !of_constants) best.take_nearer(through_constant(taken));
+    if (!is_near) best.take_nearer(through_constant(taken));
     return joint(best.at, taken, all);
   }
 
@@ -132,13 +134,12 @@ class Histories {
     }
   }
 
-  /// A fit out of step with the motion is at a minimum of its own, which no step leaves, whatever is relaxed. If
-  /// another constant comes much nearer, a fit with that constant free as well keeps in step, and from there the
-  /// constant is set back.
+  /// A fit out of step with the motion is at a minimum of its own, which no step leaves, whatever is relaxed. A fit
+  /// with a constant free that comes much nearer keeps in step, and from there the constant is set back.
   [[nodiscard]] Fitted through_constant(const Taken& taken) {
     const FreedFit* near = freed_.much_nearer();
     for (std::size_t j = 0; near != nullptr && j < list_.parts.size(); ++j) {
-      if (!is_constant(j) || freed_.with(list_.parts[j].by) != near) continue;
+      if (freed_.with(list_.parts[j]) != near) continue;
       Taken both = taken;
       both.push_back(j);
       Fitted through{*freed(j), {}};
@@ -198,12 +199,11 @@ class Histories {
     const FreedFit* near = freed_.much_nearer();
     std::optional<Linearised> nearer;
     for (std::size_t j = 0; near != nullptr && !nearer && j < list_.parts.size(); ++j)
-      if (is_constant(j) && freed_.with(list_.parts[j].by) == near)
-        nearer = linearised(*freed(j), {}, Whitening::on);
+      if (freed_.with(list_.parts[j]) == near) nearer = linearised(*freed(j), {}, Whitening::on);
     if (!nearer) return linearised(at, all, Whitening::on);
     std::optional<Linearised> found = linearised(at, all, Whitening::on, nearer->errors);
     for (std::size_t j = 0; found && j < list_.parts.size(); ++j) {
-      const std::optional<Place> place = is_constant(j) ? freed(j) : std::nullopt;
+      const std::optional<Place> place = freed(j);
       const auto own = static_cast<Eigen::Index>(j);
       const std::optional<Linearised> there =
           place && place->g[own] != 0.0 ? linearised(*place, {}, Whitening::on, nearer->errors) : std::nullopt;
@@ -219,7 +219,7 @@ class Histories {
   /// The fit with this constant unknown. A motion that runs out of step with that of the stated constant is too far
   /// away to be reached by steps from there.
   [[nodiscard]] std::optional<Place> freed(std::size_t number) {
-    const FreedFit* found = freed_.with(list_.parts[number].by);
+    const FreedFit* found = freed_.with(list_.parts[number]);
     if (found == nullptr) return std::nullopt;
     Place place{found->p, start_.zeros, start_.g};
     place.g[static_cast<Eigen::Index>(number)] = found->change;
@@ -355,12 +355,12 @@ class Histories {
     const Eigen::MatrixXd columns_v = arranged(t, wanted, force, motion.derivatives.v);
     const HistoryReader read{list_.parts, zeros_, scale_.length, at, wanted, t};
     SensorRows rows;
-    rows.x = read(MotionSensor::x, history.x, {motion.x, motion.v, a}, columns_x, columns_v);
+    rows.x = read(MotionSensor::x, history.x, {motion.x, motion.v, a, rate}, columns_x, columns_v);
     if (!history.v.empty())
-      rows.v = read(MotionSensor::v, history.v, {motion.v, a, jerk}, columns_v, differentiated(columns_v, rate));
+      rows.v = read(MotionSensor::v, history.v, {motion.v, a, jerk, rate}, columns_v, differentiated(columns_v, rate));
     if (!history.a.empty())
       rows.a =
-          read(MotionSensor::a, history.a, {a, jerk, Eigen::VectorXd::Zero(jerk.size())},
+          read(MotionSensor::a, history.a, {a, jerk, Eigen::VectorXd::Zero(jerk.size()), rate},
                finely_differentiated(columns_v, rate), Eigen::MatrixXd::Zero(columns_v.rows(), columns_v.cols()));
     return rows;
   }

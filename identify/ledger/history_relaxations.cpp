@@ -126,7 +126,11 @@ HistoryRelaxations history_relaxations(const std::vector<ForwardTest>& tests, co
   add_terms(list, are_alike_decays(tests));
   add_contrasts(list, tests.size());
   const bool beside_x = has(&History::v) || has(&History::a) || has(&History::y) || has(&History::force);
-  if (beside_x) add_reading(list, "x", MotionSensor::x);
+  if (beside_x) {
+    add_reading(list, "x", MotionSensor::x);
+    add(list, Assumption::sensors, "corner frequency of x free", {.kind = Kind::corner});
+    list.relaxations.back().sign = 1;
+  }
   add(list, Assumption::sensors, "zero of x free", {.kind = Kind::zero});
   add(list, Assumption::stationarity, "zero of x that drifts", {.kind = Kind::zero_drift});
   if (has(&History::v)) add_reading(list, "v", MotionSensor::v);
@@ -146,6 +150,7 @@ Eigen::MatrixXd HistoryReader::operator()(MotionSensor sensor, const std::vector
   own([&](FreedPart::Kind kind, double g, Eigen::Index) {
     if (kind == FreedPart::Kind::gain) errors.gain += g;
     if (kind == FreedPart::Kind::delay) errors.delay = g;
+    if (kind == FreedPart::Kind::corner) errors.corner = g;
     if (kind == FreedPart::Kind::zero) errors.zero = g * length;
     if (kind == FreedPart::Kind::zero_drift) errors.drift = g * length;
   });
@@ -157,8 +162,11 @@ Eigen::MatrixXd HistoryReader::operator()(MotionSensor sensor, const std::vector
   if (zero != zeros.end()) rows.col(1 + at.p.size() + place).setConstant(zero->unit);
   own([&](FreedPart::Kind kind, double, Eigen::Index j) {
     auto to = rows.col(1 + at.p.size() + at.zeros.size() + j);
-    if (kind == FreedPart::Kind::gain) to = motion.late(errors.delay);
-    if (kind == FreedPart::Kind::delay) to = errors.gain * (errors.delay * motion.curvature - motion.slope);
+    if (kind == FreedPart::Kind::gain) to = as_read(motion.value, motion.slope, errors, motion.rate);
+    if (kind == FreedPart::Kind::delay)
+      to = -errors.gain * as_read(motion.slope, motion.curvature, errors, motion.rate);
+    if (kind == FreedPart::Kind::corner)
+      to = errors.gain * by_corner(as_read(motion.value, motion.slope, errors, motion.rate), motion.rate, errors.corner);
     if (kind == FreedPart::Kind::zero) to.setConstant(length);
     if (kind == FreedPart::Kind::zero_drift) to = length * course_of(rows.rows());
   });

@@ -69,14 +69,58 @@ WhiteRows made_white(const Channel& channel, Eigen::Index count_of_columns, cons
 
 Eigen::VectorXd course_of(Eigen::Index samples) { return Eigen::VectorXd::LinSpaced(samples, 0.0, 1.0); }
 
+Eigen::MatrixXd delayed(const Eigen::MatrixXd& columns, const Eigen::MatrixXd& slopes, double rate, double delay) {
+  if (delay == 0.0 || columns.rows() < 2) return columns;
+  Eigen::MatrixXd earlier(columns.rows(), columns.cols());
+  for (Eigen::Index i = 0; i < columns.rows(); ++i) {
+    const double place = static_cast<double>(i) - delay * rate;
+    const auto last = static_cast<double>(columns.rows() - 2);
+    const auto j = static_cast<Eigen::Index>(std::clamp(std::floor(place), 0.0, last));
+    const double u = place - static_cast<double>(j);
+    const double w = 1.0 - u;
+    earlier.row(i) = w * w * ((1.0 + 2.0 * u) * columns.row(j) + u / rate * slopes.row(j)) +
+                     u * u * ((1.0 + 2.0 * w) * columns.row(j + 1) - w / rate * slopes.row(j + 1));
+  }
+  return earlier;
+}
+
+namespace {
+
+/// (1 - exp(-u))/u
+double mean_decay(double u) { return std::abs(u) < 1e-9 ? 1.0 : -std::expm1(-u) / u; }
+
+}  // namespace
+
+Eigen::MatrixXd high_passed(const Eigen::MatrixXd& columns, double rate, double corner) {
+  if (corner == 0.0) return columns;
+  const double u = corner / rate;
+  Eigen::MatrixXd passed = columns;
+  for (Eigen::Index i = 1; i < columns.rows(); ++i)
+    passed.row(i) = std::exp(-u) * passed.row(i - 1) + mean_decay(u) * (columns.row(i) - columns.row(i - 1));
+  return passed;
+}
+
+Eigen::VectorXd by_corner(const Eigen::VectorXd& passed, double rate, double corner) {
+  const double u = corner / rate;
+  Eigen::VectorXd change = Eigen::VectorXd::Zero(passed.size());
+  for (Eigen::Index i = 1; i < passed.size(); ++i)
+    change[i] = std::exp(-u) * change[i - 1] - mean_decay(u) * 0.5 * (passed[i] + passed[i - 1]) / rate;
+  return change;
+}
+
+Eigen::MatrixXd as_read(const Eigen::MatrixXd& columns, const Eigen::MatrixXd& slopes, const SensorErrors& errors,
+                        double rate) {
+  return high_passed(delayed(columns, slopes, rate, errors.delay), rate, errors.corner);
+}
+
 Eigen::MatrixXd reading_rows(const std::vector<double>& measured, const SensorMotion& motion,
                              const SensorErrors& errors, const Eigen::MatrixXd& columns,
                              const Eigen::MatrixXd& slopes) {
   const Eigen::Index count = motion.value.size();
   Eigen::MatrixXd rows(count, columns.cols() + 1);
-  rows.col(0) = Eigen::Map<const Eigen::VectorXd>(measured.data(), count) - errors.gain * motion.late(errors.delay);
+  rows.col(0) = Eigen::Map<const Eigen::VectorXd>(measured.data(), count) - errors.gain * as_read(motion.value, motion.slope, errors, motion.rate);
   rows.col(0) -= Eigen::VectorXd::Constant(count, errors.zero) + errors.drift * course_of(count);
-  rows.rightCols(columns.cols()) = errors.gain * (columns - errors.delay * slopes);
+  rows.rightCols(columns.cols()) = errors.gain * as_read(columns, slopes, errors, motion.rate);
   return rows;
 }
 

@@ -37,10 +37,11 @@ struct WhiteRows {
                                    const Autoregression* known = nullptr, bool is_unit = false);
 
 /// Errors of a sensor. It reads gain x(t - delay) + zero + drift s, where s is the share of the record that is
-/// over.
+/// over. With a corner frequency, a high-pass of the first order reads x, as that of an AC coupling does.
 struct SensorErrors {
   double gain = 1.0;
-  double delay = 0.0;  ///< s
+  double delay = 0.0;   ///< s
+  double corner = 0.0;  ///< rad/s
   double zero = 0.0;
   double drift = 0.0;  ///< of the zero, from the beginning to the end
 };
@@ -48,12 +49,22 @@ struct SensorErrors {
 /// What a sensor reads, and its first two derivatives over time.
 struct SensorMotion {
   Eigen::VectorXd value, slope, curvature;
-
-  /// The value earlier by the delay [s], to second order.
-  [[nodiscard]] Eigen::VectorXd late(double delay) const {
-    return value - delay * slope + 0.5 * delay * delay * curvature;
-  }
+  double rate = 1.0;  ///< samples in a unit of time
 };
+
+/// Columns as they were a delay before [s]: between samples cubic by their slopes, d/dt, and so before the first.
+[[nodiscard]] Eigen::MatrixXd delayed(const Eigen::MatrixXd& columns, const Eigen::MatrixXd& slopes, double rate,
+                                      double delay);
+
+/// Columns r behind a high-pass of the first order, r' = x' - corner r, which begins with their first values.
+[[nodiscard]] Eigen::MatrixXd high_passed(const Eigen::MatrixXd& columns, double rate, double corner);
+
+/// d/d corner of a signal behind a high-pass.
+[[nodiscard]] Eigen::VectorXd by_corner(const Eigen::VectorXd& passed, double rate, double corner);
+
+/// Columns as a sensor with a delay and a corner frequency reads them, at a gain of one.
+[[nodiscard]] Eigen::MatrixXd as_read(const Eigen::MatrixXd& columns, const Eigen::MatrixXd& slopes,
+                                      const SensorErrors& errors, double rate);
 
 /// Share of a record that is over at each sample, from 0 to 1. A zero that drifts is right at the beginning.
 [[nodiscard]] Eigen::VectorXd course_of(Eigen::Index samples);
