@@ -110,7 +110,8 @@ std::optional<FreedFit> FreedConstants::with_delay() {
 
 const FreedFit* FreedConstants::with(const FreedPart& part) {
   const bool is_of_x = part.sensor == MotionSensor::x;
-  const bool has_fit = part.kind == Kind::constant || (is_of_x && (part.kind == Kind::zero || part.kind == Kind::delay));
+  const bool has_fit =
+      part.kind == Kind::constant || (is_of_x && (part.kind == Kind::zero || part.kind == Kind::delay));
   if (!has_fit) return nullptr;
   const auto [item, is_new] = found_.try_emplace({part.kind, part.by});
   if (is_new)
@@ -127,9 +128,9 @@ double FreedConstants::missed_as_stated() {
 
 const FreedFit* FreedConstants::best() {
   const FreedFit* best = nullptr;
-  for (const FreedPart& part : {FreedPart{.kind = Kind::constant, .by = By::mass},
-                                FreedPart{.kind = Kind::constant, .by = By::stiffness}, FreedPart{.kind = Kind::zero},
-                                FreedPart{.kind = Kind::delay}})
+  for (const FreedPart& part :
+       {FreedPart{.kind = Kind::constant, .by = By::mass}, FreedPart{.kind = Kind::constant, .by = By::stiffness},
+        FreedPart{.kind = Kind::zero}, FreedPart{.kind = Kind::delay}})
     if (const FreedFit* other = with(part); other != nullptr && (best == nullptr || other->missed < best->missed))
       best = other;
   return best;

@@ -33,7 +33,7 @@ enum class Whitening { off, on };
 ///  2. `linearised`: the rows of all channels at one place, whitened;
 ///  3. `add_test`: of one test, the simulated motion and its derivatives, and the innovations of its rows;
 ///  4. `rows_of`, `arranged`: what each sensor reads of that motion, a column for each parameter and relaxation;
-///  5. `through_constant`, `seen_from_afar`, `freed`: what to do if the stated constants miss most of the motion.
+///  5. `through_constant`, `seen_from_afar`, `freed`: if the stated constants miss most of the motion.
 class Histories {
  public:
   Histories(const Record& record, const KnownConstants& constants, double sigma_x, Estimate& exclusions)
@@ -65,9 +65,9 @@ class Histories {
     bool is_near = taken.empty();
     for (const std::size_t number : taken) {
       const std::optional<Place> other = freed(number);
-      if (!other) continue;
-      best.take_nearer({*other, linearised(*other, taken, Whitening::off)});
-      is_near = is_near || is_constant(number) || freed_.with(list_.parts[number]) == freed_.much_nearer();
+      if (other) best.take_nearer({*other, linearised(*other, taken, Whitening::off)});
+      is_near =
+          is_near || (other && (is_constant(number) || freed_.with(list_.parts[number]) == freed_.much_nearer()));
     }
     descend(taken, best);
     if (!is_near) best.take_nearer(through_constant(taken));
@@ -80,10 +80,8 @@ class Histories {
       noise_[t].x = noise_levels(*fit_.tests()[t].history, unit_force_ / scale_.length, scale_).x;
   }
 
-  /// Deviation of the samples of x over that stated.
-  [[nodiscard]] double scatter() const { return scatter_; }
-  /// Why the fit tells nothing; empty otherwise.
-  [[nodiscard]] std::string fault_of_fit() { return freed_.fault(); }
+  [[nodiscard]] double scatter() const { return scatter_; }            ///< of the samples of x over that stated
+  [[nodiscard]] std::string fault_of_fit() { return freed_.fault(); }  ///< why the fit tells nothing; else empty
 
  private:
   struct Linearised {
@@ -158,6 +156,8 @@ class Histories {
   [[nodiscard]] JointModel joint(const Place& at, const Taken& taken, const Taken& all) {
     JointModel model;
     model.relaxations = list_.relaxations;
+    for (std::size_t j = 0; j < list_.parts.size(); ++j)
+      model.relaxations[j].is_far = !is_constant(j) && freed(j).has_value();
     if (std::optional<Linearised> found =
             taken.empty() ? seen_from_afar(at, all) : linearised(at, all, Whitening::on)) {
       model.deviance =
@@ -192,9 +192,9 @@ class Histories {
     return model;
   }
 
-  /// Far from the right constants the fit misses most of the motion. What it leaves is then a swing, and no noise:
-  /// an autoregression would take it for errors that last. If another constant brings the fit much nearer, errors
-  /// are those of the nearer fit, and the column of a constant leads straight to the fit with it free.
+  /// Far from the right constants the fit leaves a swing, which an autoregression would take for errors that last.
+  /// If another constant brings it much nearer, errors are those of the nearer fit, and the column of a constant
+  /// leads straight to the fit with it free.
   [[nodiscard]] std::optional<Linearised> seen_from_afar(const Place& at, const Taken& all) {
     const FreedFit* near = freed_.much_nearer();
     std::optional<Linearised> nearer;
@@ -216,8 +216,7 @@ class Histories {
     return found;
   }
 
-  /// The fit with this constant unknown. A motion that runs out of step with that of the stated constant is too far
-  /// away to be reached by steps from there.
+  /// The fit with this constant unknown: one out of step with it cannot be reached by steps from the stated one.
   [[nodiscard]] std::optional<Place> freed(std::size_t number) {
     const FreedFit* found = freed_.with(list_.parts[number]);
     if (found == nullptr) return std::nullopt;
@@ -226,7 +225,7 @@ class Histories {
     return place;
   }
 
-  /// The columns that are always free: parameters of the fit, then the zeros of v and a.
+  /// Always free: parameters of the fit, then the zeros of v and a.
   [[nodiscard]] Eigen::Index count_of_base() const { return fit_.layout().count() + start_.zeros.size(); }
 
   [[nodiscard]] ForceParameters force_at(const Place& at) const {
@@ -357,7 +356,8 @@ class Histories {
     SensorRows rows;
     rows.x = read(MotionSensor::x, history.x, {motion.x, motion.v, a, rate}, columns_x, columns_v);
     if (!history.v.empty())
-      rows.v = read(MotionSensor::v, history.v, {motion.v, a, jerk, rate}, columns_v, differentiated(columns_v, rate));
+      rows.v =
+          read(MotionSensor::v, history.v, {motion.v, a, jerk, rate}, columns_v, differentiated(columns_v, rate));
     if (!history.a.empty())
       rows.a =
           read(MotionSensor::a, history.a, {a, jerk, Eigen::VectorXd::Zero(jerk.size()), rate},

@@ -166,7 +166,8 @@ Eigen::MatrixXd HistoryReader::operator()(MotionSensor sensor, const std::vector
     if (kind == FreedPart::Kind::delay)
       to = -errors.gain * as_read(motion.slope, motion.curvature, errors, motion.rate);
     if (kind == FreedPart::Kind::corner)
-      to = errors.gain * by_corner(as_read(motion.value, motion.slope, errors, motion.rate), motion.rate, errors.corner);
+      to = errors.gain *
+           by_corner(as_read(motion.value, motion.slope, errors, motion.rate), motion.rate, errors.corner);
     if (kind == FreedPart::Kind::zero) to.setConstant(length);
     if (kind == FreedPart::Kind::zero_drift) to = length * course_of(rows.rows());
   });

@@ -32,7 +32,16 @@ struct FreeZero {
 
 /// What a relaxation sets free.
 struct FreedPart {
-  enum class Kind { constant, force, friction_of_history, gain, delay, corner, zero, zero_drift } kind = Kind::constant;
+  enum class Kind {
+    constant,
+    force,
+    friction_of_history,
+    gain,
+    delay,
+    corner,
+    zero,
+    zero_drift
+  } kind = Kind::constant;
   SampledOscillator::By by = SampledOscillator::By::mass;  ///< of a constant
   const HistoryTerm* term = nullptr;                       ///< of a force
   std::size_t history = 0;

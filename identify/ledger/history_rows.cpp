@@ -118,7 +118,8 @@ Eigen::MatrixXd reading_rows(const std::vector<double>& measured, const SensorMo
                              const Eigen::MatrixXd& slopes) {
   const Eigen::Index count = motion.value.size();
   Eigen::MatrixXd rows(count, columns.cols() + 1);
-  rows.col(0) = Eigen::Map<const Eigen::VectorXd>(measured.data(), count) - errors.gain * as_read(motion.value, motion.slope, errors, motion.rate);
+  rows.col(0) = Eigen::Map<const Eigen::VectorXd>(measured.data(), count) -
+                errors.gain * as_read(motion.value, motion.slope, errors, motion.rate);
   rows.col(0) -= Eigen::VectorXd::Constant(count, errors.zero) + errors.drift * course_of(count);
   rows.rightCols(columns.cols()) = errors.gain * as_read(columns, slopes, errors, motion.rate);
   return rows;

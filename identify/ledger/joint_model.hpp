@@ -31,6 +31,8 @@ struct Relaxation {
   /// A drift of friction or damping in free vibrations from about one amplitude: it falls with time, so that
   /// friction over speed, of whatever form, has the same effect.
   bool is_like_speed = false;
+  /// A fit with it begins far from the plain fit, where the linear model may not see that it explains the record.
+  bool is_far = false;
 };
 
 /// What was read.

@@ -13,9 +13,10 @@
 #include "identify/ledger/amplitude_model.hpp"
 #include "identify/ledger/decay_model.hpp"
 #include "identify/ledger/estimate/joint_estimate.hpp"
+#include "identify/ledger/estimate/one_frequency.hpp"
+#include "identify/ledger/estimate/relative_changes.hpp"
 #include "identify/ledger/force_balance.hpp"
 #include "identify/ledger/history_model.hpp"
-#include "identify/ledger/estimate/relative_changes.hpp"
 #include "identify/ledger/relaxation_tests.hpp"
 #include "identify/ledger/stated_noise.hpp"
 #include "identify/statistics/decompositions.hpp"
@@ -414,6 +415,7 @@ Ledger ledger_of(const Record& record, const KnownConstants& constants, const Le
   Ledger ledger = tested_ledger(record, constants, options);
   ledger.largest = largest_friction(record, constants);
   charge_force_balance(record, constants, options.uncertainties, ledger);
+  join_at_one_frequency(constants, ledger);
   return ledger;
 }
 

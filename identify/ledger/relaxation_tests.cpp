@@ -263,20 +263,22 @@ std::vector<RelaxationTest> tests_beside(const JointModel& model, const Projecti
 }
 
 /// Relaxations that may explain the departure, best first, at most two of an assumption. Far from the fit the true
-/// one may explain only half as much as the best. Constants are always candidates: a motion that is out of step
-/// with the model's is far from the fit. `missed`: the model misses the whole record, and every one is a candidate.
+/// one may explain only half as much as the best. Constants, and what else has a fit far from the plain one, are
+/// always candidates: a motion that is out of step with the model's is far from the fit. `missed`: the model misses
+/// the whole record, and every one is a candidate.
 std::vector<RelaxationTest> candidates(const JointModel& model, std::vector<RelaxationTest> tests, bool missed) {
   std::ranges::sort(tests, std::greater<>(), &RelaxationTest::explained);
   std::vector<RelaxationTest> list;
   for (const RelaxationTest& test : tests) {
     if (missed && test.explained == 0.0) continue;  // of a sign that its departure cannot have
-    const double share = model.relaxations[test.index].assumption == Assumption::constants ? 0.0 : 0.5;
+    const Relaxation& own = model.relaxations[test.index];
+    const double share = own.assumption == Assumption::constants || own.is_far ? 0.0 : 0.5;
     const double least = std::min(tests.front().explained - equal_likelihood, share * tests.front().explained);
     if (!missed && test.explained < (model.refit ? least : tests.front().explained - equal_likelihood)) continue;
-    const Assumption assumption = model.relaxations[test.index].assumption;
-    const auto known = std::ranges::count_if(
-        list, [&](const RelaxationTest& other) { return model.relaxations[other.index].assumption == assumption; });
-    if (missed || known < 2) list.push_back(test);
+    const auto known = std::ranges::count_if(list, [&](const RelaxationTest& other) {
+      return model.relaxations[other.index].assumption == own.assumption;
+    });
+    if (missed || own.is_far || known < 2) list.push_back(test);
   }
   if (!model.refit || list.empty()) return list;
   for (const std::size_t index : model.hidden) {

@@ -40,9 +40,7 @@ class Bounds {
     F0_ = std::max(F0_, force);
     c_ = std::max(c_, force / speed);
   }
-  [[nodiscard]] LargestFriction largest() const {
-    return F0_ > 0.0 ? LargestFriction{c_, F0_} : LargestFriction{};
-  }
+  [[nodiscard]] LargestFriction largest() const { return F0_ > 0.0 ? LargestFriction{c_, F0_} : LargestFriction{}; }
 
  private:
   double c_ = 0.0;
@@ -68,8 +66,8 @@ void add_pairs(const std::vector<Pair>& pairs, const KnownConstants& constants, 
 void add_extremes(const DecayRecord& decay, const KnownConstants& constants, Bounds& bounds) {
   const std::vector<double>& x = decay.extremes;
   for (std::size_t i = 1; i < x.size(); ++i) {
-    const double duration = decay.times.empty() ? core::two_pi / constants.natural_frequency()
-                                                : decay.times[i] - decay.times[i - 1];
+    const double duration =
+        decay.times.empty() ? core::two_pi / constants.natural_frequency() : decay.times[i] - decay.times[i - 1];
     bounds.add(constants.stiffness * std::max(std::abs(x[i]), std::abs(x[i - 1])),
                std::abs(x[i] - x[i - 1]) / duration);
   }
@@ -93,14 +91,14 @@ std::string beyond_motion(const Estimate& estimate, const LargestFriction& large
     const double end = std::max(value, interval ? (*interval)[1] : value);
     if (!(end > most)) return std::string();
     const std::string in_unit = " " + core::unit_for(coordinate, unit);
-    return std::string(name) + " reaches to " + core::format_number(end, digits) + in_unit + ", and with more than " +
-           core::format_number(most, digits) + in_unit +
+    return std::string(name) + " reaches to " + core::format_number(end, digits) + in_unit +
+           ", and with more than " + core::format_number(most, digits) + in_unit +
            " the mass could not move as recorded: these data do not determine it";
   };
   const auto& at = estimate.interval95;
-  std::string text =
-      reach("F0", estimate.value.F0, at ? std::optional(at->F0) : std::nullopt, largest.F0, "N");
-  if (text.empty()) text = reach("c", estimate.value.c, at ? std::optional(at->c) : std::nullopt, largest.c, "N.s/m");
+  std::string text = reach("F0", estimate.value.F0, at ? std::optional(at->F0) : std::nullopt, largest.F0, "N");
+  if (text.empty())
+    text = reach("c", estimate.value.c, at ? std::optional(at->c) : std::nullopt, largest.c, "N.s/m");
   return text;
 }
 

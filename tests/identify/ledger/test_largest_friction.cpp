@@ -13,8 +13,8 @@ using namespace dualdamp::identify::testing;
 
 TEST_CASE("No record of exact friction moves less than its largest friction allows, nor hundreds of times more") {
   constexpr std::uint64_t first_seed = 8'800'000;
-  for (const Kind kind : {Kind::xy, Kind::response, Kind::extremes, Kind::decay, Kind::forced, Kind::beat, Kind::ramp,
-                          Kind::random})
+  for (const Kind kind :
+       {Kind::xy, Kind::response, Kind::extremes, Kind::decay, Kind::forced, Kind::beat, Kind::ramp, Kind::random})
     for (std::uint64_t seed = first_seed; seed < first_seed + 3; ++seed) {
       const Measured m = measured(kind, seed);
       CAPTURE(name_of(kind), seed, m.rig.zeta, m.rig.F0);

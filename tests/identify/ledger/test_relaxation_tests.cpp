@@ -198,16 +198,15 @@ TEST_CASE("A fit that could not move from where it began still shows what a rela
 
 TEST_CASE("An assumption whose test rejects does not hold where it matters, however many departures were found") {
   // Three departures more than are relaxed one after another.
-  const Measured m = measured(
-      Kind::ramp, 800,
-      [](Rig& rig) {
-        rig.cubic = 0.02;
-        rig.drag = 0.3;
-        rig.stribeck = 0.3;
-        rig.drift = 0.3;
-        rig.asymmetry = 0.2;
-      },
-      {.delay = 0.01, .zero_drift = 0.5});
+  const Measured m = measured(Kind::ramp, 800,
+                              [](Rig& rig) {
+                                rig.cubic = 0.02;
+                                rig.drag = 0.3;
+                                rig.stribeck = 0.3;
+                                rig.drift = 0.3;
+                                rig.asymmetry = 0.2;
+                              },
+                              {.delay = 0.01, .zero_drift = 0.5});
   const Ledger ledger = ledger_of(m.record, m.constants);
   CHECK(ledger.is_unexplained);
   CHECK_FALSE(ledger.joint);

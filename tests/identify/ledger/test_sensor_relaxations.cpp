@@ -81,8 +81,8 @@ TEST_CASE("Delayed and high-passed readings and their derivatives are those of c
     const Eigen::VectorXd exact = (w * (t - delay)).sin();
     CHECK((late - exact).segment(12, count - 24).cwiseAbs().maxCoeff() < 2e-8);
   }
-  // r' = x' - g r, r(0) = 0: r = w/(g^2 + w^2) (g cos wt + w sin wt - g exp(-g t)). x' as a constant in each interval
-  // misses (w/rate)^2/12 = 2e-4.
+  // r' = x' - g r, r(0) = 0: r = w/(g^2 + w^2) (g cos wt + w sin wt - g exp(-g t)). x' as a constant in each
+  // interval misses (w/rate)^2/12 = 2e-4.
   constexpr double g = 1.5;
   const Eigen::VectorXd exact = w / (g * g + w * w) * (g * (w * t).cos() + w * (w * t).sin() - g * (-g * t).exp());
   const Eigen::VectorXd passed = high_passed(x, rate, g);
