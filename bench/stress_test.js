@@ -24,12 +24,18 @@ function percent(share, name) {
   return (100 * share).toFixed(digits);
 }
 
+/** A number to the last digit that its standard error leaves: "0.75 ± 0.07". */
+function withError(value, se) {
+  const decimals = Math.max(0, -Math.floor(Math.log10(se)));
+  return decimals > 5 ? `${short(value, 3)} ± ${short(se, 1)}` : `${value.toFixed(decimals)} ± ${se.toFixed(decimals)}`;
+}
+
 /** A metric and its standard error: "94 % ± 2". */
 function metricText(row, name) {
   const [value, se] = [row[name], row[`${name}_se`]];
   if (value === null || value === undefined) return "–";
   if (isShare(name)) return `${percent(value, name)} %${se ? ` ± ${(100 * se).toFixed(100 * se < 1 ? 1 : 0)}` : ""}`;
-  return `${short(value, 3)}${se ? ` ± ${short(se, 1)}` : ""}`;
+  return se ? withError(value, se) : short(value, 3);
 }
 
 /** A colour from calm to alarming for a number between 0 and 1; the text says the number too. */

@@ -15,6 +15,7 @@
 #include "identify/ledger/misfit.hpp"
 #include "identify/methods.hpp"
 #include "identify/methods/any_law/law_intervals.hpp"
+#include "identify/statistics/distributions.hpp"
 
 namespace dualdamp::identify {
 
@@ -110,9 +111,8 @@ std::string departures_text(const Ledger& ledger) {
   for (const std::vector<Assumption>& departure : ledger.departures) {
     const LedgerEntry& first = ledger.entry(departure.front());
     text += " These data contradict that " + statements_of(departure, ", or that ") + " (" +
-            (first.p_value
-                 ? first.test + ", p = " + core::format_number(*first.p_value, 2) + harmless_beside(first, ledger)
-                 : ledger.force_excess) +
+            (first.p_value ? first.test + ", " + p_text(*first.p_value) + harmless_beside(first, ledger)
+                           : ledger.force_excess) +
             ")";
     const std::string& wanted = ledger.entry(Assumption::constants).wanted;
     const bool of_constants = std::ranges::count(departure, Assumption::constants) > 0;
@@ -125,8 +125,7 @@ std::string departures_text(const Ledger& ledger) {
 std::string step_text(const Ledger& ledger) {
   const auto found = std::ranges::find_if(ledger.entries, &LedgerEntry::is_of_step);
   if (found == ledger.entries.end()) return {};
-  return " The data show that " + found->reason + " (" + found->test +
-         ", p = " + core::format_number(*found->p_value, 2) + ").";
+  return " The data show that " + found->reason + " (" + found->test + ", " + p_text(*found->p_value) + ").";
 }
 
 /// "zero of x free (p = 1e-20)", of departures that are seen and violate nothing. Entries with the same p are one
@@ -143,7 +142,7 @@ std::string harmless_text(const Ledger& ledger) {
       continue;
     }
     seen.push_back(*entry.p_value);
-    texts.push_back(entry.test + " (p = " + core::format_number(*entry.p_value, 2) + ")");
+    texts.push_back(entry.test + " (" + p_text(*entry.p_value) + ")");
   }
   return core::joined(texts, "; ");
 }

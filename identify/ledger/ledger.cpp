@@ -365,10 +365,11 @@ class Writer {
 void note_nearly_seen(const JointModel& model, const RelaxationTests& tests, Ledger& ledger) {
   for (const RelaxationTest& test : tests.tests) {
     LedgerEntry& entry = ledger.entry(model.relaxations[test.index].assumption);
-    constexpr std::string_view note =
-        "; a departure is nearly significant, and the intervals of joint_fit include its effect";
+    constexpr std::string_view note = " at 25 %, and the intervals of joint_fit include its effect";
     const bool noted = entry.reason.ends_with(note);
-    if (entry.standing != Standing::violated && is_nearly_seen(model, test) && !noted) entry.reason += note;
+    if (entry.standing != Standing::violated && is_nearly_seen(model, test) && !noted)
+      entry.reason +=
+          "; the test of " + model.relaxations[test.index].test + " by itself rejects" + std::string(note);
   }
 }
 

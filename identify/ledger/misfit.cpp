@@ -51,8 +51,8 @@ std::optional<Misfit> misfit_of(const JointModel& model, const Taken& taken, dou
 }
 
 std::string misfit_size(const Misfit& misfit) {
-  return "the joint model misses these data by " + core::format_number(misfit.times, 2) +
-         " times their noise (p = " + core::format_number(misfit.p_value, 2) + ")";
+  return "the joint model misses these data by " + core::format_number(misfit.times, 2) + " times their noise (" +
+         p_text(misfit.p_value) + ")";
 }
 
 namespace {

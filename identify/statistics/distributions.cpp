@@ -8,6 +8,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/numbers.hpp"
+
 namespace dualdamp::identify {
 
 namespace {
@@ -42,6 +44,11 @@ double f_test_p_value(double statistic, double numerator, double denominator) {
   if (std::isinf(statistic)) return statistic > 0.0 ? 0.0 : 1.0;
   const boost::math::fisher_f law(numerator, denominator);
   return boost::math::cdf(boost::math::complement(law, std::max(statistic, 0.0)));
+}
+
+std::string p_text(double p_value) {
+  constexpr int digits = 2;
+  return p_value == 0.0 ? "p < 1e-300" : "p = " + core::format_number(p_value, digits);
 }
 
 }  // namespace dualdamp::identify

@@ -1,6 +1,8 @@
 #pragma once
 /// Distributions for intervals and tests.
 
+#include <string>
+
 namespace dualdamp::identify {
 
 /// Half width of a two-sided 95 % interval in standard errors: Student's t with `freedom` > 0 degrees of freedom,
@@ -21,5 +23,8 @@ namespace dualdamp::identify {
 /// The p-value of an F test: the probability of at least `statistic` with `numerator` and `denominator` > 0 degrees
 /// of freedom. No number, no freedom, infinite: as above.
 [[nodiscard]] double f_test_p_value(double statistic, double numerator, double denominator);
+
+/// "p = 0.012"; "p < 1e-300" where it is below the smallest number.
+[[nodiscard]] std::string p_text(double p_value);
 
 }  // namespace dualdamp::identify

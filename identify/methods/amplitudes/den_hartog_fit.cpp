@@ -14,6 +14,7 @@
 #include "identify/methods/amplitudes/input_levels.hpp"
 #include "identify/methods/amplitudes/line_estimate.hpp"
 #include "identify/models/sticking.hpp"
+#include "identify/statistics/distributions.hpp"
 #include "identify/statistics/least_squares.hpp"
 #include "identify/statistics/profile_likelihood.hpp"
 #include "identify/statistics/statistics.hpp"
@@ -265,9 +266,8 @@ void test_fit(const AmplitudeLaw& law, const ExactFit& fit, Estimate& estimate) 
   if (law.size() == 3 || law.frequencies() < 2) return;
   const auto detuned = added_term_test(columns, residual, fit.jacobian.col(2), range, "natural frequency F-test");
   if (detuned && detuned->fired)
-    estimate.findings.push_back(
-        "the frequencies contradict wn = sqrt(k/m) (F test, p = " + core::format_number(detuned->p_value, 2) +
-        "): with three or more of them the natural frequency can be fitted");
+    estimate.findings.push_back("the frequencies contradict wn = sqrt(k/m) (F test, " + p_text(detuned->p_value) +
+                                "): with three or more of them the natural frequency can be fitted");
 }
 
 /// Phases are not fitted; they show a lag of the sensors, or another wn.

@@ -226,9 +226,9 @@ void judge(const Test& test, Estimate& estimate) {
   const bool plain = best.law == fundamental_laws().front().name;
   const bool fired = estimate.lack_of_fit && estimate.lack_of_fit->fired;
   if (fired)
-    estimate.findings.push_back("Coulomb + viscous friction is rejected (" + estimate.lack_of_fit->test +
-                                ", p = " + core::format_number(estimate.lack_of_fit->p_value, 2) + "); " +
-                                best.law + " ranks first, so no single zeta and F0 describes the pairs");
+    estimate.findings.push_back("Coulomb + viscous friction is rejected (" + estimate.lack_of_fit->test + ", " +
+                                p_text(estimate.lack_of_fit->p_value) + "); " + best.law +
+                                " ranks first, so no single zeta and F0 describes the pairs");
   else if (!plain)
     estimate.warnings.push_back(best.law +
                                 " ranks before Coulomb + viscous friction, and the difference may be chance");

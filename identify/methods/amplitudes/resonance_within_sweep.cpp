@@ -131,7 +131,7 @@ void judge_slopes(const std::vector<Sweep>& sweeps, const ParallelLines& lines,
   const double p = f_test_p_value(F, spent, freedom);
   constexpr double level = 0.05;
   if (p < level)
-    warnings.push_back("the lines of the sweeps are not parallel (F test, p = " + core::format_number(p, 2) +
+    warnings.push_back("the lines of the sweeps are not parallel (F test, " + p_text(p) +
                        "): friction may have drifted within sweeps");
 }
 

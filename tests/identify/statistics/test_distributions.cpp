@@ -41,3 +41,8 @@ TEST_CASE("A statistic that is no number has no p-value, and an infinite one has
   CHECK(std::isnan(chi_square_p_value(none, 10.0)));
   CHECK(chi_square_p_value(infinity, 10.0) == 0.0);
 }
+
+TEST_CASE("A p-value below the smallest number is not written as zero") {
+  CHECK(p_text(0.0123) == "p = 0.012");
+  CHECK(p_text(f_test_p_value(1e300, 3.0, 400.0)) == "p < 1e-300");
+}
