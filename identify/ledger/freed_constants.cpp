@@ -42,6 +42,12 @@ double middle_of(const Record& record, double stiffness) {
   return count > 0.0 ? sum / count : 0.0;
 }
 
+/// Are all histories driven by a measured drive? What is off in x beside the motion of its drive is then known.
+bool is_driven(const Record& record) {
+  return std::ranges::all_of(record.histories,
+                             [](const History& history) { return !history.y.empty() || !history.force.empty(); });
+}
+
 /// The signal later by some samples, or earlier; its ends are held.
 void shift(std::vector<double>& signal, std::ptrdiff_t samples) {
   const std::vector<double> before = signal;
@@ -75,7 +81,7 @@ std::optional<FreedFit> FreedConstants::with_constant(By by) {
 
 /// The middle of a short record is the zero but for a part of a swing; steps lead on from there.
 std::optional<FreedFit> FreedConstants::with_zero() {
-  if (missed_as_stated() < good_part || !(constants_.stiffness > 0.0)) return std::nullopt;
+  if (!is_driven(record_) || missed_as_stated() < good_part || !(constants_.stiffness > 0.0)) return std::nullopt;
   const double zero = middle_of(record_, constants_.stiffness);
   Record moved = record_;
   for (History& history : moved.histories)
@@ -90,7 +96,11 @@ std::optional<FreedFit> FreedConstants::with_delay() {
   constexpr double some = 0.05;  // of the motion
   constexpr double step = 0.03;  // of a natural period
   constexpr int most = 5;
-  if (missed_as_stated() < some || !(constants_.stiffness > 0.0) || !(constants_.mass > 0.0)) return std::nullopt;
+  if (!is_driven(record_) || missed_as_stated() < some) return std::nullopt;
+  if (!(constants_.stiffness > 0.0) || !(constants_.mass > 0.0)) return std::nullopt;
+  constexpr double most_of_it = 0.25;  // each delay needs a fit: not where another constant explains what is missed
+  const FreedFit* other = best({Kind::zero, Kind::constant});
+  if (other != nullptr && other->missed < most_of_it * missed_as_stated()) return std::nullopt;
   const double rate = record_.histories.front().sample_rate;
   const double samples = step * rate * core::two_pi / constants_.natural_frequency();
   std::optional<FreedFit> best;
@@ -126,20 +136,20 @@ double FreedConstants::missed_as_stated() {
   return *missed_;
 }
 
-const FreedFit* FreedConstants::best() {
+const FreedFit* FreedConstants::best(std::initializer_list<Kind> kinds) {
   const FreedFit* best = nullptr;
-  for (const FreedPart& part :
-       {FreedPart{.kind = Kind::constant, .by = By::mass}, FreedPart{.kind = Kind::constant, .by = By::stiffness},
-        FreedPart{.kind = Kind::zero}, FreedPart{.kind = Kind::delay}})
-    if (const FreedFit* other = with(part); other != nullptr && (best == nullptr || other->missed < best->missed))
-      best = other;
+  for (const Kind kind : kinds)
+    for (const By by : {By::mass, By::stiffness}) {
+      const FreedFit* other = with({.kind = kind, .by = kind == Kind::constant ? by : By::mass});
+      if (other != nullptr && (best == nullptr || other->missed < best->missed)) best = other;
+    }
   return best;
 }
 
 const FreedFit* FreedConstants::much_nearer() {
   constexpr double much = 0.5;
   const double stated = missed_as_stated();
-  const FreedFit* other = stated < good_part ? nullptr : best();
+  const FreedFit* other = stated < good_part ? nullptr : best({Kind::constant, Kind::zero, Kind::delay});
   return other != nullptr && other->missed < much * stated ? other : nullptr;
 }
 
@@ -147,7 +157,8 @@ std::string FreedConstants::fault() {
   constexpr double most = 0.5;
   double least = missed_as_stated();
   if (least < most) return {};
-  if (const FreedFit* other = best()) least = std::min(least, other->missed);
+  if (const FreedFit* other = best({Kind::constant, Kind::zero, Kind::delay}))
+    least = std::min(least, other->missed);
   if (least < most) return {};
   constexpr int digits = 2;
   return "the simulated motion misses " + core::percent(least, digits) +

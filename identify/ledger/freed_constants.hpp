@@ -3,6 +3,7 @@
 /// stated.
 
 #include <Eigen/Core>
+#include <initializer_list>
 #include <map>
 #include <optional>
 #include <string>
@@ -30,8 +31,8 @@ class FreedConstants {
   FreedConstants(const Record& record, const KnownConstants& constants, ForwardFit& stated)
       : record_(record), constants_(constants), stated_(stated) {}
 
-  /// The fit with this part unknown; null if there is none. The zero and the delay of x have one if the fit as
-  /// stated misses much of the motion: else steps lead from there.
+  /// The fit with this part unknown; null if there is none. The zero and the delay of x have one in driven
+  /// histories of which the fit as stated misses much: else steps lead from there.
   [[nodiscard]] const FreedFit* with(const FreedPart& part);
 
   /// The one that comes much nearer to the motion than the fit as stated, which misses a good part of it; else
@@ -42,7 +43,7 @@ class FreedConstants {
   [[nodiscard]] std::string fault();
 
  private:
-  [[nodiscard]] const FreedFit* best();
+  [[nodiscard]] const FreedFit* best(std::initializer_list<Kind> kinds);
   [[nodiscard]] double missed_as_stated();
   [[nodiscard]] std::optional<FreedFit> with_constant(By by);
   [[nodiscard]] std::optional<FreedFit> with_zero();

@@ -171,7 +171,7 @@ TEST_CASE("A simulated motion that misses the record tests nothing") {
   std::ranges::reverse(m.record.histories[0].x);  // a motion that the force does not make
   const auto model = history_model(m.record, m.constants);
   REQUIRE(std::holds_alternative<std::string>(model));
-  CHECK(std::get<std::string>(model).find("whatever the mass and the stiffness") != std::string::npos);
+  CHECK(std::get<std::string>(model).find("whatever the mass, the stiffness, the zero of x") != std::string::npos);
 }
 
 TEST_CASE("A decay of x alone charges no gain and no delay of x") {
