@@ -39,7 +39,7 @@ TEST_CASE("Of few readings that nothing tests the widest interval that agrees an
   few.data.clear();
   CHECK(answering(concluded({wide, narrow}, few)) == "energy_balance");
   CHECK(answering(concluded({narrow, wide}, few)) == "energy_balance");
-  CHECK(mentions(concluded({narrow, wide}, few).reason, "the widest that agree"));
+  CHECK(mentions(concluded({narrow, wide}, few).reason, "the widest intervals that agree"));
   CHECK(answering(concluded({narrow, wide, apart}, few)) == "energy_balance");
   few.recorded.histories = true;
   CHECK(answering(concluded({wide, narrow}, few)) == "resonance_least_squares");
