@@ -70,12 +70,12 @@ bool tells_nothing(const Estimate& joint) {
 
 std::string fault_of_joint(const Ledger& ledger) {
   if (!ledger.joint || !ledger.joint->interval95) return {};
-  if (std::string beyond = beyond_motion(*ledger.joint, ledger.largest, ledger.coordinate); !beyond.empty())
-    return "of the joint model " + beyond;
   if (!ledger.tests_histories && ledger.recorded.states && tells_nothing(*ledger.joint))
     return "the joint model fits these states best with negative friction, and they determine neither zeta nor F0; what "
            "would help: more states, or states over a wider range of levels and frequencies, and constants that are "
            "right";
+  if (std::string beyond = beyond_motion(*ledger.joint, ledger.largest, ledger.coordinate); !beyond.empty())
+    return "of the joint model " + beyond;
   if (!ledger.tests_histories) return {};
   const auto clearly_negative = [](double value, const Interval& interval) {
     return value + (interval[1] - interval[0]) < 0.0;
