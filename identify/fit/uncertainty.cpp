@@ -123,7 +123,10 @@ class Uncertainty {
   /// The part of each signal in the variance along a direction.
   [[nodiscard]] std::vector<double> variances_along(const Eigen::VectorXd& direction) const {
     std::vector<double> parts;
-    for (const Eigen::MatrixXd& part : parts_) parts.push_back(std::max(0.0, direction.dot(part * direction)));
+    for (const Eigen::MatrixXd& part : parts_) {
+      const Eigen::VectorXd moved = part * direction;
+      parts.push_back(std::max(0.0, direction.dot(moved)));
+    }
     return parts;
   }
 
