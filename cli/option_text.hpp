@@ -14,7 +14,7 @@
 
 namespace dualdamp::cli {
 
-/// The text as a quoted YAML string. A file name may hold any character.
+/// The text as a quoted YAML string: control characters, which a scenario refuses, as escapes.
 [[nodiscard]] std::string in_quotes(const std::string& text);
 
 /// `--unit x=mm`: the words of commands that take data files.

@@ -182,7 +182,9 @@ void Document::set(std::string_view assignment, std::string origin) {
                    "PATH=VALUE, such as system.friction.kinetic=3 N or excitation.harmonics[0].order=3",
                    {},
                    {}});
+  const std::size_t before = problems_.size();
   Node value = parse(source, equals + 1);
+  if (value.kind == Node::Kind::null && problems_.size() > before) throw InputError(problems_.back());
   if (value.kind == Node::Kind::null)
     throw InputError(
         Diagnostic{locate(place_at(source, equals)), "a value is missing after '='", "PATH=VALUE", {}, {}});

@@ -406,11 +406,16 @@ analysis: {{type: simulate, duration: 3 s, sample_rate: 500 Hz}}
 
     def test_data_anywhere(self):
         with tempfile.TemporaryDirectory() as elsewhere:
-            for name in ("it's data: #1.csv", "\tof \"two\"\nlines\\.csv"):
-                path = Path(elsewhere) / name
-                path.write_text(self.PAIRS)
-                self.run_program("identify", path, *self.KNOWN, "--out", "out")
-                self.assertIn("result.json", tree(self.folder / "out"))
+            path = Path(elsewhere) / "it's data: #1.csv"
+            path.write_text(self.PAIRS)
+            self.run_program("identify", path, *self.KNOWN, "--out", "out")
+            self.assertIn("result.json", tree(self.folder / "out"))
+
+    def test_names_with_control_characters_are_refused_by_their_fault(self):
+        for name, fault in (("two\nlines.csv", "several lines"), ("a\ttab.csv", "a tab"), ('quote"\x07.csv', "U+0007")):
+            said = self.run_program("identify", name, *self.KNOWN, status=3).stderr
+            self.assertIn("DATA:1:", said)
+            self.assertIn(fault, said)
 
     def test_free_decay_needs_no_frequency(self):
         self.write("decay.csv", "t [s],x [mm]\n0,20\n0.3,-15\n0.6,11\n0.9,-8\n1.2,5\n")
