@@ -228,7 +228,7 @@ std::string why_none(const Identification& all) {
   if (all.ledger.misfit)
     return misfit_text(*all.ledger.misfit) +
            (all.ledger.departures.empty() ? "" : "; " + why_contradicted(all.ledger));
-  const std::string fault = fault_of_joint(all.ledger);
+  std::string fault = fault_of_joint(all.ledger);
   if (!all.ledger.departures.empty()) return fault + (fault.empty() ? "" : "; ") + why_contradicted(all.ledger);
   if (!fault.empty()) return fault;
   const auto there = std::ranges::find_if(all.estimates, [](const Estimate& e) { return e.outcome.ok(); });
