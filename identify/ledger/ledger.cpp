@@ -289,28 +289,38 @@ class Writer {
     entry.reason.clear();
   }
 
-  /// Tests may still reject beside all departures found: what was fitted does not explain the record.
+  /// Tests may still reject beside all departures found: what was fitted does not explain the record. Beside
+  /// friction that departs over speed or displacement this says little about anything else: its terms are no law,
+  /// and follow it only in part. A range over laws may follow it.
   void charge_unexplained(Ledger& ledger) const {
+    using enum Assumption;
+    const auto departs = [&](Assumption one) { return ledger.entry(one).standing == Standing::violated; };
+    const bool is_friction = departs(friction_velocity) || departs(friction_displacement);
     std::vector<RelaxationTest> rejecting = tests_.tests;
     std::erase_if(rejecting, [](const RelaxationTest& test) { return test.p_value >= family_level; });
     std::ranges::sort(rejecting, {}, &RelaxationTest::p_value);
     std::vector<Assumption> named;
     for (const RelaxationTest& test : rejecting) {
       LedgerEntry& entry = ledger.entry(assumption_of(test));
-      if (entry.standing == Standing::violated) continue;
+      if (entry.standing != Standing::holds) continue;
       if (!matters(test)) {
         if (entry.reason.empty()) entry.reason = harmless();
         continue;
       }
       set(test, entry);
+      ledger.is_unexplained = true;
+      if (is_friction && entry.assumption != friction_velocity && entry.assumption != friction_displacement) {
+        entry.standing = Standing::untested;
+        entry.reason = "its test still rejects, beside friction that the terms of the ledger follow only in part";
+        continue;
+      }
       entry.standing = Standing::violated;
       entry.is_like_speed = model_.relaxations[test.index].is_like_speed;
       entry.reason = "its test still rejects beside the " + std::to_string(tests_.departures.size()) +
                      " departures found, which do not explain the record";
       named.push_back(entry.assumption);
     }
-    ledger.is_unexplained = !named.empty();
-    if (ledger.is_unexplained) ledger.departures.push_back(std::move(named));
+    if (!named.empty()) ledger.departures.push_back(std::move(named));
   }
 
   [[nodiscard]] std::string harmless() const {
@@ -334,6 +344,7 @@ class Writer {
   }
 
   void explain(const Ledger& ledger, LedgerEntry& entry) const {
+    if (entry.p_value && !entry.reason.empty()) return;
     if (entry.assumption == Assumption::drive) {
       entry.reason = about_drive(ledger);
       if (!entry.reason.empty()) return;
@@ -361,17 +372,6 @@ class Writer {
     return none;
   }();
 };
-
-void note_nearly_seen(const JointModel& model, const RelaxationTests& tests, Ledger& ledger) {
-  for (const RelaxationTest& test : tests.tests) {
-    LedgerEntry& entry = ledger.entry(model.relaxations[test.index].assumption);
-    constexpr std::string_view note = " at 25 %, and the intervals of joint_fit include its effect";
-    const bool noted = entry.reason.ends_with(note);
-    if (entry.standing != Standing::violated && is_nearly_seen(model, test) && !noted)
-      entry.reason +=
-          "; the test of " + model.relaxations[test.index].test + " by itself rejects" + std::string(note);
-  }
-}
 
 Ledger tested_ledger(const Record& record, const KnownConstants& constants, const LedgerOptions& options) {
   Ledger ledger;

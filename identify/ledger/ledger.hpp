@@ -7,6 +7,7 @@
 /// whose relaxation explains it best, and to those that explain it as well. It violates each of them whose
 /// relaxation changes zeta or F0 by `least_change` or more. A smaller change is reported and violates nothing. So
 /// does a test that still rejects when no further departure is looked for, and no joint estimate is left then.
+/// Beside a departure of friction that test leaves its assumption untested, unless it is of friction too.
 ///
 /// Constants and gains with a stated uncertainty violate nothing as long as errors of at most 2.6 times the
 /// uncertainty (1 %) explain the departure. The departure is reported, and stays relaxed in the joint estimate.

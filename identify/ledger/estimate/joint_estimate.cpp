@@ -216,4 +216,15 @@ void set_others(const KnownConstants& constants, UnseenRange& range) {
   }
 }
 
+void note_nearly_seen(const JointModel& model, const RelaxationTests& tests, Ledger& ledger) {
+  for (const RelaxationTest& test : tests.tests) {
+    LedgerEntry& entry = ledger.entry(model.relaxations[test.index].assumption);
+    constexpr std::string_view note = " at 25 %, and the intervals of joint_fit include its effect";
+    const bool noted = entry.reason.ends_with(note);
+    if (entry.standing != Standing::violated && is_nearly_seen(model, test) && !noted)
+      entry.reason +=
+          "; the test of " + model.relaxations[test.index].test + " by itself rejects" + std::string(note);
+  }
+}
+
 }  // namespace dualdamp::identify

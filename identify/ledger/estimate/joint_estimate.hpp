@@ -27,6 +27,9 @@ namespace dualdamp::identify {
 /// Is it a term of friction that a test of its own rejects at 25 %?
 [[nodiscard]] bool is_nearly_seen(const JointModel& model, const RelaxationTest& test);
 
+/// Names the tests whose departures are nearly seen in the entries of assumptions that are not violated.
+void note_nearly_seen(const JointModel& model, const RelaxationTests& tests, Ledger& ledger);
+
 /// The fit of the joint model with these relaxations free beside the base parameters.
 [[nodiscard]] Estimate joint_estimate(const JointModel& model, const Taken& relaxed, std::string basis);
 
