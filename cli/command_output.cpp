@@ -37,15 +37,16 @@ void print(const CommandOutput& output, const Style& style) {
   if (!style.quiet) std::cerr << for_terminal(output.messages);
 }
 
-InOrder::InOrder(std::size_t count, Style style, bool silent)
-    : outputs_(count), ready_(count, false), style_(style), silent_(silent) {}
+InOrder::InOrder(std::size_t count, Style style) : outputs_(count), ready_(count, false), style_(style) {}
 
 void InOrder::put(std::size_t index, CommandOutput output) {
   const std::lock_guard lock(mutex_);
   outputs_[index] = std::move(output);
   ready_[index] = true;
   for (; next_ < outputs_.size() && ready_[next_]; ++next_) {
-    if (next_ > 0 && !style_.json && !silent_) std::cout << "\n";
+    const bool has_text = !style_.json && !outputs_[next_].text.empty();
+    if (has_text && has_printed_) std::cout << "\n";
+    has_printed_ = has_printed_ || has_text;
     print(outputs_[next_], style_);
   }
 }

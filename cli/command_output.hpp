@@ -28,11 +28,11 @@ struct Style {
 
 void print(const CommandOutput& output, const Style& style);
 
-/// Prints outputs in the order of the files, each one as soon as those before it are printed.
+/// Prints outputs in the order of the files, each one as soon as those before it are printed, with an empty line
+/// between their texts.
 class InOrder {
  public:
-  /// `silent`: prints nothing. Of several processes that share the work, only the first one prints.
-  InOrder(std::size_t count, Style style, bool silent = false);
+  InOrder(std::size_t count, Style style);
 
   void put(std::size_t index, CommandOutput output);
   /// Writes one JSON document, or a list of documents for several files.
@@ -45,7 +45,7 @@ class InOrder {
   std::vector<bool> ready_;
   std::size_t next_ = 0;
   Style style_;
-  bool silent_;
+  bool has_printed_ = false;  ///< a text
 };
 
 }  // namespace dualdamp::cli

@@ -245,7 +245,7 @@ int execute(const RunCommand& command) {
   });
   if (joined.status != ExitStatus::done) return say(joined, style);
 
-  InOrder outputs(command.files.size(), style, is_silent());
+  InOrder outputs(command.files.size(), style);
   std::atomic<std::size_t> next{0};
   const auto work = [&] {
     for (std::size_t i = next++; i < command.files.size(); i = next++)

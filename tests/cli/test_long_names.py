@@ -4,32 +4,14 @@
 usage: test_long_names.py PROGRAM ROOT
 """
 
-import subprocess
 import sys
-import tempfile
 import unittest
-from pathlib import Path
 
-from browser import BROWSER, Browser, View
-from case import PATIENCE
-
-PROGRAM = str(Path(sys.argv[1]).resolve())
-ROOT = Path(sys.argv[2]).resolve()
+from browser import View
+from page import ROOT, PageCase
 
 
-@unittest.skipIf(BROWSER is None, "there is no Chromium on this machine")
-class LongNames(unittest.TestCase):
-    def setUp(self):
-        temporary = tempfile.TemporaryDirectory()
-        self.addCleanup(temporary.cleanup)
-        self.folder = Path(temporary.name)
-        self.browser = Browser(self.folder / "browser")
-        self.addCleanup(self.browser.close)
-
-    def run_program(self, *arguments):
-        result = subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True, timeout=PATIENCE * 120)
-        self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
-
+class LongNames(PageCase):
     def test_long_names_break(self):
         """Names of files, columns and titles without a place to break, in warnings, titles and tables; in pages of runs and of a comparison."""
         name = "a_record_with_a_very_long_name_" * 5

@@ -11,7 +11,7 @@ import sys
 import unittest
 from pathlib import Path
 
-from case import Case
+from case import BASE, Case
 
 ROOT = Path(sys.argv[2]).resolve()
 
@@ -28,6 +28,15 @@ class Manners(Case):
         # A number that cannot be read in the unit stays SI: 0.03 m are 3e-5 km.
         self.write("km.yaml", (self.folder / "hz.yaml").read_text().replace("0 mm", "0 km"))
         self.assertRegex(self.run_program("run", "km.yaml").stdout, r"omega \[Hz\] +x \[m\]")
+
+    def test_empty_lines_stand_between_texts_only(self):
+        for name, text in (("base", BASE), ("other", BASE), ("bad", "schema: dualdamp/1\n"), ("worse", "schema: dualdamp/1\n")):
+            self.write(f"{name}.yaml", text)
+        self.assertEqual(self.run_program("run", "bad.yaml", "worse.yaml", status=3).stdout, "")
+        alone = self.run_program("run", "base.yaml").stdout
+        self.assertEqual(self.run_program("run", "bad.yaml", "base.yaml", "worse.yaml", status=3).stdout, alone)
+        several = self.run_program("run", "base.yaml", "bad.yaml", "other.yaml", "--dry-run", status=3).stdout
+        self.assertEqual(several.count("\n\n"), 1)
 
     def test_the_answer_stands_first_and_the_certificate_last(self):
         lines = self.run_program("run", ROOT / "scenarios/examples/xy_curve.yaml", "--out", "xy").stdout.splitlines()

@@ -8,17 +8,11 @@ usage: test_report.py PROGRAM ROOT [TEST...]
 import html
 import json
 import re
-import subprocess
 import sys
-import tempfile
 import unittest
-from pathlib import Path
 
-from browser import BROWSER, Browser, View
-from case import PATIENCE
-
-PROGRAM = str(Path(sys.argv[1]).resolve())
-ROOT = Path(sys.argv[2]).resolve()
+from browser import View
+from page import ROOT, PageCase
 
 # Says of each chart how many pixels of line are drawn in it.
 PROBE = """
@@ -67,28 +61,7 @@ def at(document, path):
     return document
 
 
-@unittest.skipIf(BROWSER is None, "there is no Chromium on this machine")
-class Page(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        cls.temporary = tempfile.TemporaryDirectory()
-        cls.folder = Path(cls.temporary.name)
-        cls.addClassCleanup(cls.temporary.cleanup)
-        cls.browser = Browser(cls.folder / "browser")
-        cls.addClassCleanup(cls.browser.close)
-
-    def run_program(self, *arguments, status=0):
-        result = subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True, timeout=PATIENCE * 120)
-        self.assertEqual(result.returncode, status, result.stdout + result.stderr)
-        return result
-
-    def result_of(self, name, folder="examples"):
-        """The directory of a shipped scenario's results, which are computed once for all tests."""
-        out = self.folder / name
-        if not out.exists():
-            self.run_program("run", ROOT / "scenarios" / folder / f"{name}.yaml", "--out", out, "--quiet")
-        return out
-
+class Page(PageCase):
     def load(self, page):
         """The page after its scripts and the probe have run, and what the console said."""
         with View(self.browser, page, (1000, 800)) as view:
@@ -123,13 +96,6 @@ class Page(unittest.TestCase):
         dom, _ = self.check("small", 1, "stress")
         for heading in ("Ranking", "Who is right", "Coverage by family", "Who knows", "What nobody can know"):
             self.assertIn(f"<h2>{heading}", dom)
-
-    def ask(self, name, *expressions, size=(1000, 800)):
-        """The values of JavaScript expressions in the page of an example, of one alone its own."""
-        with View(self.browser, self.result_of(name) / "report.html", size) as view:
-            values = [view.value(expression) for expression in expressions]
-            self.assertEqual(view.console(), [])
-        return values[0] if len(values) == 1 else values
 
     def test_a_map_of_two_swept_keys(self):
         out = self.folder / "swept_map"
@@ -191,12 +157,6 @@ class Page(unittest.TestCase):
                 self.assertNotRegex(dom, r"<body[^>]*data-ran")
                 self.assertIn(html.escape(title, quote=False), dom)
 
-    def test_numbers_lose_no_digit_before_the_point(self):
-        numbers = [100000, 123450, 12350, 120, 0, -0.5, 2.5e-7, 1200000]
-        five, six = self.ask("formula", f"{numbers}.map((v) => short(v, 5))", "[short(100000), short(320160)]")
-        self.assertEqual(five, ["1e+5", "1.2345e+5", "12350", "120", "0", "−0.5", "2.5e-7", "1.2e+6"])
-        self.assertEqual(six, ["100000", "320160"])
-
     def test_an_angle_is_shown_as_the_user_or_the_data_have_it(self):
         dom, _ = self.check("torsional_pendulum", 1)
         self.assertIn("output amplitude x [deg]", dom)
@@ -213,19 +173,6 @@ class Page(unittest.TestCase):
         self.assertIn("F0 [N.m],", (out / "estimates.csv").read_text())
         self.assertEqual(self.ask("formula", '(run.shown_units = {"rad/s": {unit: "Hz", factor: 0.5, asked: true}}, [...["final.v", "max_speed", "omega"].map((path) => numbers([{path, name: "", value: 1, unit: "rad/s"}]).textContent), ...["v", "omega"].map((name) => folded("t", {columns: [{name, unit: "rad/s", values: [1], texts: ["1"]}], rows: 1}).querySelector("th").textContent), ...["v", "omega"].map((column) => scaled({x: {unit: "rad/s", column}, y: {unit: ""}, series: [{x: [1], y: [1]}]}).x.unit)])'), ["1 rad/s", "1 rad/s", "0.5 Hz", "v [rad/s]", "omega [Hz]", "rad/s", "Hz"])
 
-    def test_the_labels_of_an_axis_differ(self):
-        close, around_zero = self.ask("formula", "tickTexts([13.999990, 13.999992, 13.999994, 13.999996])", "tickTexts([-0.2, -5e-17, 0.2])")
-        self.assertEqual(close, ["13.99999", "13.999992", "13.999994", "13.999996"])
-        self.assertEqual(around_zero, ["−0.2", "0", "0.2"])
-        self.assertEqual(self.ask("formula", "tickTexts(ticksOf({ names: ['a', 'b', 'c'] }, [1.5, 3.5], 2), { names: ['a', 'b', 'c'] })"), ["b", "c"])
-
-    def test_counts_that_are_all_zero_have_no_negative_axis(self):
-        none, some, equal = self.ask("formula", *(f"extent([{values}], {{ whole: true }})" for values in ("[0, 0, null]", "[0, 2]", "[3, 3]")))
-        self.assertEqual([none, equal], [[-0.05, 1.05], [2.95, 4.05]])
-        self.assertEqual(some, [-0.1, 2.1])
-        self.assertEqual(self.ask("formula", "ticksOf({ whole: true }, extent([[0, 0]], { whole: true }), 5)"), [0, 1])
-        self.assertNotIn("−", "".join(self.ask("frequency_branch", '[...document.querySelectorAll("figure")].filter((f) => f.textContent.includes("Stops in a period")).map((f) => [...f.querySelectorAll("svg text")].map((t) => t.textContent).join(" "))')))
-
     def test_each_key_of_a_legend_has_its_own_name(self):
         legends = '[...document.querySelectorAll(".legend")].map((l) => [...l.children].map((key) => key.textContent))'
         for name in ("xy_curve", "free_decay", "identify_xy_curve", "regime_map"):
@@ -236,10 +183,6 @@ class Page(unittest.TestCase):
                     self.assertEqual(len(set(keys)), len(keys), keys)
                 if name == "xy_curve":
                     self.assertEqual(found[0], ["steady state", "slides through", "sticks in each period"])
-
-    def test_a_jump_between_two_samples_is_left_open(self):
-        line = self.ask("formula", "broken({ x: [1, 2, 3, 4], y: [0, 0.1, 2, 1.9], colour: 3 })")
-        self.assertEqual(line, {"x": [1, 2, None, 3, 4], "y": [0, 0.1, None, 2, 1.9], "colour": 3})
 
     def test_tables_and_charts_fit_the_window(self):
         """The table of estimates on a desk, and the whole page on a telephone."""

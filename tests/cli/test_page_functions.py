@@ -1,0 +1,45 @@
+#!/usr/bin/env python3
+"""How the page of results writes numbers and draws lines, asked of its own functions in a browser.
+
+usage: test_page_functions.py PROGRAM ROOT [TEST...]
+"""
+
+import sys
+import unittest
+
+from page import PageCase
+
+
+class Functions(PageCase):
+    def test_numbers_lose_no_digit_before_the_point(self):
+        numbers = [100000, 123450, 12350, 120, 0, -0.5, 2.5e-7, 1200000]
+        five, six = self.ask("formula", f"{numbers}.map((v) => short(v, 5))", "[short(100000), short(320160)]")
+        self.assertEqual(five, ["1e+5", "1.2345e+5", "12350", "120", "0", "−0.5", "2.5e-7", "1.2e+6"])
+        self.assertEqual(six, ["100000", "320160"])
+
+    def test_the_labels_of_an_axis_differ(self):
+        close, around_zero = self.ask("formula", "tickTexts([13.999990, 13.999992, 13.999994, 13.999996])", "tickTexts([-0.2, -5e-17, 0.2])")
+        self.assertEqual(close, ["13.99999", "13.999992", "13.999994", "13.999996"])
+        self.assertEqual(around_zero, ["−0.2", "0", "0.2"])
+        self.assertEqual(self.ask("formula", "tickTexts(ticksOf({ names: ['a', 'b', 'c'] }, [1.5, 3.5], 2), { names: ['a', 'b', 'c'] })"), ["b", "c"])
+
+    def test_counts_that_are_all_zero_have_no_negative_axis(self):
+        none, some, equal = self.ask("formula", *(f"extent([{values}], {{ whole: true }})" for values in ("[0, 0, null]", "[0, 2]", "[3, 3]")))
+        self.assertEqual([none, equal], [[-0.05, 1.05], [2.95, 4.05]])
+        self.assertEqual(some, [-0.1, 2.1])
+        self.assertEqual(self.ask("formula", "ticksOf({ whole: true }, extent([[0, 0]], { whole: true }), 5)"), [0, 1])
+        self.assertNotIn("−", "".join(self.ask("frequency_branch", '[...document.querySelectorAll("figure")].filter((f) => f.textContent.includes("Stops in a period")).map((f) => [...f.querySelectorAll("svg text")].map((t) => t.textContent).join(" "))')))
+
+    def test_a_jump_between_two_samples_is_left_open(self):
+        line = self.ask("formula", "broken({ x: [1, 2, 3, 4], y: [0, 0.1, 2, 1.9], colour: 3 })")
+        self.assertEqual(line, {"x": [1, 2, None, 3, 4], "y": [0, 0.1, None, 2, 1.9], "colour": 3})
+
+    def test_a_point_without_neighbours_is_drawn(self):
+        scales = "{ x: (v) => 10 * v, y: (v) => 10 * v }"
+        alone, nothing = self.ask("formula", *(f'pathOf({{ kind: "line", x: [1, 2, 3], y: [null, {y}, null] }}, {scales})' for y in (2, "null")))
+        self.assertIn("M18,20a2,2", alone)
+        self.assertEqual(nothing, "")
+
+
+if __name__ == "__main__":
+    unittest.main(argv=[sys.argv[0], *sys.argv[3:]])
