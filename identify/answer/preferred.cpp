@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <string>
 #include <utility>
+
+#include "identify/statistics/ties.hpp"
 
 namespace dualdamp::identify {
 
@@ -61,14 +64,24 @@ std::optional<std::size_t> better_range(const std::vector<Estimate>& estimates, 
   return std::nullopt;
 }
 
+/// The one of these estimates with the smallest size. Methods that are the same for a record have the same size but
+/// for rounding: the first by name counts.
+std::size_t smallest(const std::vector<Estimate>& estimates, const std::function<double(const Estimate&)>& size) {
+  std::size_t best = 0;
+  for (std::size_t i = 1; i < estimates.size(); ++i) {
+    const double own = size(estimates[i]);
+    const double least = size(estimates[best]);
+    if (is_tie(own, least) ? estimates[i].method < estimates[best].method : own < least) best = i;
+  }
+  return best;
+}
+
 /// The widest of the estimates with intervals that do not contradict the one at `with`.
 std::size_t widest_beside(const std::vector<Estimate>& estimates, std::size_t with) {
-  std::size_t widest = with;
-  for (std::size_t i = 0; i < estimates.size(); ++i)
-    if (!estimates[i].laws && std::isfinite(area(estimates[i])) && area(estimates[i]) > area(estimates[widest]) &&
-        !disagree(estimates[with], estimates[i]))
-      widest = i;
-  return widest;
+  return smallest(estimates, [&](const Estimate& one) {
+    const bool counts = !one.laws && std::isfinite(area(one)) && !disagree(estimates[with], one);
+    return counts ? -area(one) : std::numeric_limits<double>::infinity();
+  });
 }
 
 }  // namespace
@@ -86,16 +99,17 @@ std::optional<std::size_t> preferred(const std::vector<Estimate>& estimates, con
   const auto size = [others](const Estimate& e) {
     return others && e.laws ? std::numeric_limits<double>::infinity() : area(e);
   };
-  const auto narrowest = std::ranges::min_element(estimates, {}, size);
-  if (narrowest == estimates.end()) return std::nullopt;
-  if (std::isfinite(size(*narrowest)))
-    return others && has_few_readings(ledger) ? widest_beside(estimates, place(narrowest)) : place(narrowest);
+  if (estimates.empty()) return std::nullopt;
+  const std::size_t narrowest = smallest(estimates, size);
+  if (std::isfinite(size(estimates[narrowest])))
+    return others && has_few_readings(ledger) ? widest_beside(estimates, narrowest) : narrowest;
   std::vector<std::size_t> usable;
   for (std::size_t i = 0; i < estimates.size(); ++i)
     if (estimates[i].usable && !estimates[i].laws) usable.push_back(i);
   if (usable.empty()) return std::nullopt;
-  std::ranges::sort(usable, {},
-                    [&](std::size_t i) { return std::pair(estimates[i].value.c, estimates[i].method); });
+  sort_with_ties(
+      usable, [&](std::size_t i) { return -estimates[i].value.c; },
+      [&](std::size_t a, std::size_t b) { return estimates[a].method < estimates[b].method; });
   const std::size_t middle = usable[usable.size() / 2];
   return agree(estimates, usable, middle) ? std::optional(middle) : std::nullopt;
 }

@@ -4,7 +4,8 @@
 /// The joint fit, if there is one; else the estimate with the narrowest intervals. Where no joint model tests a
 /// record that is no history, it has few readings, and methods that share them have a degree of freedom or two: the
 /// narrowest of such intervals is narrow by chance, and the widest that agrees with it answers. Of estimates
-/// without intervals the one in the middle answers, if all agree.
+/// without intervals the one in the middle answers, if all agree. Of estimates whose intervals are equal but for
+/// rounding, the first by name counts.
 ///
 /// Errors: none thrown. Cost: that of a pass over the estimates.
 

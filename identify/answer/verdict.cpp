@@ -128,13 +128,14 @@ std::string step_text(const Ledger& ledger) {
   return " The data show that " + found->reason + " (" + found->test + ", " + p_text(*found->p_value) + ").";
 }
 
-/// "zero of x free (p = 1e-20)", of departures that are seen and violate nothing. Entries with the same p are one
-/// departure.
-std::string harmless_text(const Ledger& ledger) {
+/// "zero of x free (p = 1e-20)", of departures that are seen and violate nothing: those that the stated
+/// uncertainties allow, or the others. Entries with the same p are one departure.
+std::string harmless_text(const Ledger& ledger, bool as_stated) {
   std::vector<std::string> texts;
   std::vector<double> seen;
   for (const LedgerEntry& entry : ledger.entries) {
-    if (entry.standing != Standing::holds || entry.p_value.value_or(1.0) >= family_level || entry.is_of_step)
+    if (entry.standing != Standing::holds || entry.p_value.value_or(1.0) >= family_level || entry.is_of_step ||
+        entry.is_as_stated != as_stated)
       continue;
     const auto known = std::ranges::find(seen, *entry.p_value);
     if (known != seen.end()) {
@@ -145,6 +146,19 @@ std::string harmless_text(const Ledger& ledger) {
     texts.push_back(entry.test + " (" + p_text(*entry.p_value) + ")");
   }
   return core::joined(texts, "; ");
+}
+
+/// What is said where nothing is violated.
+std::string standing_text(const Ledger& ledger) {
+  const std::string allowed = harmless_text(ledger, true);
+  const std::string small = harmless_text(ledger, false);
+  if (allowed.empty() && small.empty()) return "These data do not contradict any assumption that they can test.";
+  std::string text = "No assumption is violated.";
+  if (!allowed.empty())
+    text += " The data show a departure from the constants as stated that their stated uncertainties allow: " +
+            allowed + ". joint_fit has it free.";
+  if (!small.empty()) text += " The data show small departures that hardly change zeta and F0: " + small + ".";
+  return text;
 }
 
 /// The ranges over all laws, and which laws end them, or why they are not to be used.
@@ -252,7 +266,6 @@ std::string verdict_of(const Identification& all) {
            over_laws(all);
   const Estimate& best = all.estimates[*all.answer];
   const bool untested = all.ledger.data.empty();
-  const std::string harmless = harmless_text(all.ledger);
   if (!all.ledger.departures.empty() && best.method == "joint_fit")
     if (const std::string& fitted = all.ledger.entry(Assumption::constants).fitted; !fitted.empty())
       text += " zeta and F0 are those of " + fitted + ".";
@@ -260,10 +273,7 @@ std::string verdict_of(const Identification& all) {
   text = numbers_of(best, all.ledger.coordinate) + ", by " + best.method + no_freedom(best) + ". " +
          (!text.empty() ? text.substr(1)
           : untested    ? "These data cannot show whether friction is Coulomb + viscous."
-          : !harmless.empty()
-              ? "No assumption is violated. The data show small departures that hardly change zeta and F0: " +
-                    harmless + "."
-              : "These data do not contradict any assumption that they can test.");
+                        : standing_text(all.ledger));
   for (const Estimate& other : all.estimates)
     if (disagree(best, other))
       text += " " + other.method + " disagrees: " + numbers_of(other, all.ledger.coordinate) + ".";

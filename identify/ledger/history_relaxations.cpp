@@ -19,6 +19,7 @@ void add(HistoryRelaxations& list, Assumption assumption, std::string test, cons
     relaxation.sign = part.term->sign;
     relaxation.freed = part.term->freed;
   }
+  if (assumption == Assumption::constants) relaxation.freed = part.by == By::mass ? Freed::mass : Freed::stiffness;
   if (part.kind == Kind::gain) relaxation.freed = Freed::gain;
   if (part.kind == Kind::delay) relaxation.freed = Freed::delay;
   list.relaxations.push_back(std::move(relaxation));

@@ -12,15 +12,18 @@
 #include "identify/ledger/advice.hpp"
 #include "identify/ledger/amplitude_model.hpp"
 #include "identify/ledger/decay_model.hpp"
+#include "identify/ledger/estimate/changed_constants.hpp"
 #include "identify/ledger/estimate/joint_estimate.hpp"
 #include "identify/ledger/estimate/one_frequency.hpp"
 #include "identify/ledger/estimate/relative_changes.hpp"
+#include "identify/ledger/estimate/stated_shares.hpp"
 #include "identify/ledger/force_balance.hpp"
 #include "identify/ledger/history_model.hpp"
 #include "identify/ledger/relaxation_tests.hpp"
 #include "identify/ledger/stated_noise.hpp"
 #include "identify/statistics/decompositions.hpp"
 #include "identify/statistics/least_squares.hpp"
+#include "identify/statistics/ties.hpp"
 
 namespace dualdamp::identify {
 
@@ -56,8 +59,13 @@ MaybeModel testable_model(const Record& record, const KnownConstants& constants,
 class Writer {
  public:
   Writer(const JointModel& model, const RelaxationTests& tests, const KnownConstants& stated,
-         const LedgerOptions& options)
-      : model_(model), tests_(tests), stated_(stated), options_(options), scale_(model, tests.freedom) {}
+         const StatedShares& shares, const LedgerOptions& options)
+      : model_(model),
+        tests_(tests),
+        stated_(stated),
+        shares_(shares),
+        options_(options),
+        scale_(model, tests.freedom) {}
 
   void write(Ledger& ledger) {
     for (const FoundDeparture& departure : tests_.departures) charge(departure, ledger);
@@ -136,7 +144,6 @@ class Writer {
       return !stated && !of_step && (matters(t) || (is_of_speed && drift_matters));
     };
     std::vector<Assumption> named;
-    const std::vector<ChangedConstant> of_joint = changed_constants(departure.explanations.front());
     for (const RelaxationTest& test : departure.explanations) {
       LedgerEntry& entry = ledger.entry(assumption_of(test));
       if (entry.standing == Standing::violated) continue;
@@ -146,6 +153,7 @@ class Writer {
       entry.is_like_speed = model_.relaxations[test.index].is_like_speed;
       entry.standing = harms ? Standing::violated : Standing::holds;
       entry.is_of_step = of_step && !stated;
+      entry.is_as_stated = stated;
       entry.reason = harms    ? alternatives(departure, test)
                      : stated ? "a departure is seen, and lies within the uncertainties that are stated"
                      : of_step
@@ -158,7 +166,7 @@ class Writer {
                         " of a part of the record is off its mean by " + in_percent(unevenness(test));
       if (harms && entry.assumption == Assumption::constants) {
         entry.wanted = wanted_constants(departure);
-        entry.fitted = of_joint.empty() ? stated_of_joint(departure) : of_joint.front().fitted;
+        entry.fitted = constants_of_joint(departure);
         if (!entry.wanted.empty()) entry.reason = "these data fit " + entry.wanted + "; " + entry.reason;
       }
       if (harms) named.push_back(assumption_of(test));
@@ -172,43 +180,24 @@ class Writer {
     std::vector<std::string> texts;
     for (const RelaxationTest& test : departure.explanations)
       if (assumption_of(test) == Assumption::constants)
-        for (const ChangedConstant& changed : changed_constants(test))
+        for (const ChangedConstant& changed : changed_constants(test.constants, stated_))
           texts.push_back(changed.fitted + ", not the stated " + changed.stated);
     return core::joined(texts, ", or ");
   }
 
-  /// The constants of a joint estimate that explains the departure by something else, and so keeps them.
-  [[nodiscard]] std::string stated_of_joint(const FoundDeparture& departure) const {
+  /// The constants of the joint estimate: "a mass of 1.1 kg", or as stated where it explains the departure by
+  /// something else.
+  [[nodiscard]] std::string constants_of_joint(const FoundDeparture& departure) const {
+    const RelaxationTest& best = departure.explanations.front();
+    const bool shares =
+        StatedShares::is_shared(model_.relaxations[best.index]) && shares_.apply_to(model_, departure);
     std::vector<std::string> texts;
-    const auto add = [&](const char* what, double stated, const char* unit) {
-      if (std::isfinite(stated)) texts.push_back(what + core::format_number(stated, 4) + " " + stated_.unit(unit));
-    };
-    add("stiffness of ", stated_.stiffness, "N/m");
-    add("mass of ", stated_.mass, "kg");
-    const bool has_inertia = assumption_of(departure.explanations.front()) == Assumption::one_mode;
-    return "the stated " + core::joined(texts, " and ") +
-           (has_inertia ? ", with inertia that a further mode adds" : "");
-  }
-
-  /// A constant as a fit has it, and as stated: "a mass of 1.1 kg", "1 kg".
-  struct ChangedConstant {
-    std::string fitted, stated;
-  };
-
-  [[nodiscard]] std::vector<ChangedConstant> changed_constants(const RelaxationTest& test) const {
-    std::vector<ChangedConstant> list;
-    const auto add = [&](const char* what, double fitted, double stated, const char* unit) {
-      constexpr double same = 1e-6;
-      if (!(std::abs(fitted - stated) > same * std::abs(stated))) return;
-      int digits = 4;
-      while (core::format_number(fitted, digits) == core::format_number(stated, digits)) ++digits;
-      const std::string in_unit = " " + stated_.unit(unit);
-      list.push_back(
-          {what + core::format_number(fitted, digits) + in_unit, core::format_number(stated, digits) + in_unit});
-    };
-    add("a stiffness of ", test.constants.stiffness, stated_.stiffness, "N/m");
-    add("a mass of ", test.constants.mass, stated_.mass, "kg");
-    return list;
+    for (ChangedConstant& changed :
+         changed_constants(shares ? shares_.of(best.constants) : best.constants, stated_))
+      texts.push_back(std::move(changed.fitted));
+    if (!texts.empty()) return core::joined(texts, " and ");
+    const bool has_inertia = assumption_of(best) == Assumption::one_mode;
+    return "the stated " + text_of(stated_) + (has_inertia ? ", with inertia that a further mode adds" : "");
   }
 
   /// A further mode adds to the mass, the more the nearer the frequency comes to its own. Where the data want a
@@ -245,12 +234,9 @@ class Writer {
   /// Do the stated uncertainties allow constants or gains to be off by as much? All uncertainties count for each of
   /// them: the record determines only the natural frequency and the ratio of forces to motion.
   [[nodiscard]] bool is_as_stated(const RelaxationTest& test) const {
-    const ConstantUncertainties& u = options_.uncertainties;
-    if (!u.any()) return false;
     const KnownConstants& known = stated_;
-    const double of_gains =
-        std::hypot(std::hypot(u.gain_x, u.gain_y, u.gain_force), std::hypot(u.gain_v, u.gain_a));
-    const double allowed = counted_deviations * std::hypot(relative_of_inertia(u, known), of_gains);
+    const double allowed = allowed_error(options_.uncertainties, known);
+    if (!(allowed > 0.0)) return false;
     const Relaxation& relaxation = model_.relaxations[test.index];
     if (relaxation.assumption == Assumption::constants)
       return std::abs(std::log(test.constants.mass / known.mass)) < allowed &&
@@ -280,7 +266,7 @@ class Writer {
   void hold(const RelaxationTest& test, Ledger& ledger) {
     LedgerEntry& entry = ledger.entry(assumption_of(test));
     const bool charged = entry.standing != Standing::untested && !entry.reason.empty();
-    const bool weaker = entry.p_value && *entry.p_value <= test.p_value;
+    const bool weaker = entry.p_value && (*entry.p_value <= test.p_value || is_tie(*entry.p_value, test.p_value));
     if (charged || entry.standing == Standing::violated || weaker) return;
     set(test, entry);
     const double blind = std::max(scale_.zeta(test.zeta_blind), scale_.F0(test.F0_blind));
@@ -298,7 +284,9 @@ class Writer {
     const bool is_friction = departs(friction_velocity) || departs(friction_displacement);
     std::vector<RelaxationTest> rejecting = tests_.tests;
     std::erase_if(rejecting, [](const RelaxationTest& test) { return test.p_value >= family_level; });
-    std::ranges::sort(rejecting, {}, &RelaxationTest::p_value);
+    sort_with_ties(
+        rejecting, [](const RelaxationTest& test) { return -test.p_value; },
+        [](const RelaxationTest& a, const RelaxationTest& b) { return a.index < b.index; });
     std::vector<Assumption> named;
     for (const RelaxationTest& test : rejecting) {
       LedgerEntry& entry = ledger.entry(assumption_of(test));
@@ -364,6 +352,7 @@ class Writer {
   const JointModel& model_;
   const RelaxationTests& tests_;
   const KnownConstants& stated_;
+  const StatedShares& shares_;
   const LedgerOptions& options_;
   RelativeChanges scale_;
   std::array<double, assumption_count> blind_ = [] {
@@ -389,8 +378,10 @@ Ledger tested_ledger(const Record& record, const KnownConstants& constants, cons
   ledger.plain = model.value;
   ledger.left_out = model.left_out;
   ledger.warnings = model.warnings;
-  const RelaxationTests tests = test_relaxations(model, options.least_change);
-  Writer writer(model, tests, constants, options);
+  const StatedShares shares(constants, options.uncertainties);
+  RelaxationTests tests = test_relaxations(model, {options.least_change, shares.mass(), shares.stiffness()});
+  share_out(model, shares, tests);
+  Writer writer(model, tests, constants, shares, options);
   writer.write(ledger);
   writer.add_sight(ledger);
   ledger.misfit = tests.misfit;
@@ -402,7 +393,7 @@ Ledger tested_ledger(const Record& record, const KnownConstants& constants, cons
   });
   const bool is_fitted = !is_friction && !ledger.is_unexplained && !ledger.misfit;
   if (!is_fitted || !(constants.stiffness > 0.0 && constants.mass > 0.0)) return ledger;
-  ledger.joint = joint_estimate(model, tests);
+  ledger.joint = relaxed_estimate(model, tests, shares);
   ledger.unseen = unseen_friction(model, tests, *ledger.joint);
   for (const FoundDeparture& departure : tests.departures)
     ledger.relaxed.push_back(model.relaxations[departure.explanations.front().index].test);

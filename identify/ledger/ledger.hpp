@@ -54,6 +54,8 @@ struct LedgerEntry {
   std::string wanted;
   /// A departure is seen that the unknown place of a step of the drive between two samples explains.
   bool is_of_step = false;
+  /// A departure is seen that the stated uncertainties allow.
+  bool is_as_stated = false;
   /// Of stationarity: a drift that this record cannot tell from friction over speed, which is named with it.
   bool is_like_speed = false;
   std::string fitted;  ///< the constants that the joint estimate has: "a stiffness of 1421 N/m"

@@ -6,10 +6,10 @@
 #include <limits>
 #include <utility>
 
-#include "core/random.hpp"
 #include "identify/ledger/drift_or_speed.hpp"
+#include "identify/ledger/family_of_tests.hpp"
 #include "identify/statistics/decompositions.hpp"
-#include "identify/statistics/distributions.hpp"
+#include "identify/statistics/ties.hpp"
 
 namespace dualdamp::identify {
 
@@ -107,18 +107,6 @@ Projection project(const JointModel& model, const Taken& taken) {
   return result;
 }
 
-/// Variances of the residuals beside each of the unit columns.
-Eigen::ArrayXd variances(const Eigen::VectorXd& along, double squares, double freedom) {
-  return (squares - along.array().square()).max(1e-12 * squares) / (freedom - 1.0);
-}
-
-/// t statistics of unit columns beside residuals with `freedom`.
-Eigen::VectorXd statistics(const Eigen::VectorXd& along, double squares, double freedom) {
-  return along.array() / variances(along, squares, freedom).sqrt();
-}
-
-double two_sided(double t, double freedom) { return f_test_p_value(t * t, 1.0, freedom); }
-
 /// The share of the level that each test gets, as a weight: the relative standard error of the change of zeta or F0
 /// by its departure. A departure that is measured precisely is found at a strict level as well.
 Eigen::VectorXd weights_of(const JointModel& model, const Projection& projection, double deviation,
@@ -145,72 +133,6 @@ bool is_possible(const JointModel& model, std::size_t relaxation, double estimat
   return sign == 0 || sign * estimate > 0.0;
 }
 
-/// Score by which the tests of a record are compared: twice the gain of the log-likelihood plus twice the log of
-/// the weight.
-class Scores {
- public:
-  Scores(Eigen::VectorXd weights, double freedom) : weights_(std::move(weights)), freedom_(freedom) {}
-
-  [[nodiscard]] double operator()(Eigen::Index j, double t) const {
-    return freedom_ * std::log1p(t * t / (freedom_ - 1.0)) + 2.0 * std::log(weights_[j]);
-  }
-
-  /// The |t| that a test needs for a score.
-  [[nodiscard]] double t_for(Eigen::Index j, double score) const {
-    const double gain = std::max(0.0, score - 2.0 * std::log(weights_[j]));
-    return std::sqrt((freedom_ - 1.0) * std::expm1(gain / freedom_));
-  }
-
- private:
-  Eigen::VectorXd weights_;
-  double freedom_;
-};
-
-/// The largest score of draws under the base model, ascending.
-std::vector<double> largest_scores(const JointModel& model, const Projection& projection, const Scores& scores) {
-  constexpr std::size_t draws = 2000;
-  const Eigen::MatrixXd whole = orthonormal_basis(projection.unit);
-  const auto rank = std::min<Eigen::Index>(whole.cols(), static_cast<Eigen::Index>(projection.scale_freedom));
-  const Eigen::MatrixXd basis = whole.leftCols(rank);
-  const Eigen::MatrixXd directions = projection.unit.transpose() * basis;
-  const double beside = std::max(0.0, projection.scale_freedom - static_cast<double>(rank));
-  // A fixed seed, so that a record has the same p-values each time.
-  constexpr core::RandomStream stream{20261122, 1};
-  std::uint64_t drawn = 0;
-  std::vector<double> largest;
-  largest.reserve(draws);
-  Eigen::VectorXd z(rank);
-  for (std::size_t i = 0; i < draws; ++i) {
-    for (double& value : z) value = stream.normal(drawn++);
-    double squares = z.squaredNorm();
-    // Chi-square of the residuals outside the span of the columns, by Wilson and Hilferty's cube.
-    if (beside > 0.0) {
-      const double width = 2.0 / (9.0 * beside);
-      const double root = 1.0 - width + std::sqrt(width) * stream.normal(drawn++);
-      squares += beside * std::max(0.0, root * root * root);
-    }
-    const Eigen::VectorXd t = statistics(directions * z, squares, projection.scale_freedom);
-    double most = -std::numeric_limits<double>::infinity();
-    for (Eigen::Index j = 0; j < t.size(); ++j)
-      if (is_possible(model, projection.indices[static_cast<std::size_t>(j)], t[j]))
-        most = std::max(most, scores(j, t[j]));
-    largest.push_back(most);
-  }
-  std::ranges::sort(largest);
-  return largest;
-}
-
-double family_p_value(const Scores& scores, Eigen::Index j, double t, double freedom,
-                      const std::vector<double>& largest) {
-  const auto above = largest.end() - std::ranges::lower_bound(largest, scores(j, t));
-  constexpr int enough = 20;  // fewer draws do not give a p-value
-  const auto draws = static_cast<double>(largest.size());
-  if (above >= enough) return static_cast<double>(above) / draws;
-  // Beyond these draws the tail falls like that of a single test.
-  const double last = scores.t_for(j, largest[largest.size() - enough]);
-  return enough / draws * std::min(1.0, two_sided(t, freedom) / two_sided(last, freedom));
-}
-
 /// Products of columns and residuals, less what noise in both may add to them.
 Eigen::VectorXd beyond_shared(const Eigen::VectorXd& along, const Eigen::VectorXd& shared) {
   const Eigen::ArrayXd sure = (along.array().abs() - at_most_shared * shared.array().abs()).max(0.0);
@@ -227,11 +149,13 @@ std::vector<RelaxationTest> tests_beside(const JointModel& model, const Projecti
   const Eigen::VectorXd along =
       beyond_shared(projection.unit.transpose() * projection.residuals, projection.shared);
   const Eigen::ArrayXd variance =
-      model.is_stated ? Eigen::ArrayXd::Ones(along.size()) : variances(along, squares, projection.freedom);
+      model.is_stated ? Eigen::ArrayXd::Ones(along.size()) : variances_beside(along, squares, projection.freedom);
   const Eigen::VectorXd t = along.array() / variance.sqrt();
   const double deviation = model.is_stated ? 1.0 : std::sqrt(squares / projection.freedom);
-  const Scores scores(weights_of(model, projection, deviation, least_change), projection.scale_freedom);
-  const std::vector<double> largest = largest_scores(model, projection, scores);
+  std::vector<int> signs;
+  for (const std::size_t index : projection.indices) signs.push_back(model.relaxations[index].sign);
+  const FamilyOfTests family({projection.unit, std::move(signs),
+                              weights_of(model, projection, deviation, least_change), projection.scale_freedom});
   const double share = model.known_noise.empty() ? 1.0 : 1.0 - misfit_share;
   for (Eigen::Index j = 0; j < t.size(); ++j) {
     if (!std::isfinite(t[j])) continue;  // noise in the drive shakes its column beyond all numbers
@@ -240,9 +164,8 @@ std::vector<RelaxationTest> tests_beside(const JointModel& model, const Projecti
     test.t = t[j];
     if (is_possible(model, test.index, t[j])) {
       const double sides = model.relaxations[test.index].sign == 0 ? 1.0 : 0.5;
-      const double p_value = family_p_value(scores, j, t[j], projection.scale_freedom - 1.0, largest);
-      test.p_value = std::min(1.0, p_value / share);
-      test.p_alone = sides * two_sided(t[j], projection.scale_freedom - 1.0);
+      test.p_value = std::min(1.0, family.p_value(j, t[j]) / share);
+      test.p_alone = sides * two_sided_p_value(t[j], projection.scale_freedom - 1.0);
       const double rows = projection.freedom + static_cast<double>(model.base.cols());
       test.explained = model.is_stated ? t[j] * t[j] : rows * std::log1p(t[j] * t[j] / (projection.freedom - 1.0));
     }
@@ -262,12 +185,28 @@ std::vector<RelaxationTest> tests_beside(const JointModel& model, const Projecti
   return tests;
 }
 
+/// Best explanation first. Of those that explain the same but for rounding, as a mass and a stiffness do where only
+/// k/m counts, the one comes first whose constant is stated with the larger uncertainty, then the order of the
+/// list.
+void sort_by_explained(const JointModel& model, const TestOptions& options, std::vector<RelaxationTest>& tests) {
+  const auto deviation = [&](const RelaxationTest& test) {
+    const Freed freed = model.relaxations[test.index].freed;
+    return freed == Freed::mass ? options.mass : freed == Freed::stiffness ? options.stiffness : 0.0;
+  };
+  const auto before = [&](const RelaxationTest& a, const RelaxationTest& b) {
+    return is_tie(deviation(a), deviation(b)) ? a.index < b.index : deviation(a) > deviation(b);
+  };
+  constexpr double unit = 1.0;  // of log-likelihoods
+  sort_with_ties(tests, &RelaxationTest::explained, before, unit);
+}
+
 /// Relaxations that may explain the departure, best first, at most two of an assumption. Far from the fit the true
 /// one may explain only half as much as the best. Constants, and what else has a fit far from the plain one, are
 /// always candidates: a motion that is out of step with the model's is far from the fit. `missed`: the model misses
 /// the whole record, and every one is a candidate.
-std::vector<RelaxationTest> candidates(const JointModel& model, std::vector<RelaxationTest> tests, bool missed) {
-  std::ranges::sort(tests, std::greater<>(), &RelaxationTest::explained);
+std::vector<RelaxationTest> candidates(const JointModel& model, const TestOptions& options,
+                                       std::vector<RelaxationTest> tests, bool missed) {
+  sort_by_explained(model, options, tests);
   std::vector<RelaxationTest> list;
   for (const RelaxationTest& test : tests) {
     if (missed && test.explained == 0.0) continue;  // of a sign that its departure cannot have
@@ -339,12 +278,12 @@ Rest rest_of(const JointModel& model, Taken taken, std::size_t candidate, double
 /// from the fit a linearised model ranks them wrongly. Where the model can be fitted again, candidates are
 /// therefore judged by the misfit that they leave. `missed`: the model misses the whole record.
 FoundDeparture departure_shown(const JointModel& model, const Taken& taken,
-                               const std::vector<RelaxationTest>& tests, double least_change, bool missed) {
-  std::vector<RelaxationTest> list = candidates(model, tests, missed);
+                               const std::vector<RelaxationTest>& tests, const TestOptions& options, bool missed) {
+  std::vector<RelaxationTest> list = candidates(model, options, tests, missed);
   if (!model.refit || list.size() <= 1) return {list};
   std::vector<Rest> rests;
   for (RelaxationTest& test : list) {
-    rests.push_back(rest_of(model, taken, test.index, least_change));
+    rests.push_back(rest_of(model, taken, test.index, options.least_change));
     set_change(rests.back().change, test);
     test.constants = rests.back().constants;
   }
@@ -404,7 +343,8 @@ void name_alike(const JointModel& model, const Taken& taken, const std::vector<s
 
 }  // namespace
 
-RelaxationTests test_relaxations(const JointModel& model, double least_change) {
+RelaxationTests test_relaxations(const JointModel& model, const TestOptions& options) {
+  const double least_change = options.least_change;
   RelaxationTests result;
   Taken taken;
   constexpr std::size_t most_departures = 4;
@@ -422,7 +362,7 @@ RelaxationTests test_relaxations(const JointModel& model, double least_change) {
     if (least == result.tests.end() || taken.size() == most_departures) break;
     const bool rejects = least->p_value < family_level;
     if (!rejects && !(result.misfit && model.refit)) break;
-    FoundDeparture found = departure_shown(here, taken, result.tests, least_change, result.misfit.has_value());
+    FoundDeparture found = departure_shown(here, taken, result.tests, options, result.misfit.has_value());
     if (found.explanations.empty()) break;
     name_speed_beside_drift(here, result.tests, found);
     RelaxationTest& best = found.explanations.front();

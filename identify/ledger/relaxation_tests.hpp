@@ -11,7 +11,9 @@
 ///
 /// A relaxation that explains nearly as much (log-likelihood within `equal_likelihood` of the best, at equal number
 /// of parameters) is named beside it: the record cannot tell them apart. So is one of which next to nothing is left
-/// beside it: such relaxations are one departure, and none is tested beside another.
+/// beside it: such relaxations are one departure, and none is tested beside another. Of relaxations that explain
+/// the same but for rounding, that of the constant with the larger stated uncertainty comes first, then the first
+/// of the model's list.
 ///
 /// Far from the fit no single test may reject, because the misfit is in the residuals of all. Where the model
 /// misses the record as a whole (misfit.hpp), every relaxation is fitted, and the best is taken if it explains far
@@ -62,7 +64,12 @@ struct RelaxationTests {
   std::optional<JointModel> relaxed;  ///< the model linearised with the departures relaxed, where it has such a fit
 };
 
-/// `least_change`: relative change of zeta or F0 that matters.
-[[nodiscard]] RelaxationTests test_relaxations(const JointModel& model, double least_change = 0.02);
+struct TestOptions {
+  double least_change = 0.02;  ///< relative change of zeta or F0 that matters
+  double mass = 0.0;           ///< stated uncertainty, relative; 0: none
+  double stiffness = 0.0;
+};
+
+[[nodiscard]] RelaxationTests test_relaxations(const JointModel& model, const TestOptions& options = {});
 
 }  // namespace dualdamp::identify

@@ -10,6 +10,7 @@
 #include "core/numbers.hpp"
 #include "identify/methods.hpp"
 #include "identify/statistics/statistics.hpp"
+#include "identify/statistics/ties.hpp"
 
 namespace dualdamp::identify {
 
@@ -304,9 +305,13 @@ std::vector<Sensitivity> sensitivities(const Reader& read, const Estimate& state
     constexpr double nothing = 1e-5;
     if (std::abs(found.zeta_change) > nothing || std::abs(found.F0_change) > nothing) list.push_back(found);
   }
-  std::ranges::sort(list, std::ranges::greater{}, [](const Sensitivity& one) {
+  const auto strength = [](const Sensitivity& one) {
     return std::fmax(std::abs(one.zeta_change), std::abs(one.F0_change));  // that of zeta may be NaN
-  });
+  };
+  const auto place = [](const Sensitivity& one) {
+    return std::ranges::find(stated_numbers, one.constant, &StatedNumber::text);
+  };
+  sort_with_ties(list, strength, [&](const Sensitivity& a, const Sensitivity& b) { return place(a) < place(b); });
   return list;
 }
 

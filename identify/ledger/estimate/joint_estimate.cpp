@@ -103,27 +103,77 @@ void reach_over_nearly_seen(const JointModel& model, const RelaxationTests& test
 
 }  // namespace
 
-Estimate joint_estimate(const JointModel& model, const RelaxationTests& tests) {
-  Taken best;
-  std::string relaxed;
-  for (const FoundDeparture& departure : tests.departures) {
-    best.push_back(departure.explanations.front().index);
-    relaxed += (relaxed.empty() ? "" : ", ") + model.relaxations[best.back()].test;
-  }
-  const auto with = [&](const Taken& numbers) {
-    return joint_estimate(
-        model.refit && !numbers.empty() ? model.refit(numbers) : model, numbers,
-        "all of " + model.data + " together" + (relaxed.empty() ? "" : "; free beside zeta and F0: " + relaxed));
-  };
-  Estimate estimate = with(best);
-  for (std::size_t d = 0; d < tests.departures.size(); ++d) {
-    for (const RelaxationTest& other : tests.departures[d].explanations | std::views::drop(1)) {
-      Taken instead = best;
-      instead[d] = other.index;
-      cover(estimate, with(instead));
+namespace {
+
+/// Estimates of a model with all departures relaxed, by one explanation of each or another.
+class RelaxedEstimates {
+ public:
+  RelaxedEstimates(const JointModel& model, const RelaxationTests& tests, const StatedShares& shares)
+      : model_(model), tests_(tests), shares_(shares) {
+    for (const FoundDeparture& departure : tests.departures) {
+      best_.push_back(departure.explanations.front().index);
+      relaxed_ += (relaxed_.empty() ? "" : ", ") + model.relaxations[best_.back()].test;
     }
   }
-  reach_over_nearly_seen(model, tests, best, estimate);
+
+  [[nodiscard]] const Taken& best() const { return best_; }
+  [[nodiscard]] Estimate with_best() const { return of(fitted(best_), best_); }
+
+  /// Extends the intervals to cover what else explains a departure.
+  void cover_others(std::size_t departure, Estimate& estimate) const {
+    const FoundDeparture& found = tests_.departures[departure];
+    const bool shares = shares_.apply_to(model_, found);
+    bool has_shared = is_shared(best_[departure]);
+    for (const RelaxationTest& other : found.explanations) {
+      Taken instead = best_;
+      instead[departure] = other.index;
+      const bool is_shared_out = shares && is_shared(other.index);
+      if (is_shared_out ? has_shared && shares_.allow(other.constants) : instead == best_) continue;
+      const JointModel relaxed = fitted(instead);
+      // Beyond what the uncertainties allow, either of them may be off alone.
+      if (is_shared_out && !shares_.allow(other.constants)) cover(estimate, alone(relaxed, instead));
+      if (!is_shared_out || !std::exchange(has_shared, true)) cover(estimate, of(relaxed, instead));
+    }
+  }
+
+ private:
+  [[nodiscard]] bool is_shared(std::size_t relaxation) const {
+    return StatedShares::is_shared(model_.relaxations[relaxation]);
+  }
+
+  [[nodiscard]] JointModel fitted(const Taken& taken) const {
+    return model_.refit && !taken.empty() ? model_.refit(taken) : model_;
+  }
+
+  [[nodiscard]] Estimate alone(const JointModel& relaxed, const Taken& taken) const {
+    return joint_estimate(
+        relaxed, taken,
+        "all of " + model_.data + " together" + (relaxed_.empty() ? "" : "; free beside zeta and F0: " + relaxed_));
+  }
+
+  /// With the constants that a mass and a stiffness share, where one of them is free and the other explains as
+  /// much.
+  [[nodiscard]] Estimate of(const JointModel& relaxed, const Taken& taken) const {
+    for (std::size_t d = 0; d < taken.size(); ++d)
+      if (is_shared(taken[d]) && shares_.apply_to(model_, tests_.departures[d]))
+        return alone(with_constants(relaxed, shares_.of(relaxed.constants)), taken);
+    return alone(relaxed, taken);
+  }
+
+  const JointModel& model_;
+  const RelaxationTests& tests_;
+  const StatedShares& shares_;
+  Taken best_;
+  std::string relaxed_;
+};
+
+}  // namespace
+
+Estimate relaxed_estimate(const JointModel& model, const RelaxationTests& tests, const StatedShares& shares) {
+  const RelaxedEstimates relaxed(model, tests, shares);
+  Estimate estimate = relaxed.with_best();
+  for (std::size_t d = 0; d < tests.departures.size(); ++d) relaxed.cover_others(d, estimate);
+  reach_over_nearly_seen(model, tests, relaxed.best(), estimate);
   return estimate;
 }
 

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "identify/estimate.hpp"
+#include "identify/ledger/estimate/stated_shares.hpp"
 #include "identify/ledger/joint_model.hpp"
 #include "identify/ledger/ledger.hpp"
 #include "identify/ledger/relaxation_tests.hpp"
@@ -34,8 +35,11 @@ void note_nearly_seen(const JointModel& model, const RelaxationTests& tests, Led
 [[nodiscard]] Estimate joint_estimate(const JointModel& model, const Taken& relaxed, std::string basis);
 
 /// The estimate with the best explanation of each departure relaxed. If other relaxations explain a departure as
-/// well, or a term of friction is nearly seen, the intervals are extended to cover the estimates with those.
-[[nodiscard]] Estimate joint_estimate(const JointModel& model, const RelaxationTests& tests);
+/// well, or a term of friction is nearly seen, the intervals are extended to cover the estimates with those. A mass
+/// and a stiffness that explain a departure alike share it by their stated uncertainties; where these allow it, the
+/// intervals need not cover either of them alone.
+[[nodiscard]] Estimate relaxed_estimate(const JointModel& model, const RelaxationTests& tests,
+                                        const StatedShares& shares = {});
 
 /// The range of an estimate of the joint model. Nothing if it has no interval.
 [[nodiscard]] std::optional<UnseenRange> unseen_friction(const JointModel& model, const RelaxationTests& tests,

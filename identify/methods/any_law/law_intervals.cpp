@@ -12,6 +12,7 @@
 #include "core/constants.hpp"
 #include "core/numbers.hpp"
 #include "identify/statistics/distributions.hpp"
+#include "identify/statistics/ties.hpp"
 
 namespace dualdamp::identify {
 
@@ -92,7 +93,8 @@ class Summary {
     weigh(result);
     draw_hull(result);
     result.aliases = aliases(result);
-    std::ranges::stable_sort(result.laws, std::ranges::greater{}, &LawAnswer::p_value);
+    sort_with_ties(result.laws, &LawAnswer::p_value,
+                   [](const LawAnswer& a, const LawAnswer& b) { return a.name < b.name; });
     return result;
   }
 
@@ -231,8 +233,9 @@ class Summary {
       if (law.rejected) continue;
       for (auto [hull, own, ends] : {std::tuple{&result.zeta_hull, &law.zeta_interval95, &result.zeta_ends},
                                      std::tuple{&result.F0_hull, &law.F0_interval95, &result.F0_ends}}) {
-        if ((*own)[0] < (*hull)[0]) (*hull)[0] = (*own)[0], (*ends)[0] = law.name;
-        if ((*own)[1] > (*hull)[1]) (*hull)[1] = (*own)[1], (*ends)[1] = law.name;
+        // Of laws that reach as far but for rounding, the first of the library ends it.
+        if ((*own)[0] < (*hull)[0] && !is_tie((*own)[0], (*hull)[0])) (*hull)[0] = (*own)[0], (*ends)[0] = law.name;
+        if ((*own)[1] > (*hull)[1] && !is_tie((*own)[1], (*hull)[1])) (*hull)[1] = (*own)[1], (*ends)[1] = law.name;
       }
     }
   }

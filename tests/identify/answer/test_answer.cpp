@@ -29,6 +29,17 @@ TEST_CASE("The narrowest interval answers, whatever the order of the list") {
   CHECK(mentions(found.verdict, "do not contradict any assumption"));
 }
 
+TEST_CASE("Of intervals that are equal but for rounding those of the first method by name answer") {
+  const Estimate one = estimate("resonance_deming", 0.1, 4.0, 0.02);
+  Estimate same = one;
+  same.method = "resonance_least_squares";
+  for (const double factor : {1.0 - 1e-12, 1.0, 1.0 + 1e-12}) {
+    same.interval95->c[1] = factor * one.interval95->c[1];
+    CHECK(answering(concluded({one, same}, ledger({}))) == "resonance_deming");
+    CHECK(answering(concluded({same, one}, ledger({}))) == "resonance_deming");
+  }
+}
+
 TEST_CASE("Of few readings that nothing tests the widest interval that agrees answers") {
   // Three pairs with phases: the narrowest of four intervals with one degree of freedom each missed zeta or F0 in
   // 19 of 150 records, the widest in 5.

@@ -44,6 +44,19 @@ TEST_CASE("A departure that is seen and does no harm stands in the verdict") {
   CHECK_FALSE(mentions(found.verdict, "do not contradict any"));
 }
 
+TEST_CASE("A departure that stated uncertainties allow is told as such, however much it changes zeta and F0") {
+  Ledger seen = ledger({});
+  LedgerEntry& entry = seen.entry(Assumption::constants);
+  entry.test = "mass free";
+  entry.p_value = 1e-20;
+  entry.F0_change = 0.148;
+  entry.is_as_stated = true;
+  const Identification found = concluded({estimate("joint_fit", 0.1, 4.0, 0.02)}, seen);
+  CHECK(mentions(found.verdict,
+                 "that their stated uncertainties allow: mass free (p = 1e-20). joint_fit has it free."));
+  CHECK_FALSE(mentions(found.verdict, "hardly change"));
+}
+
 TEST_CASE("The verdict states the range of the answer where it exceeds the interval") {
   Ledger tested = ledger({});
   tested.joint = estimate("joint_fit", 0.1, 4.0, 0.01);

@@ -58,7 +58,7 @@ JointModel parabola(double bend, int sign) {
 
 UnseenRange range_of(const JointModel& model) {
   const RelaxationTests tests = test_relaxations(model);
-  const auto range = unseen_friction(model, tests, joint_estimate(model, tests));
+  const auto range = unseen_friction(model, tests, relaxed_estimate(model, tests));
   REQUIRE(range);
   return *range;
 }
