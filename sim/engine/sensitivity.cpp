@@ -42,6 +42,16 @@ bool Sensitivity::perturbed(std::size_t law, std::size_t column) const {
   return states_[law].rows() > 0 && !states_[law].col(at(column)).isZero(0.0);
 }
 
+/// The difference of state `k` of a perturbed memory (`probe_`, before its change `unchanged_`) from the present
+/// one, after both changed. Where both kept their values, as a slider that stays stuck does, so does the
+/// difference: a new subtraction would round it, and the state would not count as one that a period never changes.
+double Sensitivity::difference(std::size_t law, std::size_t k, std::size_t column, const Memory& before,
+                               const Memory& after) const {
+  const bool kept =
+      k < before.state.size() && after.state[k] == before.state[k] && probe_.state[k] == unchanged_.state[k];
+  return kept ? states_[law](at(k), at(column)) : probe_.state[k] - after.state[k];
+}
+
 const Memory& Sensitivity::displaced(const Memory& memory, std::size_t law, std::size_t column) {
   probe_ = memory;
   for (std::size_t k = 0; k < probe_.state.size(); ++k) probe_.state[k] += states_[law](at(k), at(column));
@@ -111,11 +121,11 @@ void Sensitivity::perturb_limit(double factor, const std::vector<double>& decays
 void Sensitivity::advance(const Law& law, std::size_t index, const Memory& before, const Memory& after,
                           const Instant& begin, const Instant& end, double duration, Direction direction) {
   for (std::size_t c = 0; c < motion_.size() && !after.state.empty(); ++c) {
-    displaced(before, index, c);
+    unchanged_ = displaced(before, index, c);
     const Instant from{begin.t, begin.x + begin_[c].x(), begin.v + begin_[c].y(), begin.modification};
     law.advance(probe_, from, displaced(end, c), duration, direction);
     for (std::size_t k = 0; k < after.state.size(); ++k)
-      states_[index](at(k), at(c)) = probe_.state[k] - after.state[k];
+      states_[index](at(k), at(c)) = difference(index, k, c, before, after);
   }
 }
 
@@ -151,9 +161,10 @@ void Sensitivity::jump(const Law& law, std::size_t index, const Memory& before, 
   if (before.state.empty() && after.state.empty()) return;
   Eigen::MatrixXd changed(at(after.state.size()), at(motion_.size()));
   for (std::size_t c = 0; c < motion_.size(); ++c) {
-    displaced(before, index, c);
+    unchanged_ = displaced(before, index, c);
     law.jump(probe_, trigger, displaced(now, c), direction);
-    for (std::size_t k = 0; k < after.state.size(); ++k) changed(at(k), at(c)) = probe_.state[k] - after.state[k];
+    for (std::size_t k = 0; k < after.state.size(); ++k)
+      changed(at(k), at(c)) = difference(index, k, c, before, after);
   }
   states_[index] = std::move(changed);
 }

@@ -84,6 +84,8 @@ class Sensitivity {
   [[nodiscard]] bool perturbed(std::size_t law, std::size_t column) const;
   const friction::Memory& displaced(const friction::Memory& memory, std::size_t law, std::size_t column);
   [[nodiscard]] friction::Instant displaced(const friction::Instant& now, std::size_t column) const;
+  [[nodiscard]] double difference(std::size_t law, std::size_t k, std::size_t column,
+                                  const friction::Memory& before, const friction::Memory& after) const;
   void flow(double factor, Laws laws, const Memories& memories, const friction::Instant& now,
             friction::Direction direction);
 
@@ -97,6 +99,7 @@ class Sensitivity {
   bool with_states_ = false;
   bool crossing_ = false;
   friction::Memory probe_;
+  friction::Memory unchanged_;  ///< probe_ before its law changed it
   std::vector<friction::Affine> forms_;
   std::vector<double> rates_;
 };

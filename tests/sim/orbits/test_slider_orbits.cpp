@@ -12,7 +12,9 @@
 #include "friction_models/laws/contact_compliance.hpp"
 #include "friction_models/laws/coulomb.hpp"
 #include "friction_models/laws/iwan.hpp"
+#include "friction_models/laws/reset_integrator.hpp"
 #include "sim/curves/curves.hpp"
+#include "sim/orbits/period_map.hpp"
 #include "sim/orbits/steady_state.hpp"
 #include "tests/support/source_tree.hpp"
 
@@ -56,7 +58,71 @@ std::vector<Reference> references() {
   return list;
 }
 
+/// A heavily overdamped mass with Coulomb friction under five harmonics, from a start off its orbit. A forcing
+/// period takes 3e-4 of a distance from the orbit away.
+sim::Model slow_model(double position, double velocity, std::vector<friction::Law> contacts) {
+  sim::Model model;
+  model.oscillator = {.mass = 0.038, .stiffness = 0.0067, .damping = 287.0};
+  model.excitation = {
+      .type = sim::ExcitationType::force_harmonic, .amplitude = 0.079, .frequency = 1.04, .phase = 0.33};
+  model.excitation.harmonics = {{.order = 2, .amplitude = 0.0034, .phase = 1.67},
+                                {.order = 5, .amplitude = 0.0176, .phase = 1.27},
+                                {.order = 7, .amplitude = 0.0204, .phase = -2.7},
+                                {.order = 10, .amplitude = 0.0066, .phase = 1.28}};
+  model.friction = {friction::Law(friction::Coulomb(0.0134, 0.0134))};
+  for (friction::Law& contact : contacts) model.friction.push_back(std::move(contact));
+  model.initial = {.position = position, .velocity = velocity};
+  return model;
+}
+
 }  // namespace
+
+// A contact that never slides is a spring about the initial position. The numbers are those of the oscillator with
+// that spring and Coulomb friction: closed forms between events, Newton's method on a map of its own (scipy).
+TEST_CASE("contacts that never slide beside friction that sticks are springs, however slow the motion settles",
+          "[contact_compliance]") {
+  using friction::Law;
+  const Law contact(friction::ContactCompliance(0.0129, 0.0129, 0.0073, 0.0));
+  const Law bond(friction::ResetIntegrator(0.0129, 0.0073, 0.3, 0.0));
+  const Law elements(friction::Iwan({{0.003, 0.01}, {0.005, 0.02}, {0.0007, 0.05}}));
+  const Law weak_bond(friction::ResetIntegrator(0.02, 0.002, 0.3, 0.0));
+  const Law weak_contact(friction::ContactCompliance(0.01, 0.02, 0.003, 0.0));
+  struct Case {
+    sim::Model model;
+    double peak;
+    double trough;
+  };
+  const std::vector<Case> cases = {
+      {slow_model(8e-5, -5.5e-4, {contact}), 0.01561434176488441, 0.015193551892289325},
+      {slow_model(8e-5, -5.5e-4, {bond}), 0.013541138427239363, 0.01312034902493786},
+      {slow_model(-3e-4, 0.0, {elements}), 0.014006342982930686, 0.013585553410977447},
+      {slow_model(7.7e-3, 0.0, {contact, weak_bond, weak_contact}), 0.016250529304940864, 0.01582974063496545},
+  };
+  for (const Case& c : cases) {
+    const sim::SteadyState state = sim::steady_state(c.model);
+    INFO(state.outcome.reason);
+    REQUIRE(state.outcome.ok());
+    CHECK(state.peak == Approx(c.peak).epsilon(1e-9));
+    CHECK(state.trough == Approx(c.trough).epsilon(1e-9));
+    CHECK(state.transient_periods < 200);
+    CHECK(state.stable());
+    CHECK(state.warnings.size() == 1);
+  }
+}
+
+TEST_CASE("the derivative over a period by a slider that never slips is 1 in its own row and nothing else",
+          "[contact_compliance]") {
+  for (const double position : {0.0, 8.03485730955722839e-05, -0.1, 3.0}) {
+    CAPTURE(position);
+    sim::PeriodMap map(slow_model(position, 0.0,
+                                  {friction::Law(friction::ContactCompliance(9.0, 9.0, 0.0073, 0.0)),
+                                   friction::Law(friction::ResetIntegrator(9.0, 0.0073, 0.3, 0.0)),
+                                   friction::Law(friction::Iwan({{0.003, 9.0}, {0.005, 9.0}}))}));
+    const sim::ForcingPeriod period = map.from_start(position, 0.0, sim::Monodromy::with);
+    REQUIRE(period.monodromy.rows() >= 5);
+    CHECK(period.free_coordinates() == std::vector<Eigen::Index>{0, 1});
+  }
+}
 
 TEST_CASE("contact compliance has the steady states of a 30-digit calculation", "[contact_compliance]") {
   int compared = 0;
