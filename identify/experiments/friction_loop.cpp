@@ -11,6 +11,7 @@
 #include "identify/records/rest_samples.hpp"
 #include "identify/records/swings.hpp"
 #include "identify/records/usable_histories.hpp"
+#include "identify/statistics/noise_between_jumps.hpp"
 #include "identify/statistics/noise_level.hpp"
 #include "sim/law_host/law_host.hpp"
 #include "sim/law_host/loaded_contacts.hpp"
@@ -35,7 +36,7 @@ class FrictionLoop final : public Experiment {
   FrictionLoop(const History& history, const ExperimentOptions& options)
       : start_(history.start), rate_(history.sample_rate), x_(history.x), v_(history.v), a_(history.a) {
     kind = ExperimentKind::loop;
-    force_noise_ = options.sigma_force > 0.0 ? options.sigma_force : noise_of(history.force);
+    force_noise_ = options.sigma_force > 0.0 ? options.sigma_force : noise_between_jumps(history.force);
     complete(history, options.has_mass);
     path_x_ = law_x_;
     path_v_ = law_v_;

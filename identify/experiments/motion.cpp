@@ -12,7 +12,7 @@
 #include "identify/records/swings.hpp"
 #include "identify/statistics/decompositions.hpp"
 #include "identify/statistics/median.hpp"
-#include "identify/statistics/noise_level.hpp"
+#include "identify/statistics/noise_between_jumps.hpp"
 #include "sim/engine/engine.hpp"
 #include "sim/law_host/loaded_contacts.hpp"
 
@@ -129,14 +129,12 @@ class MeasuredMotion final : public Experiment {
                                                      {"v", "m/s", &history.v, options.sigma_v},
                                                      {"a", "m/s^2", &history.a, options.sigma_a}}) {
       if (values->empty()) continue;
-      RobustNoiseLevel level;
-      level.add(*values);
       Signal signal{.name = name,
                     .unit = unit,
                     .measured = *values,
                     .at_name = "t",
                     .at_unit = "s",
-                    .noise = stated > 0.0 ? stated : level.deviation(),
+                    .noise = stated > 0.0 ? stated : noise_between_jumps(*values),
                     .is_stated = stated > 0.0,
                     .is_sampled = true};
       for (std::size_t i = 0; i < values->size(); ++i) signal.at.push_back(start_ + static_cast<double>(i) / rate_);

@@ -1,9 +1,13 @@
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <vector>
 
 #include "core/random.hpp"
 #include "identify/fit/comparison.hpp"
 #include "identify/fit/residual_test.hpp"
+#include "identify/statistics/noise_between_jumps.hpp"
+#include "identify/statistics/noise_level.hpp"
 #include "tests/identify/fit/synthetic.hpp"
 
 using namespace dualdamp;
@@ -45,6 +49,32 @@ TEST_CASE("residuals: the test for noise keeps its level, and finds a motion bel
   for (std::uint64_t seed = 0; seed < 20; ++seed)
     found += identify::noise_p_value(signal, noise(count, seed, 0.35), 3) < 1e-3 ? 1 : 0;
   CHECK(found >= 17);
+}
+
+TEST_CASE("residuals: jumps and kinks of a force are no noise", "[identify][fit]") {
+  // 64 reversals of a contact that yields within some samples, and of one that yields within less than a sample. A
+  // third of the differences holds a part of the motion: with those of them that pass for noise, the first has 1.4
+  // times the noise.
+  const core::RandomStream draws{5, 921};
+  constexpr std::size_t count = 2000;
+  constexpr double deviation = 0.01;
+  for (const double stiffness : {4.0, 40.0}) {
+    CAPTURE(stiffness);
+    std::vector<double> force;
+    std::vector<double> smooth;
+    double spring = 0.0;
+    for (std::size_t i = 0; i < count; ++i) {
+      const double noise = deviation * draws.normal(i);
+      const double phase = 0.1 * static_cast<double>(i);
+      spring = std::clamp(spring + stiffness * std::cos(phase), -1.0, 1.0);
+      force.push_back(spring + noise);
+      smooth.push_back(std::sin(phase) + noise);
+    }
+    // The standard error of a noise level by 1000 fourth differences is some 3 %.
+    CHECK(identify::noise_between_jumps(force) == Approx(deviation).epsilon(0.08));
+    CHECK(identify::noise_between_jumps(smooth) == Approx(identify::robust_noise_level(smooth)).epsilon(0.01));
+  }
+  CHECK(identify::noise_between_jumps(std::vector<double>{1.0, 2.0}) == 0.0);
 }
 
 TEST_CASE("residuals: readings with a stated noise are compared with it", "[identify][fit]") {
