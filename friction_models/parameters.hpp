@@ -106,7 +106,10 @@ struct Parameter {
   std::string_view not_beside{};  ///< refused beside this earlier parameter, unless that is 0
   Range range{};
   std::string_view at_least{};  ///< must be >= the value of this earlier parameter
-  bool sums_to_one = false;     ///< of a field of a list: the values of all items add to 1
+  /// Names of the speed at which the law has this force, and of the power of the speed with which the force grows.
+  std::string_view at_speed{};
+  std::string_view power{};
+  bool sums_to_one = false;  ///< of a field of a list: the values of all items add to 1
   /// A fit seeks it although it has a default: with the default other parameters have no effect.
   bool needed_in_fit = false;
   std::string_view meaning{};  ///< one line for documentation

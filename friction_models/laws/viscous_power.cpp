@@ -7,7 +7,12 @@ namespace dualdamp::friction {
 
 const std::vector<Parameter>& ViscousPower::parameters() {
   static const std::vector<Parameter> table = {
-      {.name = "coefficient", .unit = "N", .range = not_negative, .meaning = "force at the reference velocity"},
+      {.name = "coefficient",
+       .unit = "N",
+       .range = not_negative,
+       .at_speed = "reference_velocity",
+       .power = "exponent",
+       .meaning = "force at the reference velocity"},
       {.name = "reference_velocity",
        .unit = "m/s",
        .fallback = 1.0,

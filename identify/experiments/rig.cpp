@@ -74,6 +74,12 @@ class LawNumbers {
   }
 
  private:
+  [[nodiscard]] static std::optional<ForceAtSpeed> speed_of(const Parameter& parameter, const std::string& prefix) {
+    if (parameter.at_speed.empty()) return std::nullopt;
+    return ForceAtSpeed{.speed = {.path = prefix + std::string(parameter.at_speed)},
+                        .power = {.path = prefix + std::string(parameter.power)}};
+  }
+
   void walk(const std::vector<Parameter>& table, const ParameterValues& values, const std::string& prefix) {
     for (const Parameter& parameter : table) {
       const std::string path = prefix + std::string(parameter.name);
@@ -88,7 +94,8 @@ class LawNumbers {
                           .range = parameter.range,
                           .stated = stated_number(law_.values, path),
                           .at_least = parameter.at_least.empty() ? "" : prefix + std::string(parameter.at_least),
-                          .share_of = parameter.sums_to_one ? path.substr(0, path.find('[')) : ""});
+                          .share_of = parameter.sums_to_one ? path.substr(0, path.find('[')) : "",
+                          .at_speed = speed_of(parameter, prefix)});
       } else if (values.has(parameter.name) &&
                  (parameter.kind == ParameterKind::record || parameter.kind == ParameterKind::list)) {
         const std::vector<ParameterValues>& items = values.list(parameter.name);
@@ -203,7 +210,26 @@ bool complete_shares(const friction::LawEntry& law, ParameterValues& values) {
   return true;
 }
 
+/// Finds a number of the law of `parameter` among those that are sought, or its stated or default value.
+void find_beside(const FitParameter& parameter, const Rig& rig, const std::vector<FitParameter>& sought,
+                 NumberBeside& number) {
+  for (std::size_t j = 0; j < sought.size(); ++j)
+    if (sought[j].owner == Owner::law && sought[j].index == parameter.index && sought[j].path == number.path)
+      number.sought = j;
+  const RigLaw& law = rig.laws[parameter.index];
+  ParameterValues completed = law.values;
+  static_cast<void>(friction::complete(*law.entry, completed));  // what is missing is sought
+  number.known = stated_number(completed, number.path);
+}
+
 }  // namespace
+
+double over_force_at(double speed, const FitParameter& parameter, const Eigen::VectorXd& values) {
+  if (!parameter.at_speed) return 1.0;
+  const auto& [v0, power, sought_at] = *parameter.at_speed;
+  constexpr double largest = 1e300;
+  return std::clamp(std::pow(v0.value(values) / speed, power.value(values)), 1.0 / largest, largest);
+}
 
 std::string name_of(RecordParameter which) { return std::string(entry_of(which).name); }
 
@@ -289,6 +315,10 @@ void arrange(const Rig& rig, std::vector<FitParameter>& parameters) {
     const std::string_view head = std::string_view(parameter.name).substr(0, parameter.name.find_first_of(".["));
     const bool is_like_one_of_a_record = parameter.owner == Owner::law && find_record_parameter(head);
     if (same > 1 || is_like_one_of_a_record) parameter.name = qualified(parameter, rig.laws.size());
+    if (parameter.at_speed) {
+      find_beside(parameter, rig, parameters, parameter.at_speed->speed);
+      find_beside(parameter, rig, parameters, parameter.at_speed->power);
+    }
     if (parameter.at_least.empty()) continue;
     for (std::size_t j = 0; j < parameters.size(); ++j)
       if (parameters[j].owner == Owner::law && parameters[j].index == parameter.index &&

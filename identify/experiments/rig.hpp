@@ -62,6 +62,28 @@ enum class Owner {
   record,
 };
 
+/// A number of the law of a parameter, beside it: sought too, or known.
+struct NumberBeside {
+  std::string path = {};
+  std::optional<std::size_t> sought = {};  ///< index of the parameter
+  double known = unknown;
+
+  /// `values`: of all sought parameters.
+  [[nodiscard]] double value(const Eigen::VectorXd& values) const {
+    return sought ? values[static_cast<Eigen::Index>(*sought)] : known;
+  }
+};
+
+/// Of a force at a speed v0 that grows as F(v) = force (v/v0)^power: the size of `force` follows from that of F
+/// only with v0 and the power.
+struct ForceAtSpeed {
+  NumberBeside speed = {};
+  NumberBeside power = {};
+  /// Speed at which the force is sought, in place of v0; `unknown`: v0. At a speed of the data, the data show the
+  /// force; at v0 far from these, a small change of the power changes it by decades.
+  double sought_at = unknown;
+};
+
 struct FitParameter {
   std::string name;
   std::string unit;  ///< SI; "1" for a number without unit
@@ -74,7 +96,15 @@ struct FitParameter {
   std::optional<std::size_t> above = {};  ///< index of the parameter that this one must not be below
   std::string at_least = {};              ///< name of that parameter in the table of the law
   std::string share_of = {};              ///< name of a list of the law whose values of this kind add to 1
+  std::optional<ForceAtSpeed> at_speed = {};
+
+  /// Whether its range has an end beside zero.
+  [[nodiscard]] bool is_bounded() const { return std::isfinite(range.high) || range.low > 0.0; }
 };
+
+/// (v0/v)^power of a force at v0: the force over that at `speed`. 1 for any other parameter. `values`: of all
+/// sought parameters.
+[[nodiscard]] double over_force_at(double speed, const FitParameter& parameter, const Eigen::VectorXd& values);
 
 struct Rig {
   sim::Model known;  ///< without friction; mass, stiffness or damping may be `unknown`
@@ -95,8 +125,8 @@ struct Rig {
 [[nodiscard]] std::vector<FitParameter> named(const std::vector<FitParameter>& all, const std::string& name,
                                               std::string& fault);
 
-/// Sets `above` of the parameters, removes the last share of each list whose shares are all sought, and makes names
-/// as short as possible.
+/// Sets `above` and `at_speed` of the parameters, removes the last share of each list whose shares are all sought,
+/// and makes names as short as possible.
 void arrange(const Rig& rig, std::vector<FitParameter>& parameters);
 
 /// The rig with these values; parameters of records are ignored. Numbers that are neither stated nor sought are

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -32,6 +33,34 @@ struct Guess {
   double spread = 10.0;
 };
 
+/// Size of a number in this SI unit, a product of powers such as "N.s^2/m" or "1/m": of a law of a plugin, whose
+/// unit may be any.
+double size_by_unit(std::string_view unit, const DataScale& s) {
+  const double time = s.length / s.speed;
+  const std::map<std::string_view, double> of_base = {{"N", s.force},
+                                                      {"m", s.length},
+                                                      {"s", time},
+                                                      {"kg", s.force * time * time / s.length},
+                                                      {"W", s.force * s.speed},
+                                                      {"J", s.force * s.length},
+                                                      {"Hz", 1.0 / time}};
+  double size = 1.0;
+  bool is_below = false;
+  while (!unit.empty()) {
+    const std::size_t end = std::min(unit.find_first_of("./* "), unit.size());
+    const std::string_view factor = unit.substr(0, end);
+    const std::size_t letters = std::min(factor.find_first_of("^-0123456789"), factor.size());
+    const std::string_view digits = factor.substr(std::min(factor.find_first_of("-0123456789"), factor.size()));
+    int power = 1;
+    std::from_chars(digits.data(), digits.data() + digits.size(), power);
+    if (const auto base = of_base.find(factor.substr(0, letters)); base != of_base.end())
+      size *= std::pow(base->second, is_below ? -power : power);
+    is_below = end < unit.size() && unit[end] == '/';
+    unit.remove_prefix(std::min(end + 1, unit.size()));
+  }
+  return size;
+}
+
 Guess guess_of(const FitParameter& parameter, const DataScale& s) {
   const double time = s.length / s.speed;
   constexpr double about = 3.0;  // spread of what the energy of steady states gives
@@ -47,6 +76,7 @@ Guess guess_of(const FitParameter& parameter, const DataScale& s) {
       {"m/s", {0.2 * s.speed, 15.0}},
       {"s", {0.05 * time, 30.0}},
       {"1/s", {1.0 / time, 30.0}},
+      {"1/m", {0.3 / s.length, 10.0}},
       {"N/s", {3.0 * s.force / time, 30.0}},
       {"W", {s.force * s.speed, 30.0}},
       {"kg", {s.mass, 10.0}},
@@ -73,7 +103,7 @@ Guess guess_of(const FitParameter& parameter, const DataScale& s) {
       break;
   }
   const auto found = by_unit.find(parameter.unit);
-  return found == by_unit.end() ? Guess{} : found->second;
+  return found == by_unit.end() ? Guess{size_by_unit(parameter.unit, s), 30.0} : found->second;
 }
 
 /// Point `number` of Roberts' sequence in one dimension. The powers of the root of x^(d+1) = x + 1 fill a cube of d
@@ -171,6 +201,8 @@ DataScale scale_of(const Rig& rig, const Experiments& experiments) {
   return scale;
 }
 
+namespace {
+
 double size_of(const FitParameter& parameter, const DataScale& scale) {
   const double stated = std::abs(parameter.stated);
   const bool is_size = parameter.owner != Owner::record || parameter.record_parameter == RecordParameter::travel;
@@ -179,6 +211,21 @@ double size_of(const FitParameter& parameter, const DataScale& scale) {
   const auto& [low, high, low_open, high_open] = parameter.range;
   if (is_known(high)) size = std::min(size, high);
   return std::max({size, low, -high});
+}
+
+}  // namespace
+
+std::vector<double> sizes_of(const std::vector<FitParameter>& parameters, const DataScale& scale) {
+  Eigen::VectorXd sizes(static_cast<Eigen::Index>(parameters.size()));
+  for (std::size_t i = 0; i < parameters.size(); ++i)
+    sizes[static_cast<Eigen::Index>(i)] = size_of(parameters[i], scale);
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    if (!parameters[i].at_speed || is_known(std::abs(parameters[i].stated))) continue;
+    const friction::Range& range = parameters[i].range;
+    double& size = sizes[static_cast<Eigen::Index>(i)];
+    size = std::clamp(size * over_force_at(scale.speed, parameters[i], sizes), range.low, range.high);
+  }
+  return {sizes.begin(), sizes.end()};
 }
 
 /// Loads of contacts at the first sample, in units of their size: none, yielded in either direction, in between.
@@ -210,6 +257,12 @@ Eigen::VectorXd start_of(const std::vector<FitParameter>& parameters, const std:
       value = start[static_cast<Eigen::Index>(*parameter.above)] * (1.0 + share);
     start[static_cast<Eigen::Index>(i)] = value;
   }
+  const Eigen::VectorXd middle =
+      Eigen::Map<const Eigen::VectorXd>(sizes.data(), static_cast<Eigen::Index>(sizes.size()));
+  for (std::size_t i = 0; i < parameters.size(); ++i)
+    if (parameters[i].at_speed && std::isnan(parameters[i].stated))
+      start[static_cast<Eigen::Index>(i)] *=
+          over_force_at(scale.speed, parameters[i], start) / over_force_at(scale.speed, parameters[i], middle);
   return start;
 }
 

@@ -38,8 +38,8 @@ struct DataScale {
 
 [[nodiscard]] DataScale scale_of(const Rig& rig, const Experiments& experiments);
 
-/// Size of a parameter, > 0, in its unit. For a stated value that is not zero: its absolute value.
-[[nodiscard]] double size_of(const FitParameter& parameter, const DataScale& scale);
+/// Sizes of the parameters, > 0, in their units. For a stated value that is not zero: its absolute value.
+[[nodiscard]] std::vector<double> sizes_of(const std::vector<FitParameter>& parameters, const DataScale& scale);
 
 /// Start `number` (0, 1, ...). Start 0 has the stated values, and the sizes of the other parameters.
 [[nodiscard]] Eigen::VectorXd start_of(const std::vector<FitParameter>& parameters,

@@ -225,6 +225,12 @@ std::optional<Eigen::VectorXd> describe(const FitProblem& problem, const Request
                          result);
 }
 
+/// Lets a force at a speed be sought at this one, unless bounds hold for it.
+void seek_at_speed(double speed, std::vector<FitParameter>& parameters) {
+  for (FitParameter& parameter : parameters)
+    if (parameter.at_speed && !parameter.is_bounded()) parameter.at_speed->sought_at = speed;
+}
+
 /// Seeks the loads of contacts at the first samples, record after record.
 void seek_loads(std::unique_ptr<FitTask>& task, SearchResult& found, double length, const SearchOptions& options,
                 long most_work, std::vector<std::string>& remarks) {
@@ -244,8 +250,8 @@ Fit fit_rig(const Rig& rig, std::vector<FitParameter> parameters, const Experime
   Fit result;
   result.rig = rig;
   const DataScale scale = scale_of(rig, experiments);
-  std::vector<double> sizes;
-  for (const FitParameter& parameter : parameters) sizes.push_back(size_of(parameter, scale));
+  const std::vector<double> sizes = sizes_of(parameters, scale);
+  seek_at_speed(scale.speed, parameters);
   auto task = std::make_unique<FitTask>(rig, experiments, parameters, sizes, options.known);
   const FitProblem& problem = task->problem;
   const auto readings = static_cast<Eigen::Index>(problem.counted().sum());

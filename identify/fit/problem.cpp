@@ -31,6 +31,13 @@ SearchCoordinate coordinate_of(const FitParameter& parameter, double size) {
   return {false, size, std::isfinite(low) ? low / size : -far, std::isfinite(high) ? high / size : far};
 }
 
+/// A force over the force that is sought in its place; 1 for any other parameter.
+double over_force_sought(const FitParameter& parameter, const Eigen::VectorXd& values) {
+  return parameter.at_speed && parameter.at_speed->sought_at > 0.0
+             ? over_force_at(parameter.at_speed->sought_at, parameter, values)
+             : 1.0;
+}
+
 /// Calls `work`. False if a law or an engine refuses the values.
 template <typename Work>
 bool guarded(const Work& work) {
@@ -59,6 +66,9 @@ FitProblem::FitProblem(const Rig& rig, const std::vector<FitParameter>& paramete
     : rig_(rig), holds_mass_(holds_mass(rig, parameters)), parameters_(parameters), known_(std::move(known)) {
   for (std::size_t i = 0; i < parameters.size(); ++i)
     coordinates_.push_back(coordinate_of(parameters[i], sizes[i]));
+  const Eigen::VectorXd middle =
+      Eigen::Map<const Eigen::VectorXd>(sizes.data(), static_cast<Eigen::Index>(sizes.size()));
+  for (const FitParameter& parameter : parameters) units_.push_back(over_force_sought(parameter, middle));
   for (const auto& experiment : experiments) experiments_.push_back(experiment.get());
   if (known_.empty())
     for (const Experiment* experiment : experiments_) known_.push_back(experiment->record_start);
@@ -74,6 +84,7 @@ FitProblem::FitProblem(const FitProblem& whole, Experiments parts)
       experiments_(whole.experiments_),
       coordinates_(whole.coordinates_),
       stepped_(whole.stepped_),
+      units_(whole.units_),
       known_(whole.known_),
       limit_(whole.limit_) {
   for (std::size_t e = 0; e < parts_.size(); ++e)
@@ -186,6 +197,8 @@ Eigen::VectorXd FitProblem::values(const Eigen::VectorXd& q) const {
   for (std::size_t i = 0; i < parameters_.size(); ++i)
     if (parameters_[i].above)
       result[static_cast<Eigen::Index>(i)] += result[static_cast<Eigen::Index>(*parameters_[i].above)];
+  for (std::size_t i = 0; i < parameters_.size(); ++i)
+    result[static_cast<Eigen::Index>(i)] *= over_force_sought(parameters_[i], result) / units_[i];
   return result;
 }
 
@@ -196,6 +209,7 @@ Eigen::VectorXd FitProblem::coordinates(const Eigen::VectorXd& values) const {
     const auto at = static_cast<Eigen::Index>(i);
     double value = values[at];
     if (parameters_[i].above) value -= values[static_cast<Eigen::Index>(*parameters_[i].above)];
+    value *= units_[i] / over_force_sought(parameters_[i], values);
     const double q = c.logarithmic ? std::log(std::max(value, 0.0) / c.size) : value / c.size;
     result[at] = std::clamp(q, c.low, c.high);
   }
@@ -204,15 +218,27 @@ Eigen::VectorXd FitProblem::coordinates(const Eigen::VectorXd& values) const {
 
 Eigen::MatrixXd FitProblem::slope(const Eigen::VectorXd& q) const {
   const Eigen::Index count = q.size();
+  const Eigen::VectorXd at = values(q);
   Eigen::MatrixXd result = Eigen::MatrixXd::Zero(count, count);
   for (Eigen::Index i = 0; i < count; ++i) {
     const SearchCoordinate& c = coordinates_[static_cast<std::size_t>(i)];
     result(i, i) = c.size * (c.logarithmic ? std::exp(q[i]) : 1.0);
   }
-  for (Eigen::Index i = 0; i < count; ++i)
-    if (const auto& above = parameters_[static_cast<std::size_t>(i)].above)
-      result(i, static_cast<Eigen::Index>(*above)) =
-          result(static_cast<Eigen::Index>(*above), static_cast<Eigen::Index>(*above));
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const FitParameter& parameter = parameters_[static_cast<std::size_t>(i)];
+    const auto add = [&](const std::optional<std::size_t>& other, double by_other) {
+      if (!other) return;
+      const auto j = static_cast<Eigen::Index>(*other);
+      result(i, j) += by_other * result(j, j);
+    };
+    add(parameter.above, 1.0);
+    if (!parameter.at_speed || !(parameter.at_speed->sought_at > 0.0)) continue;
+    // value = sought (v0/v)^n
+    result(i, i) *= over_force_sought(parameter, at) / units_[static_cast<std::size_t>(i)];
+    const auto& [speed, power, sought_at] = *parameter.at_speed;
+    add(power.sought, at[i] * std::log(speed.value(at) / sought_at));
+    add(speed.sought, at[i] * power.value(at) / speed.value(at));
+  }
   return result;
 }
 

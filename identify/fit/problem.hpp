@@ -4,7 +4,8 @@
 ///   r_i = (output_i(p) - measured_i)/s_i,   s_i: noise of the signal
 ///
 /// The coordinate of a parameter is its logarithm, if zero is an open end of its range; its distance above another
-/// parameter, if it must be at least that one; else its value in units of its size. Derivatives are central
+/// parameter, if it must be at least that one; else its value in units of its size. A force at a speed far from
+/// those of the data is sought as the force at a speed of the data (`ForceAtSpeed`). Derivatives are central
 /// differences of the motion, whose events the engines find anew. Steady states for a difference are found by
 /// Newton's method from the orbit of the unchanged model.
 
@@ -104,6 +105,10 @@ class FitProblem {
   [[nodiscard]] const std::vector<RecordValues>& known() const { return known_; }
   [[nodiscard]] const std::vector<SignalRows>& signals() const { return signals_; }
   [[nodiscard]] const std::vector<SearchCoordinate>& coordinates() const { return coordinates_; }
+  /// The parameter that parameter `i` must not be below.
+  [[nodiscard]] const std::optional<std::size_t>& above(Eigen::Index i) const {
+    return parameters_[static_cast<std::size_t>(i)].above;
+  }
   [[nodiscard]] const Signal& signal(const SignalRows& rows) const;
   [[nodiscard]] const Experiment& experiment(const SignalRows& rows) const {
     return *experiments_[rows.experiment];
@@ -177,6 +182,7 @@ class FitProblem {
   std::vector<const Experiment*> experiments_;
   std::vector<SearchCoordinate> coordinates_;
   std::vector<bool> stepped_;        ///< of each parameter; empty: none
+  std::vector<double> units_;        ///< of each parameter, `over_force_sought` at the sizes
   std::vector<RecordValues> known_;  ///< of each experiment
   std::vector<SignalRows> signals_;
   std::vector<Eigen::Index> begins_;  ///< of each experiment

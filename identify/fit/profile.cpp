@@ -125,7 +125,10 @@ Eigen::Index Profiler::other_of(Eigen::Index i, const Eigen::VectorXd& q) const 
 Eigen::VectorXd Profiler::placed(Eigen::Index i, double value, const Eigen::VectorXd& q) const {
   Eigen::VectorXd values = problem_.values(q);
   values[i] = value;
-  if (const Eigen::Index other = other_of(i, q); other >= 0) values[other] = std::min(values[other], value);
+  if (const std::optional<std::size_t>& least = problem_.above(i)) {
+    double& other = values[static_cast<Eigen::Index>(*least)];
+    other = std::min(other, value);
+  }
   return problem_.coordinates(values);
 }
 

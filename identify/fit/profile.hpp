@@ -55,7 +55,7 @@ class Profiler {
   /// Least squares with parameter `i` held at `value`, by the derivatives of `path`. `damping`: a change of
   /// another parameter by as much as itself counts as this share of the present growth.
   [[nodiscard]] Eigen::VectorXd step(Eigen::Index i, double value, const ProfilePath& path, double damping) const;
-  /// The parameter that `i` must not be below; -1: none.
+  /// A parameter whose coordinate also changes the value of `i`, such as one that `i` must not be below; -1: none.
   [[nodiscard]] Eigen::Index other_of(Eigen::Index i, const Eigen::VectorXd& q) const;
   /// `q` with parameter `i` at `value`. The parameter that it must not be below gives way.
   [[nodiscard]] Eigen::VectorXd placed(Eigen::Index i, double value, const Eigen::VectorXd& q) const;

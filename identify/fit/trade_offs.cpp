@@ -37,7 +37,7 @@ std::string pair_text(const WeakDirection& direction, const std::vector<FitParam
 
 }  // namespace
 
-TradeOff trade_off(const WeakDirection& direction, const std::vector<FitParameter>& parameters) {
+std::optional<TradeOff> trade_off(const WeakDirection& direction, const std::vector<FitParameter>& parameters) {
   std::vector<Eigen::Index> order(parameters.size());
   std::iota(order.begin(), order.end(), Eigen::Index{0});
   std::ranges::sort(order, std::greater<>(), [&](Eigen::Index i) { return std::abs(direction.share[i]); });
@@ -63,6 +63,11 @@ TradeOff trade_off(const WeakDirection& direction, const std::vector<FitParamete
   const double open = std::isfinite(reach) ? reach * std::abs(direction.share[first] / direction.change[first])
                                            : 2.0 * direction.deviation * largest;
   const double near_zero = direction.near_zero[first];
+  // The deviation near the end of a range says nothing of a parameter that its profile bounds well.
+  constexpr double all = 1.0;
+  if (order.size() == 1 && std::isfinite(direction.deviation) && std::isfinite(reach) && open < all &&
+      !(near_zero > 0.0))
+    return std::nullopt;
   const std::string quantity =
       core::format_number(open * near_zero, 2) + " " + parameters[static_cast<std::size_t>(first)].unit;
   const std::string known = std::isfinite(direction.deviation)

@@ -2,6 +2,7 @@
 /// Describes in words the parameters that the data of a fit cannot separate.
 
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
 #include "identify/fit/fit.hpp"
@@ -23,6 +24,7 @@ struct WeakDirection {
   Eigen::VectorXd reach;
 };
 
-[[nodiscard]] TradeOff trade_off(const WeakDirection& direction, const std::vector<FitParameter>& parameters);
+[[nodiscard]] std::optional<TradeOff> trade_off(const WeakDirection& direction,
+                                                const std::vector<FitParameter>& parameters);
 
 }  // namespace dualdamp::identify

@@ -69,14 +69,17 @@ class Uncertainty {
     // others.
     const double effect = rows_.col(i).norm();
     if (!(c.logarithmic && (low || high)) || effect * judged_change(i) >= 1.0) free_.push_back(i);
-    if (c.logarithmic && effect >= 1.0) warn_of_end(i, low, high);
+    if (effect * full_change(i) >= 1.0) warn_of_end(i, low, high);
   }
 
-  /// The search goes no further than a number of decades from the size that the data suggest.
+  /// The search goes no further than a number of decades from the size that the data suggest. An end that the law
+  /// or the caller sets is no limit of the search: a force of zero says that there is none.
   void warn_of_end(Eigen::Index i, bool low, bool high) {
     const FittedParameter& fitted = fit_.parameters[static_cast<std::size_t>(i)];
     const friction::Range& range = fitted.parameter.range;
-    if (!(low && !(range.low > 0.0)) && !(high && std::isinf(range.high))) return;
+    const SearchCoordinate& c = end_.problem.coordinates()[static_cast<std::size_t>(i)];
+    const bool low_of_search = c.logarithmic ? !(range.low > 0.0) : std::isinf(range.low);
+    if (!(low && low_of_search) && !(high && std::isinf(range.high))) return;
     fit_.warnings.push_back(fitted.parameter.name +
                             " reached the limit of the search and still affects the fit "
                             "there: set 'bounds' or state a value");
@@ -223,12 +226,13 @@ class Uncertainty {
   /// A parameter takes part in a direction with a part of its own, or with a part of the effects that cancel there.
   [[nodiscard]] bool is_lost(Eigen::Index i) const {
     constexpr double part = 0.01;
-    const auto& above = fit_.parameters[static_cast<std::size_t>(i)].parameter.above;
     return std::ranges::any_of(lost_, [&](const Eigen::VectorXd& direction) {
       const Eigen::VectorXd effect = effects(judged_changes().cwiseProduct(direction));
       const double least = std::max(rounding * strongest_, part * effect.maxCoeff());
       const auto takes_part = [&](Eigen::Index j) { return std::abs(direction[j]) > part || effect[j] > least; };
-      return takes_part(i) || (above && takes_part(static_cast<Eigen::Index>(*above)));
+      for (Eigen::Index j = 0; j < size_; ++j)
+        if (slope_(i, j) != 0.0 && takes_part(j)) return true;
+      return false;
     });
   }
 
@@ -254,9 +258,11 @@ class Uncertainty {
     }
     fitted.std = std::sqrt(std::max(fit_.covariance(i, i), 0.0));
     const double width = quantiles_[static_cast<std::size_t>(i)] * fitted.std;
-    if (c.logarithmic && is_near_zero(i) && width > fitted.value) {
+    const auto& at_speed = fitted.parameter.at_speed;
+    const bool grows_by_factors = c.logarithmic || (at_speed && at_speed->power.sought && fitted.value > 0.0);
+    if (grows_by_factors && is_near_zero(i) && width > fitted.value) {
       fitted.interval95 = {0.0, fitted.value + width};
-    } else if (c.logarithmic) {
+    } else if (grows_by_factors) {
       const double factor = std::exp(std::min(width / fitted.value, 100.0));
       fitted.interval95 = {fitted.value / factor, fitted.value * factor};
     } else {
@@ -373,9 +379,10 @@ class Uncertainty {
       if (is_near_zero(i)) near_zero[i] = slope_(i, i) * full_change(i);
     const auto add = [&](const Eigen::VectorXd& direction, double deviation) {
       const Eigen::VectorXd change = full_changes().cwiseProduct(direction);
-      fit_.not_identifiable.push_back(trade_off(
+      std::optional<TradeOff> found = trade_off(
           {slope_ * change, direction, effects(change), deviation, rounding * strongest_, near_zero, reaches()},
-          parameters));
+          parameters);
+      if (found) fit_.not_identifiable.push_back(std::move(*found));
     };
     const Eigen::VectorXd ratio = judged_changes().cwiseQuotient(full_changes());
     for (const Eigen::VectorXd& direction : lost_) add(ratio.cwiseProduct(direction).normalized(), infinity);

@@ -17,9 +17,9 @@ TEST_CASE("trade-offs: what a profile ends is known to its end, whatever the dev
                                     .deviation = 170.0,
                                     .near_zero = Eigen::Vector2d(0.0, 0.1),
                                     .reach = Eigen::Vector2d(identify::unknown, identify::unknown)};
-  CHECK(identify::trade_off(direction, parameters).text ==
+  CHECK(identify::trade_off(direction, parameters)->text ==
         "the data hardly show static - kinetic: it is known to 34 N, and is zero within that");
   direction.reach[1] = 0.0302;
-  CHECK(identify::trade_off(direction, parameters).text ==
+  CHECK(identify::trade_off(direction, parameters)->text ==
         "the data hardly show static - kinetic: it is known to 0.03 N, and is zero within that");
 }
