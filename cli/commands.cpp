@@ -12,6 +12,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <thread>
 
 #include "bench/analyses.hpp"
@@ -35,6 +36,7 @@
 #include "cli/report/result_directory.hpp"
 #include "cli/stress.hpp"
 #include "core/cancellation.hpp"
+#include "core/input_file.hpp"
 #include "core/numbers.hpp"
 #include "friction_models/plugin.hpp"
 #include "scenarios/output.hpp"
@@ -322,6 +324,8 @@ int execute(const ReportCommand& command) {
     const CommandOutput output = guarded([&] {
       // A missing directory has no result; it is not created.
       if (std::error_code error; !fs::is_directory(directory, error)) {
+        if (error && !core::is_fault_of_name(error.value()))
+          throw std::system_error(error, directory + ": cannot be opened");
         const bool says_more = error && error != std::errc::no_such_file_or_directory;
         return refused(ExitStatus::invalid_input, directory + ": there is no such directory" +
                                                       (says_more ? " (" + error.message() + ")" : ""));

@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cerrno>
 #include <cmath>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <limits>
 #include <span>
 #include <utility>
@@ -199,13 +199,20 @@ LawEntry entry_of(const Refusal& refuse, const Table& table, core::Plugin plugin
   return entry;
 }
 
-std::string bytes_of(const Refusal& refuse, const std::string& file) {
+std::string sha256_of(const Refusal& refuse, const std::string& file) {
   std::error_code error;
-  refuse.unless(fs::exists(file, error), "there is no such file");
+  const bool is_there = fs::exists(file, error);
+  refuse.unless(!error, "it cannot be read: " + error.message());
+  refuse.unless(is_there, "there is no such file");
   refuse.unless(fs::is_regular_file(file, error), "it is not a file");
   std::ifstream in(file, std::ios::binary);
-  refuse.unless(in.good(), "it cannot be read");
-  return {std::istreambuf_iterator<char>(in), {}};
+  refuse.unless(in.good(), std::string("it cannot be read: ") + std::strerror(errno));
+  core::Sha256 sum;
+  std::array<char, 1U << 16U> piece{};
+  while (in.read(piece.data(), piece.size()), in.gcount() > 0)
+    sum.add({piece.data(), static_cast<std::size_t>(in.gcount())});
+  refuse.unless(!in.bad(), std::string("it cannot be read: ") + std::strerror(errno));
+  return sum.text();
 }
 
 /// The library's table. `path` is absolute, since dlopen searches other folders for a name without a path.
@@ -249,11 +256,11 @@ void add(const Refusal& refuse, const Table& table, const std::string& origin, c
 
 void load_plugin(const std::string& file) {
   const Refusal refuse(file);
-  const std::string bytes = bytes_of(refuse, file);
+  const std::string sum = sha256_of(refuse, file);
   const std::string path = fs::canonical(file).string();
   const auto is_loaded = [&](const LawEntry& entry) { return entry.plugin && entry.plugin->file == path; };
   if (std::ranges::any_of(laws(), is_loaded)) return;
-  add(refuse, table_of(refuse, path), path, core::sha256(bytes));
+  add(refuse, table_of(refuse, path), path, sum);
 }
 
 void add_plugin(const dualdamp_law_table& table, const std::string& origin, const std::string& sha256) {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <functional>
 #include <ostream>
 #include <span>
@@ -141,11 +140,12 @@ bool is_name_of_record(const std::string& name) {
   return digits >= 6 && (rest == ".csv" || rest == "-decay.csv" || rest == "-random.csv");
 }
 
+/// As far as it may tell a file of an export from others; empty if there is no file.
 std::string first_line(const fs::path& path) {
-  std::string line;
-  std::ifstream file(path, std::ios::binary);
-  std::getline(file, line);
-  return line;
+  constexpr std::size_t enough = 200;
+  if (std::error_code error; !fs::is_regular_file(path, error)) return {};
+  const std::string beginning = scenarios::beginning_of(path.string(), enough);
+  return beginning.substr(0, beginning.find('\n'));
 }
 
 bool is_key(const fs::path& path) {

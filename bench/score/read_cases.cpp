@@ -1,10 +1,12 @@
 #include <algorithm>
+#include <cerrno>
 #include <fstream>
 #include <optional>
 #include <utility>
 
 #include "bench/score/scores.hpp"
 #include "core/diagnostics.hpp"
+#include "core/input_file.hpp"
 #include "scenarios/format/json.hpp"
 #include "sim/parallel.hpp"
 
@@ -136,7 +138,7 @@ MarkedCases read_cases(const std::string& path, const Grid& grid) {
     throw core::InputError(core::Diagnostic{{path, static_cast<int>(at) + 2, 0, {}}, message, {}, {}, {}});
   };
   std::ifstream file(path);
-  if (!file) refuse(0, "cannot be opened");
+  if (!file) core::fail_to_read(path, "cannot be opened", errno);
   std::string line;
   std::getline(file, line);  // the campaign
   CaseMarker marker(grid);

@@ -14,6 +14,7 @@
 #include <cstdint>
 #include <fstream>
 #include <new>
+#include <system_error>
 #include <utility>
 
 namespace dualdamp::identify {
@@ -146,14 +147,14 @@ IsolatedEnd reason_of(int status) {
 IsolatedResult run_isolated(const IsolationLimits& limits, const std::function<void(const ByteSink&)>& work) {
   IsolatedResult result;
   std::array<int, 2> ends{};
-  if (::pipe2(ends.data(), O_CLOEXEC) != 0) return result;
+  if (::pipe2(ends.data(), O_CLOEXEC) != 0) throw std::system_error(errno, std::generic_category(), "pipe");
   Descriptor from(ends[0]);
   Descriptor to(ends[1]);
   const Clock::time_point deadline = Clock::now() + limits.wall_clock;
   const std::size_t used = address_space();
   const pid_t parent = ::getpid();
   const pid_t child = ::fork();
-  if (child < 0) return result;
+  if (child < 0) throw std::system_error(errno, std::generic_category(), "fork");
   if (child == 0) run_child(limits, parent, used, to.number(), work);
   to.close();
   const bool ended = collect(from.number(), deadline, result.bytes);

@@ -32,17 +32,17 @@ enum class IsolatedEnd {
   crashed,        ///< a signal or an exception ended it
   out_of_memory,  ///< std::bad_alloc under the limit
   out_of_time,
-  not_started,  ///< no process or pipe could be created
 };
 
 struct IsolatedResult {
-  IsolatedEnd end = IsolatedEnd::not_started;
+  IsolatedEnd end = IsolatedEnd::crashed;
   std::string bytes;
 };
 
 /// Takes bytes of the result. Ends the child if the caller has closed the pipe.
 using ByteSink = std::function<void(std::span<const char>)>;
 
+/// Errors: `std::system_error` if no process or pipe can be created.
 [[nodiscard]] IsolatedResult run_isolated(const IsolationLimits& limits,
                                           const std::function<void(const ByteSink&)>& work);
 

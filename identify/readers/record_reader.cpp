@@ -10,6 +10,7 @@
 #include <system_error>
 #include <utility>
 
+#include "core/input_file.hpp"
 #include "core/numbers.hpp"
 #include "core/provenance.hpp"
 #include "identify/readers/data_table.hpp"
@@ -91,7 +92,7 @@ std::string load(const std::string& path, const std::string& name) {
                 "fewer rows or columns; a record of 20 million rows fits");
   const auto close = [](std::FILE* file) { std::fclose(file); };
   const std::unique_ptr<std::FILE, decltype(close)> file(std::fopen(path.c_str(), "rb"), close);
-  if (!file) refuse_file(name, "cannot be opened: " + std::generic_category().message(errno));
+  if (!file) core::fail_to_read(name, "cannot be opened", errno);
   std::string bytes;
   std::array<char, sample_size> buffer{};
   LineLength line;
@@ -103,7 +104,7 @@ std::string load(const std::string& path, const std::string& name) {
     if (line.is_too_long() && !is_mat(bytes) && !is_universal_file(bytes))
       refuse_file(name, "a line has more than a million characters", "a row of numbers for each reading");
   }
-  if (std::ferror(file.get()) != 0) refuse_file(name, "cannot be read: " + std::generic_category().message(errno));
+  if (std::ferror(file.get()) != 0) core::fail_to_read(name, "cannot be read", errno);
   return bytes;
 }
 

@@ -4,6 +4,8 @@
 #include <filesystem>
 #include <system_error>
 
+#include "core/input_file.hpp"
+
 namespace dualdamp::scenarios {
 
 namespace fs = std::filesystem;
@@ -22,6 +24,7 @@ std::optional<std::string> path_of_data(CheckedFile& file, const std::string& ke
   const std::string& directory = file.data_place().directory;
   const fs::path root = fs::canonical(directory.empty() ? "." : directory, error);
   const fs::path target = fs::canonical(root / path, error);
+  if (error && !core::is_fault_of_name(error.value())) throw std::system_error(error, name + ": cannot be opened");
   if (error) {
     file.complain(place, subject + ": " + name + " cannot be opened: " + error.message(), allowed);
     return std::nullopt;

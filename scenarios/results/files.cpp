@@ -11,8 +11,10 @@
 #include <filesystem>
 #include <ostream>
 #include <streambuf>
+#include <utility>
 
 #include "core/diagnostics.hpp"
+#include "core/input_file.hpp"
 #include "core/provenance.hpp"
 
 namespace dualdamp::scenarios {
@@ -22,8 +24,10 @@ namespace {
 class Descriptor {
  public:
   explicit Descriptor(int number) : number_(number) {}
+  Descriptor(Descriptor&& other) noexcept : number_(std::exchange(other.number_, -1)) {}
   Descriptor(const Descriptor&) = delete;
   Descriptor& operator=(const Descriptor&) = delete;
+  Descriptor& operator=(Descriptor&&) = delete;
   ~Descriptor() {
     if (number_ >= 0) ::close(number_);
   }
@@ -123,9 +127,30 @@ bool is_sealed(std::string_view text) {
   return text.substr(seal.size(), end - seal.size()) == core::sha256(std::string(text.substr(end + 1)));
 }
 
+namespace {
+
+Descriptor open_to_read(const std::string& path) {
+  Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+  if (file.number() < 0) core::fail_to_read(path, "cannot be opened", errno);
+  return file;
+}
+
+/// Hands over a file piece by piece, until `take` returns false.
+template <typename Take>
+void read_pieces(const Descriptor& file, const std::string& path, Take take) {
+  std::array<char, 1 << 16> buffer{};
+  while (true) {
+    const ssize_t count = ::read(file.number(), buffer.data(), buffer.size());
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) core::fail_to_read(path, "cannot be read", errno);
+    if (count == 0 || !take(std::string_view(buffer.data(), static_cast<std::size_t>(count)))) return;
+  }
+}
+
+}  // namespace
+
 std::string read_file(const std::string& path, std::size_t limit) {
-  const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
-  if (file.number() < 0) refuse_input(path, std::string("cannot be opened: ") + std::strerror(errno));
+  const Descriptor file = open_to_read(path);
   struct stat status{};
   if (::fstat(file.number(), &status) == 0 && S_ISDIR(status.st_mode))
     refuse_input(path, "is a directory, not a file");
@@ -133,15 +158,30 @@ std::string read_file(const std::string& path, std::size_t limit) {
   if (S_ISREG(status.st_mode) && static_cast<std::uintmax_t>(status.st_size) > limit) refuse_large();
 
   std::string content;
-  std::array<char, 1 << 16> buffer{};
-  while (true) {
-    const ssize_t count = ::read(file.number(), buffer.data(), buffer.size());
-    if (count < 0 && errno == EINTR) continue;
-    if (count < 0) refuse_input(path, std::string("cannot be read: ") + std::strerror(errno));
-    if (count == 0) return content;
-    content.append(buffer.data(), static_cast<std::size_t>(count));
+  read_pieces(file, path, [&](std::string_view piece) {
+    content += piece;
     if (content.size() > limit) refuse_large();
-  }
+    return true;
+  });
+  return content;
+}
+
+std::string beginning_of(const std::string& path, std::size_t count) {
+  std::string beginning;
+  read_pieces(open_to_read(path), path, [&](std::string_view piece) {
+    beginning += piece.substr(0, count - beginning.size());
+    return beginning.size() < count;
+  });
+  return beginning;
+}
+
+std::string sha256_of_file(const std::string& path) {
+  core::Sha256 sum;
+  read_pieces(open_to_read(path), path, [&](std::string_view piece) {
+    sum.add(piece);
+    return true;
+  });
+  return sum.text();
 }
 
 int write_new_file(const std::string& path, const OutputFile& content) {

@@ -13,8 +13,14 @@
 
 namespace dualdamp::scenarios {
 
-/// The bytes of a file. A missing file, a directory, no permission, more than `limit` bytes: `core::InputError`.
+/// The bytes of a file. More than `limit` bytes: `core::InputError`; others: as of `core::fail_to_read`.
 [[nodiscard]] std::string read_file(const std::string& path, std::size_t limit);
+
+/// The first bytes of a file, up to `count`. Errors: as of `core::fail_to_read`.
+[[nodiscard]] std::string beginning_of(const std::string& path, std::size_t count);
+
+/// The digest of a file of any size. Errors: as of `core::fail_to_read`.
+[[nodiscard]] std::string sha256_of_file(const std::string& path);
 
 /// Writes a whole document. So a result of gigabytes is never a text in memory.
 using Writer = std::function<void(std::ostream&)>;

@@ -213,8 +213,6 @@ void refuse_unread_mat(const std::string& file, IsolatedEnd end) {
     case IsolatedEnd::out_of_memory:
       refuse_file(file, "reading the MATLAB file takes more than 4 GiB of memory: it is damaged or too large",
                   "the whole file, or a part of the record");
-    case IsolatedEnd::not_started:
-      refuse_file(file, "the MATLAB file cannot be read: the system could not start a process for it");
     case IsolatedEnd::crashed:
     case IsolatedEnd::done:
       break;
