@@ -106,6 +106,7 @@ scenarios::Answer run_campaign(const StressTest& question, const RunContext& con
   if (is_complete && options.found == scenarios::FoundCases::refuse)
     answer.warnings.emplace_back(
         "all cases of this campaign were there already: they are scored anew, not computed");
+  if (!file.damage().empty()) answer.warnings.push_back(file.damage());
   return answer;
 }
 

@@ -123,6 +123,7 @@ class SweepAnswer {
     for (const std::string& line : lines) {
       Json point = Json::parse(line);
       point.erase("case");
+      point.erase("check");
       points_.push_back(std::move(point));
     }
   }

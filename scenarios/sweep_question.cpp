@@ -1,8 +1,11 @@
 #include "scenarios/sweep_question.hpp"
 
+#include <cerrno>
 #include <fstream>
+#include <utility>
 
 #include "core/diagnostics.hpp"
+#include "core/input_file.hpp"
 #include "core/provenance.hpp"
 #include "scenarios/analyses/shared/long_run.hpp"
 #include "scenarios/results/files.hpp"
@@ -23,17 +26,20 @@ std::string SweepQuestion::size(const RunContext& /*context*/) const {
 Answer SweepQuestion::run(const RunContext& context) const {
   const RunOptions& options = context.options;
   std::vector<std::string> lines(points_.size());
+  std::string damage;
   if (options.directory.empty()) {
     Meter meter(0, points_.size(), options);
     share_out(points_.size(), options, [&](std::size_t point) {
       lines[point] = line(point, options);
       meter.add();
     });
-  } else if (!run_with_file(context, lines)) {
+  } else if (!run_with_file(context, lines, damage)) {
     return {};
   }
   try {
-    return answer_of_sweep(lines, columns_, fields_, main_);
+    Answer answer = answer_of_sweep(lines, columns_, fields_, main_);
+    if (!damage.empty()) answer.warnings.push_back(std::move(damage));
+    return answer;
   } catch (const Json::exception&) {
     // Lines of an earlier run, which may have been changed.
     core::Diagnostic problem{.message = "a line does not hold a point of this sweep",
@@ -47,7 +53,8 @@ std::string SweepQuestion::line(std::size_t point, const RunOptions& options) co
   return line_of(point, columns_, scenarios::run(points_.scenario(point), {.threads = options.threads}));
 }
 
-bool SweepQuestion::run_with_file(const RunContext& context, std::vector<std::string>& lines) const {
+bool SweepQuestion::run_with_file(const RunContext& context, std::vector<std::string>& lines,
+                                  std::string& damage) const {
   const RunOptions& options = context.options;
   ProcessGroup& processes = *options.processes;
   CaseFile file(options.directory, "points", fingerprint(context.resolved + "\n" + inputs_), points_.size(),
@@ -63,7 +70,9 @@ bool SweepQuestion::run_with_file(const RunContext& context, std::vector<std::st
   processes.wait();
   if (processes.rank() != 0) return false;
   file.finish();
+  damage = file.damage();
   std::ifstream finished(file.path());
+  if (!finished) core::fail_to_read(file.path(), "cannot be opened", errno);
   std::string head;
   std::getline(finished, head);
   for (std::string& line : lines) std::getline(finished, line);

@@ -30,7 +30,8 @@ class SweepQuestion final : public Question, public Campaign {
  private:
   [[nodiscard]] std::string line(std::size_t point, const RunOptions& options) const;
   /// False in all processes but the first.
-  [[nodiscard]] bool run_with_file(const RunContext& context, std::vector<std::string>& lines) const;
+  [[nodiscard]] bool run_with_file(const RunContext& context, std::vector<std::string>& lines,
+                                   std::string& damage) const;
 
   SweepPoints points_;
   std::vector<SweptColumn> columns_;

@@ -4,15 +4,17 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <charconv>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "core/diagnostics.hpp"
+#include "core/input_file.hpp"
+#include "core/provenance.hpp"
 #include "core/utf8.hpp"
 #include "scenarios/results/files.hpp"
 
@@ -23,15 +25,29 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::string_view number_key = "{\"case\":";
+constexpr std::string_view check_key = ",\"check\":\"";
+
+/// What ends a line that begins with this text.
+std::string check_of(std::string_view beginning) {
+  constexpr std::size_t digits = 16;
+  return std::string(check_key) + core::sha256(beginning).substr(0, digits) + "\"}";
+}
 
 /// The number of the case in a line; nothing for a line without a case.
 std::optional<std::size_t> number_of(std::string_view line) {
-  if (!line.starts_with(number_key) || !line.ends_with('}')) return std::nullopt;
+  if (!line.starts_with(number_key)) return std::nullopt;
   std::size_t number = 0;
   const char* begin = line.data() + number_key.size();
   const auto [end, fault] = std::from_chars(begin, line.data() + line.size(), number);
-  if (fault != std::errc() || end == begin || *end != ',') return std::nullopt;
+  if (fault != std::errc() || end == begin || end == line.data() + line.size() || *end != ',') return std::nullopt;
   return number;
+}
+
+/// The number of a line as it was written; nothing for one that was damaged or changed.
+std::optional<std::size_t> sound_number_of(std::string_view line) {
+  const std::size_t end = line.rfind(check_key);
+  if (end == std::string_view::npos || line.substr(end) != check_of(line.substr(0, end))) return std::nullopt;
+  return number_of(line);
 }
 
 [[noreturn]] void refuse(const std::string& path, std::string message, std::string allowed = {},
@@ -48,17 +64,27 @@ std::optional<std::size_t> number_of(std::string_view line) {
 class Lines {
  public:
   explicit Lines(std::string path) : path_(std::move(path)), file_(path_, std::ios::binary) {
-    if (!file_) refuse(path_, std::string("cannot be opened: ") + std::strerror(errno));
+    if (!file_) core::fail_to_read(path_, "cannot be opened", errno);
   }
 
-  /// False at the end, or before an incomplete last line.
+  /// False at the end, or before an incomplete last line. Of a long line that does not hold a case, only the
+  /// beginning is kept.
   bool next(std::string& line) {
-    if (std::getline(file_, line) && !file_.eof()) {
-      end_ += line.size() + 1;
-      return true;
+    line.clear();
+    std::uintmax_t length = 0;
+    while (true) {
+      file_.getline(piece_.data(), static_cast<std::streamsize>(piece_.size()));
+      if (file_.bad()) core::fail_to_read(path_, "cannot be read", errno);
+      if (file_.eof()) return false;
+      const auto count = static_cast<std::size_t>(file_.gcount());
+      const bool is_end = !file_.fail();  // the line end is counted, and not stored
+      if (line.empty() || line.starts_with(number_key)) line.append(piece_.data(), is_end ? count - 1 : count);
+      length += count;
+      if (is_end) break;
+      file_.clear();
     }
-    if (file_.bad()) refuse(path_, std::string("cannot be read: ") + std::strerror(errno));
-    return false;
+    end_ += length;
+    return true;
   }
   /// Bytes up to the end of the last line that was read.
   [[nodiscard]] std::uintmax_t end() const { return end_; }
@@ -67,6 +93,7 @@ class Lines {
   std::string path_;
   std::ifstream file_;
   std::uintmax_t end_ = 0;
+  std::array<char, 1U << 12U> piece_{};
 };
 
 void write_at(int descriptor, std::string_view text, std::uintmax_t place, const std::string& path) {
@@ -80,6 +107,11 @@ void write_at(int descriptor, std::string_view text, std::uintmax_t place, const
 }
 
 }  // namespace
+
+std::string checked_line(std::string_view line) {
+  const std::string_view beginning = line.substr(0, line.size() - 1);  // without the brace
+  return std::string(beginning) + check_of(beginning);
+}
 
 CaseFile::CaseFile(std::string directory, std::string name, const std::string& fingerprint, std::size_t cases,
                    int part)
@@ -116,24 +148,25 @@ std::vector<int> CaseFile::parts() const {
 
 std::size_t CaseFile::finished() const { return static_cast<std::size_t>(std::ranges::count(finished_, true)); }
 
-std::uintmax_t CaseFile::scan(int part, Lengths& lengths, Origin origin) const {
+CaseFile::Scan CaseFile::scan(int part, Lengths& lengths) const {
   const std::string path = part_path(part);
   Lines lines(path);
   std::string line;
+  Scan scan;
   // A head is incomplete if the campaign was killed before its first case.
-  if (!lines.next(line)) return 0;
+  if (!lines.next(line)) return scan;
   if (line != head_)
     refuse(path, "the cases are those of another campaign, or of another version of the program",
            "the same scenario, options and program; or another directory", core::shortened(line, 100));
-  std::uintmax_t end = lines.end();
-  while (lines.next(line)) {
-    const std::optional<std::size_t> number = number_of(line);
-    if (!number || *number >= lengths.size()) break;
-    if (origin == Origin::earlier_run && !nlohmann::json::accept(line)) break;
-    lengths[*number] = static_cast<std::uint32_t>(line.size() + 1);
-    end = lines.end();
+  for (std::size_t place = 2; lines.next(line); ++place) {
+    const std::optional<std::size_t> number = sound_number_of(line);
+    if (number && *number < lengths.size())
+      lengths[*number] = static_cast<std::uint32_t>(line.size() + 1);
+    else if (scan.damaged++ == 0)
+      scan.first_damaged = place;
   }
-  return end;
+  scan.end = lines.end();
+  return scan;
 }
 
 void CaseFile::prepare(FoundCases found) {
@@ -143,19 +176,22 @@ void CaseFile::prepare(FoundCases found) {
   open_part();  // no other process is writing
   if (found == FoundCases::resume) return;
   std::size_t cases = 0;
+  std::size_t sound = 0;
   bool is_this = true;
   for (const int part : parts()) {
     Lines lines(part_path(part));
     std::string line;
     if (!lines.next(line)) continue;
     const bool same = line == head_;
-    while (lines.next(line) && number_of(line)) {
+    while (lines.next(line)) {
+      if (!number_of(line)) continue;
       ++cases;
       is_this = is_this && same;
+      if (is_this && sound_number_of(line)) ++sound;
     }
   }
   if (found == FoundCases::refuse && cases > 0) {
-    if (is_this && cases >= finished_.size()) return;
+    if (is_this && sound >= finished_.size()) return;
     throw EarlierFiles(directory_ + " holds " + std::to_string(cases) + " finished cases of " +
                            (is_this ? "this campaign" : "another campaign"),
                        is_this);
@@ -180,10 +216,17 @@ void CaseFile::open() {
   open_part();
   Lengths lengths(finished_.size(), 0);
   std::uintmax_t end = 0;
+  std::size_t damaged = 0;
+  std::string first;
   for (const int part : parts()) {
-    const std::uintmax_t whole = scan(part, lengths, Origin::earlier_run);
-    if (part == part_) end = whole;
+    const Scan found = scan(part, lengths);
+    if (part == part_) end = found.end;
+    if (damaged == 0) first = part_path(part) + ":" + std::to_string(found.first_damaged);
+    damaged += found.damaged;
   }
+  if (damaged > 0)
+    damage_ = first + ": " + (damaged == 1 ? "a line is" : std::to_string(damaged) + " lines from here on are") +
+              " not as the program wrote it: what is missing is computed again";
   const std::string path = part_path(part_);
   if (::ftruncate(descriptor_, static_cast<off_t>(end)) != 0) fail_to_write(path, std::strerror(errno));
   if (end == 0) write_line(head_);
@@ -202,8 +245,9 @@ void CaseFile::write_line(const std::string& text) {
 }
 
 void CaseFile::add(const std::string& line) {
+  const std::string checked = checked_line(line);
   const std::lock_guard lock(mutex_);
-  write_line(line);
+  write_line(checked);
 }
 
 /// Each line is written at its place, which follows from the lengths of the lines before it.
@@ -224,8 +268,8 @@ void CaseFile::gather(const std::vector<int>& all, const Lengths& lengths, int d
     std::uintmax_t begin = 0;
     if (!lines.next(line)) continue;
     while (lines.next(line)) {
-      const std::optional<std::size_t> number = number_of(line);
-      if (!number || *number >= lengths.size()) break;
+      const std::optional<std::size_t> number = sound_number_of(line);
+      if (!number || *number >= lengths.size()) continue;
       if (lengths[*number] != line.size() + 1)
         refuse(part_path(part), "case " + std::to_string(*number) + " is there twice and differs");
       if (places[*number] != begin + run.size() || run.size() > enough) {
@@ -242,7 +286,7 @@ void CaseFile::gather(const std::vector<int>& all, const Lengths& lengths, int d
 void CaseFile::finish() {
   Lengths lengths(finished_.size(), 0);
   const std::vector<int> all = parts();
-  for (const int part : all) scan(part, lengths, Origin::this_run);
+  for (const int part : all) static_cast<void>(scan(part, lengths));
   if (const auto missing = std::ranges::count(lengths, 0U); missing > 0) {
     const auto first = std::ranges::find(lengths, 0U) - lengths.begin();
     fail_to_write(path(), std::to_string(missing) + " cases are missing, first " + std::to_string(first));

@@ -4,23 +4,29 @@
 ///
 /// The first line names the campaign by the fingerprint of its resolved scenario and program. If there are several
 /// processes, each writes a part (`NAME.1.jsonl`, ...), and `finish` collects the parts, in the order of the case
-/// numbers, in `NAME.jsonl`. A line begins with `{"case":NUMBER,`. A process holds a lock (flock) on the part that
-/// it writes, so that two runs never write to one file. Cases of an earlier run are deleted only if the caller asks
+/// numbers, in `NAME.jsonl`. A line begins with `{"case":NUMBER,` and ends with `,"check":"DIGITS"}`: the first 16
+/// hexadecimal digits of the SHA-256 of what stands before the comma. A line that does not agree with its digits
+/// was damaged, or changed: its case does not count as finished. A process holds a lock (flock) on the part that it
+/// writes, so that two runs never write to one file. Cases of an earlier run are deleted only if the caller asks
 /// for it.
 ///
-/// Memory is 13 bytes a case. Errors: `core::InputError` for a file of another campaign or one that cannot be read,
-/// `OutputError` for one that cannot be written, that another process writes to, or whose cases would be
-/// lost.
+/// Memory is 13 bytes a case. Errors: `core::InputError` for a file of another campaign, others as of
+/// `core::fail_to_read`; `OutputError` for one that cannot be written, that another process writes to, or whose
+/// cases would be lost.
 
 #include <cstddef>
 #include <cstdint>
 #include <mutex>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "scenarios/results/found_cases.hpp"
 
 namespace dualdamp::scenarios {
+
+/// A line with its check. `line`: an object.
+[[nodiscard]] std::string checked_line(std::string_view line);
 
 class CaseFile {
  public:
@@ -39,8 +45,10 @@ class CaseFile {
   /// Whether the case was there when the part was opened.
   [[nodiscard]] bool is_finished(std::size_t number) const { return finished_[number]; }
   [[nodiscard]] std::size_t finished() const;
+  /// What to tell about damaged lines of an earlier run; empty: there are none.
+  [[nodiscard]] const std::string& damage() const { return damage_; }
 
-  /// Adds a line with one write; from any thread.
+  /// Adds a line and its check with one write; from any thread.
   void add(const std::string& line);
 
   /// Collects all parts, in order, in `NAME.jsonl`, which must then be complete; with two files open at a time.
@@ -52,17 +60,20 @@ class CaseFile {
   [[nodiscard]] std::string path() const { return part_path(0); }
 
  private:
-  /// An earlier run may have been killed while writing, so its lines are read completely. The lines of this run are
-  /// complete.
-  enum class Origin { earlier_run, this_run };
+  /// A part of the file as it was read.
+  struct Scan {
+    std::uintmax_t end = 0;         ///< bytes of its complete lines
+    std::size_t damaged = 0;        ///< lines
+    std::size_t first_damaged = 0;  ///< number of the line
+  };
   using Lengths = std::vector<std::uint32_t>;  ///< of the lines, by case number; 0: not there
 
   [[nodiscard]] std::string part_path(int part) const;
   [[nodiscard]] std::vector<int> parts() const;
   void open_part();
   void write_line(const std::string& text);
-  /// Stores the lengths of the complete lines of a part; returns their number of bytes.
-  std::uintmax_t scan(int part, Lengths& lengths, Origin origin) const;
+  /// Stores the lengths of the sound lines of a part.
+  Scan scan(int part, Lengths& lengths) const;
   void gather(const std::vector<int>& all, const Lengths& lengths, int descriptor) const;
 
   std::string directory_;
@@ -72,6 +83,7 @@ class CaseFile {
   int descriptor_ = -1;
   std::mutex mutex_;
   std::vector<bool> finished_;
+  std::string damage_;
 };
 
 }  // namespace dualdamp::scenarios

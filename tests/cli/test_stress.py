@@ -244,6 +244,20 @@ class Stress(unittest.TestCase):
             self.check_same(out, reference)
         self.assertGreater(interrupted, KILLS // 2)
 
+    def test_a_damaged_case_is_computed_again(self):
+        reference = self.reference()
+        head, *lines = (reference / "cases.jsonl").read_text().splitlines()
+        for number, (old, new) in enumerate((('"zeta":0.', '"zeta":0.9'), ('"usable":true', '"usable":false'), ('"severity":', '"severity":1'), ('"check":"', '"check":"0'))):
+            with self.subTest(old):
+                out = self.folder / f"damaged{number}"
+                out.mkdir()
+                place = next(i for i, line in enumerate(lines) if old in line)
+                changed = [*lines[:place], lines[place].replace(old, new, 1), *lines[place + 1:]]
+                (out / "cases.jsonl").write_text("\n".join([head, *changed]) + "\n")
+                result = self.run_program("run", SCENARIO, "--out", out, "--resume")
+                self.assertIn(f"cases.jsonl:{place + 2}: a line is not as the program wrote it", result.stderr)
+                self.check_same(out, reference)
+
     def test_another_campaign_is_not_mixed_in(self):
         out = self.folder / "one"
         shutil.copytree(self.reference(), out)

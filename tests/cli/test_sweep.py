@@ -5,6 +5,7 @@ usage: test_sweep.py PROGRAM ROOT [TEST...]; DUALDAMP_KILLS: how often a sweep i
 """
 
 import csv
+import hashlib
 import json
 import os
 import random
@@ -140,6 +141,30 @@ class Sweep(Case):
         self.run_program("run", "two.yaml", "--out", "out")
         result = self.run_program("run", "two.yaml", "--out", "out", "--resume", "--set", "system.mass=2 kg", status=3)
         self.assertIn("another campaign", result.stderr)
+
+    def test_a_damaged_point_is_computed_again(self):
+        """A digit, a word or a key of any field, and the check itself."""
+        self.write("two.yaml", TWO_KEYS)
+        self.run_program("run", "two.yaml", "--out", "whole")
+        points = (self.folder / "whole/points.jsonl").read_text()
+        head, zeroth, first, *others = points.splitlines()
+        self.assertEqual(first[-28:], ',"check":"' + hashlib.sha256(first[:-28].encode()).hexdigest()[:16] + '"}')
+        fields = [*json.loads(first), *json.loads(first)["result"]]
+        damages = [first.replace(f'"{field}"', f'"{field[1:]}"', 1) for field in fields]
+        damages += [first.replace('"case":1', '"case":0'), first.replace('"status":0', '"status":4'), first.replace("0.", "0.9", 1), first.replace('"peak":0', '"peak":1'),
+                    first[:-28] + "}", first[:-3] + '"}', first[:-1], first.upper(), ""]
+        shutil.copytree(self.folder / "whole", self.folder / "out")
+        for damaged in damages:
+            with self.subTest(damaged[:60]):
+                self.assertNotEqual(damaged, first)
+                (self.folder / "out/points.jsonl").write_text("\n".join([head, zeroth, damaged, *others]) + "\n")
+                result = self.run_program("run", "two.yaml", "--out", "out", "--resume")
+                self.assertIn("points.jsonl:3: a line is not as the program wrote it: what is missing is computed again", result.stderr)
+                self.check_same("out", "whole")
+        self.assertNotIn("not as the program wrote it", self.run_program("run", "two.yaml", "--out", "out", "--resume").stderr)
+        # Without --resume, a sweep with a damaged point is not finished.
+        (self.folder / "out/points.jsonl").write_text(points.replace('"peak":0', '"peak":1', 1))
+        self.assertIn("--resume goes on with them", self.run_program("run", "two.yaml", "--out", "out", status=2).stderr)
 
     def test_status(self):
         self.write("half.yaml", HALF_FAILS)

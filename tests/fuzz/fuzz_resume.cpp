@@ -1,5 +1,6 @@
 /// Files of finished points that a sweep is to go on with: the parts of the input before and after the first zero
-/// byte are the points of this process and those of a second one, without their first lines.
+/// byte are the points of this process and those of a second one, without their first lines and the checks of
+/// lines.
 
 #include <filesystem>
 #include <fstream>
@@ -8,6 +9,7 @@
 
 #include "core/diagnostics.hpp"
 #include "scenarios/format/json.hpp"
+#include "scenarios/results/case_file.hpp"
 #include "scenarios/results/files.hpp"
 #include "scenarios/run.hpp"
 #include "scenarios/scenario.hpp"
@@ -46,15 +48,29 @@ const std::string& head(const std::string& folder) {
   return line;
 }
 
+/// With the right check after each line: a wrong one alone would leave the contents unread.
+std::string with_checks(std::string_view lines) {
+  std::string text;
+  while (!lines.empty()) {
+    const auto end = lines.find('\n');
+    const std::string_view line = lines.substr(0, end);
+    text += line.empty() ? std::string() : scenarios::checked_line(line);
+    if (end == std::string_view::npos) break;
+    text += '\n';
+    lines.remove_prefix(end + 1);
+  }
+  return text;
+}
+
 }  // namespace
 
 void dualdamp::fuzz::consume(std::string_view input) {
   const std::string place = folder().string();
   const auto zero = input.find('\0');
-  (void)written("points.jsonl", head(place) + std::string(input.substr(0, zero)));
+  (void)written("points.jsonl", head(place) + with_checks(input.substr(0, zero)));
   std::filesystem::remove(folder() / "points.1.jsonl");
   if (zero != std::string_view::npos)
-    (void)written("points.1.jsonl", head(place) + std::string(input.substr(zero + 1)));
+    (void)written("points.1.jsonl", head(place) + with_checks(input.substr(zero + 1)));
   try {
     const scenarios::RunResult result = run(place, scenarios::FoundCases::resume);
     require(!result.result.empty() && result.result != "null", "a sweep that is gone on with has a result");

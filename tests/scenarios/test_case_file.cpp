@@ -40,7 +40,7 @@ std::string text(const fs::path& path) {
 
 std::string whole(std::size_t cases) {
   std::string result = "{\"campaign\":\"abc\",\"cases\":" + std::to_string(cases) + "}\n";
-  for (std::size_t i = 0; i < cases; ++i) result += line(i) + "\n";
+  for (std::size_t i = 0; i < cases; ++i) result += dualdamp::scenarios::checked_line(line(i)) + "\n";
   return result;
 }
 
@@ -90,6 +90,63 @@ TEST_CASE("case file: wherever it is cut, whole lines are kept and the rest is d
     file.finish();
     CHECK(text(file.path()) == all);
   }
+}
+
+TEST_CASE("case file: the check of a line is the beginning of a SHA-256") {
+  // printf '{"case":3,"value":21' | sha256sum
+  CHECK(dualdamp::scenarios::checked_line(line(3)) == "{\"case\":3,\"value\":21,\"check\":\"ae9b8c508e05f113\"}");
+}
+
+TEST_CASE("case file: a case is done again if any byte of its line was changed") {
+  const Folder folder;
+  const std::string all = whole(4);
+  const std::size_t begin = all.find("{\"case\":1");
+  const std::size_t end = all.find("{\"case\":2");
+  for (std::size_t place = begin; place < end; ++place)
+    for (const char other : {'7', '\n'}) {
+      if (all[place] == other) continue;
+      CAPTURE(place - begin, other);
+      std::string changed = all;
+      changed[place] = other;
+      fs::remove_all(folder.path);
+      fs::create_directories(folder.path);
+      std::ofstream(folder.path / "cases.jsonl") << changed;
+      CaseFile file(folder.path, "cases", "abc", 4);
+      resume(file);
+      CHECK_FALSE(file.is_finished(1));
+      CHECK(file.is_finished(0));
+      CHECK(file.is_finished(2) == (place + 1 < end));  // without its end, the line goes on with the next one
+      CHECK(file.is_finished(3));
+      CHECK_THAT(file.damage(), Catch::Contains("cases.jsonl:3: "));
+      for (std::size_t i = 0; i < 4; ++i)
+        if (!file.is_finished(i)) file.add(line(i));
+      file.finish();
+      REQUIRE(text(file.path()) == all);
+      CaseFile again(folder.path, "cases", "abc", 4);
+      resume(again);
+      CHECK(again.finished() == 4);
+      CHECK(again.damage().empty());
+    }
+}
+
+TEST_CASE("case file: damaged lines in the part of a process that has gone") {
+  const Folder folder;
+  fs::create_directories(folder.path);
+  const std::string head = "{\"campaign\":\"abc\",\"cases\":4}\n";
+  const auto sound = [](std::size_t number) { return dualdamp::scenarios::checked_line(line(number)) + "\n"; };
+  std::string changed = sound(2);
+  changed[changed.find("14")] = '2';
+  std::ofstream(folder.path / "cases.jsonl") << head << sound(0);
+  std::ofstream(folder.path / "cases.3.jsonl") << head << changed << sound(3) << line(1) << "\n"
+                                               << std::string(300'000, 'x') << "\n";
+  CaseFile file(folder.path, "cases", "abc", 4);
+  resume(file);
+  CHECK_THAT(file.damage(), Catch::Contains("cases.3.jsonl:2: 3 lines"));
+  CHECK(file.finished() == 2);
+  file.add(line(1));
+  file.add(line(2));
+  file.finish();
+  CHECK(text(file.path()) == whole(4));
 }
 
 TEST_CASE("case file: the cases of another campaign are refused and left alone") {
@@ -166,7 +223,8 @@ TEST_CASE("case file: finished cases are lost only on demand") {
     CHECK(text(file.path()) == whole(4));
   }
   {  // of this one, interrupted
-    std::ofstream(folder.path / "cases.jsonl") << "{\"campaign\":\"abc\",\"cases\":4}\n" << line(1) << "\n";
+    std::ofstream(folder.path / "cases.jsonl") << "{\"campaign\":\"abc\",\"cases\":4}\n"
+                                               << dualdamp::scenarios::checked_line(line(1)) << "\n";
     CaseFile file(folder.path, "cases", "abc", 4);
     CHECK_THROWS_MATCHES(begin(file), EarlierFiles, earlier("1 finished cases of this campaign", true));
   }
