@@ -40,7 +40,7 @@ scenarios::OutputFile key_file(const Key& key) {
 
 Key read_key(const std::string& path) {
   using scenarios::Json;
-  const Json json = scenarios::parse_json(scenarios::read_file(path, most_key_bytes));
+  const Json json = scenarios::parse_json(scenarios::read_file(path, most_key_bytes), most_key_bytes);
   const auto refuse_content = [&] {
     refuse_key(path, "this is no key of a stress test", "key.json of 'dualdamp stress export'");
   };

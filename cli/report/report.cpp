@@ -1,7 +1,6 @@
 #include "cli/report/report.hpp"
 
 #include <filesystem>
-#include <limits>
 #include <nlohmann/json.hpp>
 #include <ostream>
 #include <sstream>
@@ -10,7 +9,6 @@
 #include "cli/report/assets.hpp"
 #include "cli/report/page.hpp"
 #include "cli/report/stored_run.hpp"
-#include "core/diagnostics.hpp"
 #include "scenarios/results/shown_units.hpp"
 
 namespace dualdamp::cli {
@@ -58,23 +56,6 @@ scenarios::OutputFile report_page(const std::string& directory, const std::strin
             write_page(out, document(run), tables(run),
                        {assets::views_js, assets::sweep_js, assets::views_of_analyses_js, assets::page_js});
           }};
-}
-
-std::optional<StoredResult> stored_result(const std::string& directory) {
-  std::error_code error;
-  if (!fs::is_regular_file(fs::path(directory) / "result.json", error)) return std::nullopt;
-  try {
-    const StoredRun run(directory);
-    StoredResult stored;
-    if (const auto identity = identity_of(run.document()); identity.contains("source"))
-      stored.source = identity.at("source");
-    for (const fs::path& path : run.tables())  // a table that the user has changed is the user's file
-      if (run.is_as_written(path, scenarios::read_file(path.string(), std::numeric_limits<std::size_t>::max())))
-        stored.tables.push_back(path.filename().string());
-    return stored;
-  } catch (const core::InputError&) {
-    return std::nullopt;  // no result of this program
-  }
 }
 
 }  // namespace dualdamp::cli

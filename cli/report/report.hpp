@@ -1,9 +1,7 @@
 #pragma once
 /// The page of a result directory, made from result.json and the tables beside it.
 
-#include <optional>
 #include <string>
-#include <vector>
 
 #include "scenarios/results/files.hpp"
 
@@ -13,14 +11,5 @@ namespace dualdamp::cli {
 /// 50,000 rows (200,000 of a map), are thinned out, and the page says so. Tables of another run or program are not
 /// shown. Errors: `core::InputError`, thrown when the file is written, if there is no result.json of this program.
 [[nodiscard]] scenarios::OutputFile report_page(const std::string& directory, const std::string& units = {});
-
-/// The files in a directory that belong to the run of its result.json.
-struct StoredResult {
-  std::string source;               ///< scenario or data file
-  std::vector<std::string> tables;  ///< names of their files
-};
-
-/// Nothing if the directory has no result of this program.
-[[nodiscard]] std::optional<StoredResult> stored_result(const std::string& directory);
 
 }  // namespace dualdamp::cli

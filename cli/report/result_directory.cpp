@@ -2,14 +2,13 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <iterator>
 #include <limits>
 #include <optional>
 #include <system_error>
 
 #include "cli/report/report.hpp"
-#include "core/provenance.hpp"
+#include "cli/report/stored_run.hpp"
 
 namespace dualdamp::cli {
 
@@ -20,10 +19,8 @@ namespace fs = std::filesystem;
 /// Whether a table of an earlier run was read by this run: history.csv of a simulation may be identified in its own
 /// directory.
 bool is_data(const fs::path& path, const std::vector<std::string>& data_sha256) {
-  if (data_sha256.empty()) return false;
-  const std::string sum =
-      core::sha256(scenarios::read_file(path.string(), std::numeric_limits<std::size_t>::max()));
-  return std::ranges::find(data_sha256, sum) != data_sha256.end();
+  return !data_sha256.empty() &&
+         std::ranges::find(data_sha256, scenarios::sha256_of_file(path.string())) != data_sha256.end();
 }
 
 /// The text with which every file of this kind begins, if the program wrote it.
@@ -37,11 +34,14 @@ std::string_view mark_of(const fs::path& path) {
 }
 
 bool is_ours(const fs::path& path) {
-  if (path.extension() == ".yaml")
-    return scenarios::is_sealed(scenarios::read_file(path.string(), std::numeric_limits<std::size_t>::max()));
-  std::string begin(mark_of(path).size(), '\0');
-  std::ifstream(path, std::ios::binary).read(begin.data(), static_cast<std::streamsize>(begin.size()));
-  return begin == mark_of(path);
+  try {
+    if (path.extension() == ".yaml")
+      return scenarios::is_sealed(scenarios::read_file(path.string(), std::numeric_limits<std::size_t>::max()));
+    return scenarios::beginning_of(path.string(), mark_of(path).size()) == mark_of(path);
+  } catch (const std::system_error& fault) {
+    if (fault.code() == std::errc::permission_denied) return false;  // a file of somebody else
+    throw;
+  }
 }
 
 /// Scenarios that a fit has written into the directory and nobody has changed.
@@ -57,16 +57,25 @@ std::vector<std::string> fitted_scenarios(const fs::path& directory) {
   return names;
 }
 
-void remove_stale(const fs::path& directory, const StoredResult& before,
-                  const std::vector<std::string>& data_sha256, const std::vector<scenarios::OutputFile>& files) {
+/// A table of an earlier run that the user has changed is the user's file.
+bool is_as_written(const fs::path& table, const EarlierResult& before) {
+  const auto sum = before.sums.find(table.filename().string());
+  return sum == before.sums.end() || sum->second == scenarios::sha256_of_file(table.string());
+}
+
+/// Files of the earlier run that this run does not write.
+std::vector<fs::path> stale_files(const fs::path& directory, const EarlierResult& before,
+                                  const std::vector<std::string>& data_sha256,
+                                  const std::vector<scenarios::OutputFile>& files) {
   std::vector<std::string> names = fitted_scenarios(directory);
   names.insert(names.end(), before.tables.begin(), before.tables.end());
+  std::vector<fs::path> stale;
   for (const std::string& name : names) {
+    const fs::path path = directory / name;
     const bool is_written = std::ranges::find(files, name, &scenarios::OutputFile::name) != files.end();
-    if (is_written || is_data(directory / name, data_sha256)) continue;
-    std::error_code error;
-    fs::remove(directory / name, error);  // if it cannot be removed, its provenance still shows the other run
+    if (!is_written && !is_data(path, data_sha256) && is_as_written(path, before)) stale.push_back(path);
   }
+  return stale;
 }
 
 std::vector<std::string> set_others_aside(const fs::path& directory,
@@ -98,16 +107,19 @@ std::vector<std::string> write_results(scenarios::StagedFiles& staged, const std
                                        std::vector<scenarios::OutputFile> files) {
   const std::string& directory = staged.directory();
   std::vector<std::string> messages;
-  const std::optional<StoredResult> before = stored_result(directory);
+  const std::optional<EarlierResult> before = earlier_result(directory);
   if (before && before->source != source)
     messages.push_back(directory + " held the result of " + before->source +
                        ", which is replaced; --out DIR keeps results apart");
   for (const scenarios::OutputFile& file : files) staged.write(file);
   files.push_back(report_page(staged.path()));
   staged.write(files.back());
+  std::vector<fs::path> stale;
+  if (before) stale = stale_files(directory, *before, data_sha256, files);
   std::ranges::copy(set_others_aside(directory, files, data_sha256), std::back_inserter(messages));
   staged.publish();
-  if (before) remove_stale(directory, *before, data_sha256, files);
+  std::error_code error;  // if a file cannot be removed, its provenance still shows the other run
+  for (const fs::path& path : stale) fs::remove(path, error);
   return messages;
 }
 

@@ -1,13 +1,15 @@
 #include "cli/report/stored_run.hpp"
 
 #include <algorithm>
-#include <fstream>
 #include <limits>
 #include <sstream>
+#include <system_error>
+#include <utility>
 
 #include "core/diagnostics.hpp"
 #include "core/numbers.hpp"
 #include "core/provenance.hpp"
+#include "scenarios/format/json_text.hpp"
 #include "scenarios/results/files.hpp"
 #include "scenarios/results/shown_units.hpp"
 #include "scenarios/results/table.hpp"
@@ -28,37 +30,62 @@ constexpr const char* as_no_run_writes = "the file is not as a run wrote it: run
   throw core::InputError(std::move(problem));
 }
 
-/// The document with long lists cut off. The tables have all rows.
+/// A document with long lists cut off: the tables have all rows. The results of the points of a sweep are in its
+/// tables as well.
+class DocumentBuilder : public scenarios::JsonBuilder {
+ protected:
+  [[nodiscard]] Use use_of(bool is_object) const override {
+    constexpr std::size_t depth_of_items = 3;  // {result: {points: [item
+    constexpr std::size_t most_items = 5000;
+    if (depth() == 0) return is_object ? Use::keep : Use::stop;
+    if (depth() == depth_of_items && is_object && parent().is_array() && parent().size() >= most_items)
+      return Use::leave_out;
+    const bool is_point = depth() == depth_of_items + 1 && key_at(0) == "result" && key_at(1) == "sweep";
+    return is_point && key_at(depth_of_items) == "result" ? Use::leave_out : Use::keep;
+  }
+  [[nodiscard]] std::size_t most_in_list() const override { return 100'000; }
+};
+
+/// The provenance of a document that begins as a run writes it. What follows is not read.
+class ProvenanceBuilder : public scenarios::JsonBuilder {
+ protected:
+  [[nodiscard]] Use use_of(bool is_object) const override {
+    if (depth() == 0) return is_object ? Use::keep : Use::stop;
+    if (depth() > 1) return Use::keep;
+    return key_at(0) == "program" || key_at(0) == "provenance" ? Use::keep : Use::stop;
+  }
+};
+
 Json read_document(const fs::path& path) {
-  constexpr int depth_of_items = 3;  // {result: {points: [item
-  constexpr std::size_t most_items = 5000;
-  std::ifstream file(path);
-  if (!file) refuse(path, "there is no result here: the file cannot be opened");
-  std::size_t items = 0;
-  const auto keep = [&](int depth, Json::parse_event_t event, const Json& /*parsed*/) {
-    if (event == Json::parse_event_t::array_start && depth < depth_of_items) items = 0;
-    const bool is_item = event == Json::parse_event_t::object_end && depth == depth_of_items;
-    return !is_item || ++items <= most_items;
-  };
-  Json json = Json::parse(file, keep, false);
-  if (json.is_discarded()) refuse(path, "the file is not a whole JSON document");
+  if (std::error_code error; !fs::exists(path, error) && !error)
+    refuse(path, "there is no result here: the file cannot be opened");
+  DocumentBuilder builder;
+  if (!scenarios::parse_json_file(path.string(), builder))
+    refuse(path, builder.is_beyond_limits() ? "the file holds more, or nests deeper, than any result of a run"
+                                            : "the file is not a whole JSON document");
+  Json json = builder.take();
   for (const char* key : {"program", "analysis", "status", "result", "warnings", "checks", "errors"})
     if (!json.is_object() || !json.contains(key))
       refuse(path, std::string("this is no result of dualdamp: there is no '") + key + "'");
-  // The results of the points of a sweep are in its tables.
   if (!json["result"].is_object() || !json["result"].contains("sweep")) return json;
-  if (!json["result"]["sweep"].is_array()) refuse(path, as_no_run_writes);
-  for (Json& point : json["result"]["sweep"]) {
-    if (!point.is_object()) refuse(path, as_no_run_writes);
-    point.erase("result");
-  }
+  const Json& points = json["result"]["sweep"];
+  if (!points.is_array() || !std::ranges::all_of(points, &Json::is_object)) refuse(path, as_no_run_writes);
+  for (Json& point : json["result"]["sweep"]) point.erase("result");  // a failed one is null
   return json;
 }
 
-/// Whether this run wrote the table. Other files in the directory may come from elsewhere.
+/// Whether this run, which states no sums, wrote the table. Other files in the directory may come from elsewhere.
 bool belongs_to(const std::map<std::string, std::string>& identity, const fs::path& path) {
+  constexpr std::size_t most_bytes = 1U << 16U;
   std::size_t found = 0;
-  std::ifstream file(path);
+  std::string beginning;
+  try {
+    beginning = scenarios::beginning_of(path.string(), most_bytes);
+  } catch (const std::system_error& fault) {
+    if (fault.code() == std::errc::permission_denied) return false;
+    throw;
+  }
+  std::istringstream file(std::move(beginning));
   for (std::string line; std::getline(file, line) && line.starts_with("# ");) {
     const std::size_t colon = line.find(": ");
     if (colon == std::string::npos) continue;
@@ -88,10 +115,10 @@ std::vector<fs::path> tables_of(const fs::path& directory, const Json& document,
                                 const std::map<std::string, std::string>& sums) {
   const std::map<std::string, std::string> identity = identity_of(document);
   std::vector<fs::path> paths;
-  std::error_code error;  // a file that cannot be read is no table
-  for (const fs::directory_entry& entry : fs::directory_iterator(directory, error))
-    if (entry.path().extension() == ".csv" && entry.is_regular_file(error) &&
-        (sums.contains(entry.path().filename().string()) || belongs_to(identity, entry.path())))
+  std::error_code unseen;  // what cannot be examined is no table
+  for (const fs::directory_entry& entry : fs::directory_iterator(directory))
+    if (entry.path().extension() == ".csv" && entry.is_regular_file(unseen) &&
+        (sums.empty() ? belongs_to(identity, entry.path()) : sums.contains(entry.path().filename().string())))
       paths.push_back(entry.path());
   std::ranges::sort(paths);
   return paths;
@@ -156,6 +183,30 @@ std::map<std::string, std::string> identity_of(const Json& document) {
   return identity;
 }
 
+std::optional<EarlierResult> earlier_result(const std::string& directory) {
+  const fs::path path = fs::path(directory) / "result.json";
+  if (std::error_code error; !fs::is_regular_file(path, error)) return std::nullopt;
+  ProvenanceBuilder builder;
+  static_cast<void>(scenarios::parse_json_file(path.string(), builder));
+  const Json document = builder.take();
+  const auto has = [](const Json& object, const char* key, const char* of) {
+    return object.is_object() && object.contains(key) && object[key].is_object() && object[key].contains(of);
+  };
+  if (!has(document, "program", "name") || document["program"]["name"] != "dualdamp" ||
+      !has(document, "provenance", "source"))
+    return std::nullopt;
+  try {
+    EarlierResult result{.sums = sums_of(directory, document)};
+    const auto identity = identity_of(document);
+    if (identity.contains("source")) result.source = identity.at("source");
+    for (const fs::path& table : tables_of(directory, document, result.sums))
+      result.tables.push_back(table.filename().string());
+    return result;
+  } catch (const core::InputError&) {
+    return std::nullopt;  // its provenance is not as a run wrote it
+  }
+}
+
 const StoredColumn* StoredTable::find(std::string_view name) const {
   const auto found = std::ranges::find(columns, name, &StoredColumn::name);
   return found == columns.end() ? nullptr : &*found;
@@ -186,14 +237,11 @@ void StoredRun::read(const std::function<void()>& work) const {
   }
 }
 
-bool StoredRun::is_as_written(const fs::path& table, std::string_view text) const {
-  const auto sum = sums_.find(table.filename().string());
-  return sum == sums_.end() || sum->second == core::sha256(text);
-}
-
 std::string StoredRun::text_of(const fs::path& table) const {
   std::string text = scenarios::read_file(table.string(), std::numeric_limits<std::size_t>::max());
-  if (!is_as_written(table, text)) refuse(table, "the table is not as the run wrote it: run the scenario again");
+  const auto sum = sums_.find(table.filename().string());
+  if (sum != sums_.end() && sum->second != core::sha256(text))
+    refuse(table, "the table is not as the run wrote it: run the scenario again");
   return text;
 }
 

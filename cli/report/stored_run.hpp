@@ -5,6 +5,7 @@
 #include <functional>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -38,9 +39,9 @@ class StoredRun {
  public:
   using Json = nlohmann::ordered_json;
 
-  /// Lists of the document are cut after 5000 items; the tables have all rows. `units`: units of the numbers that
-  /// are shown (`--show-in`); they precede those that the user wrote. Errors: `core::InputError` if there is no
-  /// result.json of this program.
+  /// Lists of the document are cut after 5000 items, or 100,000 numbers; the tables have all rows. `units`: units
+  /// of the numbers that are shown (`--show-in`); they precede those that the user wrote. Errors:
+  /// `core::InputError` if there is no result.json of this program; others as of `core::fail_to_read`.
   explicit StoredRun(const std::string& directory, const std::string& units = {});
 
   [[nodiscard]] const std::filesystem::path& directory() const { return directory_; }
@@ -49,8 +50,6 @@ class StoredRun {
   [[nodiscard]] const std::vector<std::filesystem::path>& tables() const { return tables_; }
   /// The text of a table. Errors: `core::InputError` if the table was changed after the run.
   [[nodiscard]] std::string text_of(const std::filesystem::path& table) const;
-  /// Whether `text` is the text that the run wrote to this table. True if the run states no SHA-256 sums.
-  [[nodiscard]] bool is_as_written(const std::filesystem::path& table, std::string_view text) const;
   /// A table of this run; without columns if the run has no table of this name. Errors: as `text_of`.
   [[nodiscard]] StoredTable table(std::string_view name) const;
   /// Calls `work`, which reads the document. Errors: `core::InputError` if the document does not have the form that
@@ -65,6 +64,17 @@ class StoredRun {
   std::map<std::string, std::string> sums_;
   std::vector<std::filesystem::path> tables_;
 };
+
+/// The files in a directory that belong to the run of its result.json.
+struct EarlierResult {
+  std::string source;                       ///< scenario or data file
+  std::map<std::string, std::string> sums;  ///< SHA-256 of the tables by name
+  std::vector<std::string> tables;          ///< names of their files; the user may have changed them
+};
+
+/// Nothing if the directory has no result of this program. Reads the file as far as its provenance: results may be
+/// large. Errors: `std::system_error`.
+[[nodiscard]] std::optional<EarlierResult> earlier_result(const std::string& directory);
 
 /// The name of a file as text. Line breaks and bytes that are not UTF-8 are replaced.
 [[nodiscard]] std::string shown(const std::filesystem::path& path);

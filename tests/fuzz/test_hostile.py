@@ -6,6 +6,7 @@ usage: test_hostile.py PROGRAM ROOT [TEST...]
 
 import json
 import os
+import shutil
 import struct
 import sys
 import tempfile
@@ -119,6 +120,45 @@ DATA_FILES = {
 }
 
 
+RESULT = json.dumps({"program": {"name": "dualdamp"}, "provenance": {"source": "old.yaml", "scenario_sha256": "0", "started": "0"}, "scenario": {}, "analysis": "simulate",
+                     "status": 0, "warnings": [], "checks": [], "errors": [], "result": "@"})
+
+
+def in_result(before, piece, count, after=""):
+    """A result of this program but for its numbers."""
+    head, tail = RESULT.split('"@"')
+    return head + before, piece, count, after + tail
+
+
+# Name: result.json of an earlier run, as what stands before, between and after the repetitions.
+EVENT = '{"t": 1.5, "kind": "reversal"},'
+RESULTS = {
+    "brackets": ("", "[", 8_000_000, ""),
+    "brackets_within": in_result("", "[", 8_000_000),
+    "braces": in_result("", '{"a":', 2_000_000),
+    "lists": in_result("[", "[],", 3_000_000, "1]"),
+    "towers": in_result("[", "[" * 50 + "]" * 50 + ",", 80_000, "1]"),
+    "numbers": in_result("{", '"":1,' * 10 + '"a":[' + "1," * 1000 + "1],", 4_000, '"":[]'),
+    "texts": in_result("{", '"a":[' + '"",' * 1000 + "1],", 3_000, '"":[]'),
+    "keys": in_result("{", '"":1,', 2_000_000, '"":1}'),
+    "long_text": in_result('"', "x", 60_000_000, '"'),
+    "long_number": in_result("", "1", 60_000_000),
+    "long_provenance": (RESULT.split("old.yaml")[0], "x", 60_000_000, RESULT.split("old.yaml")[1]),
+    "nothing": ("", " ", 60_000_000, ""),
+    "cut": in_result('{"events": [', EVENT, 1_000_000),
+}
+
+
+def write_repeated(path, before, piece, count, after):
+    """In small pieces: a child's memory is counted from its parent's."""
+    some = max(100_000 // len(piece), 1)
+    with open(path, "w") as file:
+        file.write(before)
+        for _ in range(count // some):
+            file.write(piece * some)
+        file.write(piece * (count % some) + after)
+
+
 class Hostile(unittest.TestCase):
     def setUp(self):
         temporary = tempfile.TemporaryDirectory()
@@ -174,6 +214,44 @@ class Hostile(unittest.TestCase):
                 (self.folder / "key.json").write_text(keys)
                 (self.folder / "answers.csv").write_text(answers)
                 self.refused(["stress", "score", small, "--key", "key.json", "--answers", "a=answers.csv", "--out", "out"], "key.json")
+
+    def test_results(self):
+        (self.folder / "old").mkdir()
+        for name, content in RESULTS.items():
+            with self.subTest(name):
+                write_repeated(self.folder / "old/result.json", *content)
+                self.refused(["report", "old"], "old/result.json")
+
+    def test_a_run_beside_a_large_result(self):
+        """Of an earlier result, only its name is read."""
+        (self.folder / "good.yaml").write_text(DRIVEN + STEADY)
+        for name, content in {**RESULTS, "whole": in_result('{"events": [', EVENT, 2_000_000, "{}]}")}.items():
+            with self.subTest(name):
+                shutil.rmtree(self.folder / "old", ignore_errors=True)
+                (self.folder / "old").mkdir()
+                write_repeated(self.folder / "old/result.json", *content)
+                execution = Execution(PROGRAM, ["run", "good.yaml", "--out", "old"], self.folder, 20, 2 << 30)
+                said = f"status {execution.status}, {execution.processor:.2f} s, {execution.megabytes:.0f} MB: {execution.stderr[:300]}"
+                self.assertEqual(execution.status, 0, said)
+                self.assertLess(execution.processor, SECONDS / 3, said)
+                self.assertLess(execution.megabytes, MEGABYTES, said)
+                if name == "whole":
+                    self.assertIn("old held the result of old.yaml, which is replaced", execution.stderr)
+
+    def test_points_of_an_earlier_sweep(self):
+        (self.folder / "sweep.yaml").write_text(DRIVEN + STEADY + "sweep: {system.friction.kinetic: [1 N, 2 N]}\n")
+        Execution(PROGRAM, ["run", "sweep.yaml", "--out", "old"], self.folder, 20)
+        head, *lines = (self.folder / "old/points.jsonl").read_text().splitlines()
+        for name, content in (("brackets", ("", "[", 60_000_000, "\n")), ("no lines", ("", "x", 60_000_000, "")), ("lines", ("", "\n", 4_000_000, "")),
+                              ("levels", ('{"case":0,"result":', "[", 8_000_000, "\n"))):
+            with self.subTest(name):
+                write_repeated(self.folder / "old/points.jsonl", head + "\n" + content[0], *content[1:])
+                execution = Execution(PROGRAM, ["run", "sweep.yaml", "--out", "old", "--resume"], self.folder, 20, 2 << 30)
+                said = f"status {execution.status}, {execution.processor:.2f} s, {execution.megabytes:.0f} MB: {execution.stderr[:300]}"
+                self.assertEqual(execution.status, 0, said)
+                self.assertLess(execution.processor, SECONDS, said)
+                self.assertLess(execution.megabytes, MEGABYTES, said)
+                self.assertEqual((self.folder / "old/points.jsonl").read_text().splitlines(), [head, *lines])
 
     def test_command_lines(self):
         (self.folder / "good.yaml").write_text(DRIVEN + STEADY)

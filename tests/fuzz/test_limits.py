@@ -135,6 +135,50 @@ class Limits(unittest.TestCase):
             self.check_whole()
             subprocess.run(["rm", "-rf", "out"], cwd=self.folder, check=True)
 
+    def test_few_file_descriptors(self):
+        """2 with the reason of the system, never 3 or a word about the content; enough of them: as without the limit."""
+        (self.folder / "good.yaml").write_text(RIG + "analysis: {type: steady_state}\n")
+        (self.folder / "short.yaml").write_text(RIG + "analysis: {type: steady_state}\nsweep: {system.friction.kinetic: [1 N, 2 N]}\n")
+        record = "Y [mm],x [mm]\n5,6.5\n6,9\n7,11.6\n8,14.2\n"
+        (self.folder / "pairs.csv").write_text(record)
+        rig = ["--mass", "1.042 kg", "--stiffness", "1568 N/m", "--frequency", "natural"]
+
+        def run(most, arguments):
+            return subprocess.run([PROGRAM, *arguments], cwd=self.folder, capture_output=True, text=True, timeout=300,
+                                  preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_NOFILE, (most, most)))
+
+        run(100, ["run", "short.yaml", "--out", "there"])
+        for name, arguments in {"run": ["run", "good.yaml", "--out", "out"], "sweep": ["run", "short.yaml", "--out", "out"], "resume": ["run", "short.yaml", "--out", "there", "--resume"],
+                                "again": ["run", "good.yaml", "--out", "again"], "report": ["report", "there"], "compare": ["compare", "there", "there", "--out", "both"],
+                                "identify": ["identify", "pairs.csv", *rig, "--out", "out"], "check": ["check", "good.yaml"]}.items():
+            subprocess.run(["rm", "-rf", "again"], cwd=self.folder, check=True)
+            run(100, ["run", "short.yaml", "--out", "again"])
+            endings = []
+            for most in range(4, 12):
+                with self.subTest(f"{name} {most}"):
+                    result = run(most, arguments)
+                    endings.append(result.returncode)
+                    if result.returncode == 127:  # the loader of the system
+                        continue
+                    self.assertIsNone(BUG.search(result.stderr), result.stderr)
+                    if result.returncode != 0:
+                        self.assertEqual(result.returncode, 2, result.stderr)
+                        self.assertIn("Too many open files", result.stderr)
+                    self.assertEqual([path for path in self.folder.glob("*/*~")], [], result.stderr)
+            with self.subTest(name):
+                self.assertEqual((endings[-1], endings == sorted(endings, reverse=True)), (0, True), endings)
+                self.assertIn(2, endings)
+
+    @unittest.skipIf(os.geteuid() == 0, "root may read everything")
+    def test_files_without_permission(self):
+        for name in ("good.yaml", "pairs.csv"):
+            (self.folder / name).write_text("")
+            (self.folder / name).chmod(0)
+        for arguments in (["run", "good.yaml"], ["check", "good.yaml"], ["identify", "pairs.csv", "--mass", "1 kg", "--stiffness", "1 N/m"]):
+            result = subprocess.run([PROGRAM, *arguments], cwd=self.folder, capture_output=True, text=True, timeout=300)
+            self.assertEqual(result.returncode, 2, result.stderr)
+            self.assertIn("Permission denied", result.stderr)
+
     @unittest.skipIf("DUALDAMP_SANITIZED" in os.environ, "a sanitizer reserves terabytes of addresses")
     def test_little_memory(self):
         """From the least with which the program can be loaded upwards."""
