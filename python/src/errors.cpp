@@ -1,3 +1,4 @@
+#include <system_error>
 #include <utility>
 
 #include "core/diagnostics.hpp"
@@ -60,6 +61,9 @@ void add_errors(py::module_& /*module*/) {
                 text(fault.what() + more + "overwrite=True begins anew, another out keeps them apart"));
     } catch (const scenarios::OutputError& fault) {
       set_error("OutputError", text(fault.what()));
+    } catch (const std::system_error& fault) {
+      const py::tuple arguments = py::make_tuple(fault.code().value(), text(fault.what()));
+      PyErr_SetObject(PyExc_OSError, arguments.ptr());
     } catch (const friction::LawFault& fault) {
       set_error("NumericalFailure", text(fault.what()));
     }

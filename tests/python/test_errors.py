@@ -1,7 +1,9 @@
 """Errors are exceptions with the program's located messages; Ctrl-C ends a run; other threads run meanwhile."""
 
+import errno
 import os
 import pickle
+import resource
 import signal
 import threading
 import time
@@ -101,6 +103,22 @@ def test_no_place_for_the_result(tmp_path):
     (tmp_path / "file").write_text("")
     with pytest.raises(dd.OutputError, match="file"):
         dd.run("scenarios/examples/xy_curve.yaml", out=tmp_path / "file")
+
+
+def test_a_file_that_the_system_does_not_open(tmp_path):
+    scenario = tmp_path / "rig.yaml"
+    scenario.write_text((ROOT / "scenarios/examples/xy_curve.yaml").read_text())
+    dd.check(scenario)  # what is read once
+    before = resource.getrlimit(resource.RLIMIT_NOFILE)
+    first_free = os.dup(0)
+    os.close(first_free)
+    resource.setrlimit(resource.RLIMIT_NOFILE, (first_free, before[1]))
+    try:
+        with pytest.raises(OSError, match="rig.yaml: cannot be opened: Too many open files") as fault:
+            dd.check(scenario)
+    finally:
+        resource.setrlimit(resource.RLIMIT_NOFILE, before)
+    assert fault.value.errno == errno.EMFILE
 
 
 @pytest.fixture
