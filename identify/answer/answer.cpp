@@ -11,6 +11,7 @@
 #include "identify/methods.hpp"
 #include "identify/methods/any_law/law_intervals.hpp"
 #include "identify/statistics/distributions.hpp"
+#include "identify/statistics/ties.hpp"
 
 namespace dualdamp::identify {
 
@@ -209,7 +210,7 @@ std::optional<UnseenRange> range_of(const Estimate& best, const Ledger& ledger) 
   }
   const auto name_ends = [&](Interval ParameterIntervals::* member, auto by) {
     for (std::size_t end = 0; end < 2; ++end)
-      if ((range.ends.*member)[end] != ((*best.interval95).*member)[end])
+      if (!is_tie((range.ends.*member)[end], ((*best.interval95).*member)[end]))
         (range.*by)[end] = ((*ledger.unseen).*by)[end];
   };
   name_ends(&ParameterIntervals::zeta, &UnseenRange::zeta_by);

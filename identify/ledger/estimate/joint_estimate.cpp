@@ -13,6 +13,7 @@
 #include "identify/statistics/distributions.hpp"
 #include "identify/statistics/least_squares.hpp"
 #include "identify/statistics/statistics.hpp"
+#include "identify/statistics/ties.hpp"
 
 namespace dualdamp::identify {
 
@@ -224,9 +225,10 @@ class FreedTerm {
   std::array<double, 2> centres_{}, slopes_{}, errors_{}, ends_{};
 };
 
+/// An interval that was extended to cover a term ends where this term does, but for rounding, and by itself.
 void reach(const Interval& interval, const std::string& test, Interval& range, std::array<std::string, 2>& ends) {
-  if (interval[0] < range[0]) range[0] = interval[0], ends[0] = test;
-  if (interval[1] > range[1]) range[1] = interval[1], ends[1] = test;
+  if (interval[0] < range[0] && !is_tie(interval[0], range[0])) range[0] = interval[0], ends[0] = test;
+  if (interval[1] > range[1] && !is_tie(interval[1], range[1])) range[1] = interval[1], ends[1] = test;
 }
 
 }  // namespace

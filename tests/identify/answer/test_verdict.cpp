@@ -66,6 +66,8 @@ TEST_CASE("The verdict states the range of the answer where it exceeds the inter
   REQUIRE(found.range);
   CHECK(found.range->ends.zeta == Interval{0.08, 0.101});
   CHECK(mentions(found.verdict, "The tests of these data do not exclude zeta from 0.08 (drag) to 0.101."));
+  tested.unseen->ends.zeta[0] = tested.joint->interval95->zeta[0] * (1.0 - 1e-9);
+  CHECK_FALSE(mentions(concluded({*tested.joint, *tested.joint}, tested).verdict, "tests of these data"));
   // An interval that reaches as far by itself needs no such sentence.
   tested.unseen->ends.zeta[0] = 0.0995;
   CHECK_FALSE(mentions(concluded({*tested.joint, *tested.joint}, tested).verdict, "tests of these data"));
