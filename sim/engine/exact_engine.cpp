@@ -337,8 +337,11 @@ bool ExactEngine::coincides() const {
 }
 
 bool ExactEngine::search(double horizon) {
+  const long before = Engine::work();
   const core::SearchEnd end =
       core::first_crossing(mode_->basis(), {guards_.data(), guard_count_}, horizon, crossing_, grazings_, count_);
+  const long terms = static_cast<long>(guard_count_) * mode_->basis().size();
+  if (terms > terms_in_unit) long_work_ += (Engine::work() - before) * (terms - terms_in_unit) / terms_in_unit;
   if (end == core::SearchEnd::left_range) leave_range();
   if (end == core::SearchEnd::too_long)
     outcome_ = {

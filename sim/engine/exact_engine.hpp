@@ -33,6 +33,7 @@ class ExactEngine final : public Engine {
 
   [[nodiscard]] double accuracy() const override { return 0.0; }
   [[nodiscard]] bool has_past() const override { return false; }
+  [[nodiscard]] long work() const override { return Engine::work() + long_work_; }
 
   void reset_sensitivity() override;
   [[nodiscard]] Eigen::MatrixXd sensitivity() const override { return sensitivity_.matrix(); }
@@ -50,6 +51,8 @@ class ExactEngine final : public Engine {
   static constexpr double rounding = 16.0 * std::numeric_limits<double>::epsilon();
   /// A value farther than this (relative) from a limit is decided by its sign, a closer one by its Taylor germ.
   static constexpr double clearly = 1e-9;
+  /// Terms of all guards of a mode up to which a panel takes one unit of work; with more of them it takes more.
+  static constexpr long terms_in_unit = 12;
   /// The longest time, as an angle of the fastest element, over which a guard is taken as its tangent parabola.
   static constexpr double parabolic = 0.1;
 
@@ -135,6 +138,7 @@ class ExactEngine final : public Engine {
   std::vector<friction::Affine> law_guards_;   ///< of all laws
   std::vector<std::size_t> law_guard_counts_;  ///< of each law
   core::Crossing crossing_;
+  long long_work_ = 0;  ///< of modes with more terms than a unit has, in addition to one unit a panel
   std::optional<std::size_t> changed_law_;  ///< whose guard ended the interval before
 
   Sensitivity sensitivity_;

@@ -41,6 +41,8 @@ constexpr double least_multiplier_error = 1.5e-8;
 /// that creeps is displaced by 1/n in period n, so that this product is of order 1.
 constexpr double multiplier_rounding = 1e-10;
 constexpr double not_there = 0.1;
+/// Above this product the motion would be there: what keeps it from closing is no slow displacement.
+constexpr double long_there = 10.0;
 
 /// A motion that closes this well is compared with its rounding.
 constexpr double near_rounding = 1e-8;
@@ -375,6 +377,10 @@ core::Outcome Approach::failure() {
               "no steady state found: the motion approaches one too slowly: its distance falls by " +
                   core::format_number(nearer, 2) + " of itself in each forcing period, so that it is not there" +
                   after};
+    if (nearer * static_cast<double>(passed_) > long_there)
+      return {core::OutcomeKind::no_steady_state,
+              "no steady state found: neighbouring motions approach each other, but the motion still differs by " +
+                  core::percent(recurrence_.closure(1), 2) + " from one forcing period to the next" + after};
     return {core::OutcomeKind::not_unique,
             "not unique: steady states form a continuum, and the motion still creeps along it" + after};
   }
