@@ -225,7 +225,7 @@ void find_beside(const FitParameter& parameter, const Rig& rig, const std::vecto
 }  // namespace
 
 double over_force_at(double speed, const FitParameter& parameter, const Eigen::VectorXd& values) {
-  if (!parameter.at_speed) return 1.0;
+  if (!parameter.at_speed || !parameter.at_speed->is_found()) return 1.0;
   const auto& [v0, power, sought_at] = *parameter.at_speed;
   constexpr double largest = 1e300;
   return std::clamp(std::pow(v0.value(values) / speed, power.value(values)), 1.0 / largest, largest);

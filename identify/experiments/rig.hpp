@@ -13,6 +13,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -68,6 +69,7 @@ struct NumberBeside {
   std::optional<std::size_t> sought = {};  ///< index of the parameter
   double known = unknown;
 
+  [[nodiscard]] bool is_found() const { return sought || !std::isnan(known); }
   /// `values`: of all sought parameters.
   [[nodiscard]] double value(const Eigen::VectorXd& values) const {
     return sought ? values[static_cast<Eigen::Index>(*sought)] : known;
@@ -82,6 +84,8 @@ struct ForceAtSpeed {
   /// Speed at which the force is sought, in place of v0; `unknown`: v0. At a speed of the data, the data show the
   /// force; at v0 far from these, a small change of the power changes it by decades.
   double sought_at = unknown;
+
+  [[nodiscard]] bool is_found() const { return speed.is_found() && power.is_found(); }
 };
 
 struct FitParameter {

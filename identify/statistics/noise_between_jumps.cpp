@@ -61,7 +61,12 @@ double noise_between_jumps(std::span<const double> signal) {
     sum += difference * difference;
     count += 1.0;
   }
-  return std::sqrt(sum / count);
+  const double between = std::sqrt(sum / count);
+  // Fewer differences tell the noise less well. By chance alone, the ratio of the two has a standard deviation of
+  // 0.6 over the root of their number.
+  constexpr double beyond_chance = 2.0;
+  const double of_all = robust_noise_level(signal);
+  return between < (1.0 - beyond_chance / std::sqrt(count)) * of_all ? between : of_all;
 }
 
 }  // namespace dualdamp::identify

@@ -41,8 +41,9 @@ identify::Fit fit_of(identify::Rig rig, const identify::Experiments& experiments
   rig.known.oscillator.damping = identify::unknown;
   rig.laws.front().values = {};
   std::vector<std::string> faults;
-  const std::vector<identify::FitParameter> sought = identify::unstated_parameters(rig, faults);
+  std::vector<identify::FitParameter> sought = identify::unstated_parameters(rig, faults);
   REQUIRE(faults.empty());
+  identify::arrange(rig, sought);
   return identify::fit_rig(rig, sought, experiments, {.profile = false});
 }
 
