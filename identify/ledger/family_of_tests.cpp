@@ -14,27 +14,33 @@ namespace dualdamp::identify {
 
 namespace {
 
-/// Unit columns in coordinates of what they span, a row each: Cholesky's decomposition of their products. Unlike
-/// the vectors of a QR decomposition these coordinates do not depend on the order of the rows of the columns, and
-/// the draws that are made along them do not either. The column of which most is left comes next, and of those
-/// equal but for rounding the first.
-Eigen::MatrixXd coordinates_of(const Eigen::MatrixXd& unit) {
+/// Unit columns in at most `most` coordinates of what they span, a row each: Cholesky's decomposition of their
+/// products. Unlike the vectors of a QR decomposition these coordinates do not depend on the order of the rows of
+/// the columns, and the draws that are made along them do not either. The column that tells most of all others
+/// comes next, so that few coordinates hold nearly all, and of those equal but for rounding the first.
+Eigen::MatrixXd coordinates_of(const Eigen::MatrixXd& unit, Eigen::Index most) {
   constexpr double dependent = 1e-8;  // of the square of a length
-  const Eigen::MatrixXd products = unit.transpose() * unit;
-  Eigen::MatrixXd coordinates = Eigen::MatrixXd::Zero(unit.cols(), unit.cols());
-  Eigen::VectorXd left = products.diagonal();
+  const Eigen::Index count = unit.cols();
+  Eigen::MatrixXd left = unit.transpose() * unit;
+  Eigen::MatrixXd coordinates = Eigen::MatrixXd::Zero(count, std::min(count, most));
   Eigen::Index rank = 0;
-  for (; rank < unit.cols(); ++rank) {
-    const double most = left.maxCoeff();
-    if (!(most > dependent)) break;
+  for (; rank < coordinates.cols(); ++rank) {
     Eigen::Index pivot = 0;
-    while (!(left[pivot] >= most || is_tie(left[pivot], most))) ++pivot;
-    const Eigen::VectorXd known = coordinates.leftCols(rank) * coordinates.row(pivot).head(rank).transpose();
-    coordinates.col(rank) = (products.col(pivot) - known) / std::sqrt(left[pivot]);
-    left -= coordinates.col(rank).cwiseAbs2();
-    left[pivot] = 0.0;
+    double best = 0.0;
+    for (Eigen::Index j = 0; j < count; ++j) {
+      const double told = left(j, j) > dependent ? left.col(j).squaredNorm() / left(j, j) : 0.0;
+      if (told <= best || is_tie(told, best)) continue;
+      pivot = j;
+      best = told;
+    }
+    if (best == 0.0) break;
+    coordinates.col(rank) = left.col(pivot) / std::sqrt(left(pivot, pivot));
+    left -= coordinates.col(rank) * coordinates.col(rank).transpose();
   }
-  return coordinates.leftCols(rank);
+  // What is left of a column beyond these coordinates does not make its statistic smaller.
+  coordinates.conservativeResize(count, rank);
+  for (Eigen::Index j = 0; j < count; ++j) coordinates.row(j).normalize();  // zero stays zero
+  return coordinates;
 }
 
 /// t statistics of unit columns beside residuals with `freedom`.
@@ -73,9 +79,8 @@ double FamilyOfTests::largest_score(const Eigen::VectorXd& t) const {
 
 void FamilyOfTests::draw() {
   constexpr std::size_t draws = 2000;
-  const Eigen::MatrixXd all = coordinates_of(setting_.unit);
-  const auto rank = std::min<Eigen::Index>(all.cols(), static_cast<Eigen::Index>(setting_.freedom));
-  const Eigen::MatrixXd coordinates = all.leftCols(rank);
+  const Eigen::MatrixXd coordinates = coordinates_of(setting_.unit, static_cast<Eigen::Index>(setting_.freedom));
+  const Eigen::Index rank = coordinates.cols();
   const double beside = std::max(0.0, setting_.freedom - static_cast<double>(rank));
   // A fixed seed, so that a record has the same p-values each time.
   constexpr core::RandomStream stream{20261122, 1};

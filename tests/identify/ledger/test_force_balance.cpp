@@ -51,7 +51,7 @@ TEST_CASE("States that their drive can move charge nothing by the balance of for
 }
 
 TEST_CASE("Above resonance a contact that yields may give the force, and is named with the constants") {
-  const Ledger ledger = ledger_of(readings(), stiffness_of(400.0));
+  const Ledger ledger = ledger_of(readings(), stiffness_of(500.0));
   CHECK(ledger.is_violated(Assumption::constants));
   CHECK(ledger.is_violated(Assumption::friction_displacement));
 }
