@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "identify/ledger/estimate/unstated_constants.hpp"
+#include "identify/statistics/statistics.hpp"
 
 namespace dualdamp::identify {
 
