@@ -122,9 +122,10 @@ const circle = ([x, y], r) => `M${x - r},${y}a${r},${r} 0 1,0 ${2 * r},0a${r},${
 function pathOf(s, scales) {
   if (s.kind === "cells") return cellsPath(s, scales);
   const at = places(s, scales);
-  // A line through one point is no line.
-  const alone = at.filter((p, i) => p && !at[i - 1] && !at[i + 1]).map((p) => circle(p, 2)).join("");
-  if (s.kind === "line" || s.kind === "dashed") return (d3.svg.line().defined((p) => p !== null)(at) ?? "") + alone;
+  if (s.kind === "line" || s.kind === "dashed") {
+    const alone = at.filter((p, i) => p && !at[i - 1] && !at[i + 1]);  // through one point there is no line
+    return (d3.svg.line().defined((p) => p !== null)(at) ?? "") + alone.map((p) => circle(p, 2)).join("");
+  }
   const bar = ([x, , i]) => `M${x},${pixel(scales.y(s.low[i]))}V${pixel(scales.y(s.high[i]))}`;
   const marks = at.filter((p) => p !== null);
   return marks.map((p) => (s.kind === "bars" ? bar(p) : "") + circle(p, s.size ?? 3)).join("");

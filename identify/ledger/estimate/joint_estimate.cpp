@@ -102,10 +102,6 @@ void reach_over_nearly_seen(const JointModel& model, const RelaxationTests& test
   }
 }
 
-}  // namespace
-
-namespace {
-
 /// Estimates of a model with all departures relaxed, by one explanation of each or another.
 class RelaxedEstimates {
  public:
