@@ -1,5 +1,6 @@
 """Methods written in Python in the benchmark: cases as exported, scores as of the program."""
 
+import shutil
 import warnings
 
 import dualdamp as dd
@@ -143,10 +144,17 @@ def test_refusals(tmp_path):
 def test_next_as_the_program(program, tmp_path):
     import json
 
-    known = {"mass": "1.042 kg", "stiffness": "1568 N/m", "frequency": "6.17 Hz", "sigma_x": "5 um"}
-    options = [part for name, value in known.items() for part in (f"--{name.replace('_', '-')}", value)]
-    status, text, _ = program("next", "scenarios/examples/my_rig.csv", *options, "--json", "--out", tmp_path)
+    laws = "asymmetry, base_distortion, bouc_wen, contact_compliance, dahl, elasto_plastic, film_beside_damper, free_play, friction_lag"
+    laws += ", generalized_maxwell_slip, iwan, lugre, normal_vibration, partial_play, reset_integrator, static_friction, wide_stribeck"
+    shutil.copy("scenarios/examples/my_rig.csv", tmp_path)
+    (tmp_path / "mine.yaml").write_text(f"""schema: dualdamp/1
+system: {{mass: 1.042 kg, stiffness: 1568 N/m}}
+excitation: {{type: base_harmonic, frequency: 6.17 Hz}}
+analysis: {{type: design, data: my_rig.csv, sigma_x: 5 um, without: "{laws}"}}
+""")
+    status, text, _ = program("next", tmp_path / "mine.yaml", "--json", "--out", tmp_path / "results")
     assert status == 0
+    known = {"mass": "1.042 kg", "stiffness": "1568 N/m", "frequency": "6.17 Hz", "sigma_x": "5 um", "without": laws}
     assert dd.next("scenarios/examples/my_rig.csv", **known).result == json.loads(text)["result"]
     with pytest.raises(dd.InvalidScenario, match="these are a free vibration"):
         dd.next("scenarios/examples/free_run.csv", mass=1.0, stiffness=1000.0)

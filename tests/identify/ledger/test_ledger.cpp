@@ -124,7 +124,7 @@ TEST_CASE("Constants and gains that are off by less than their stated uncertaint
     int certain = 0;
     int uncertain = 0;
     int too_sure = 0;
-    constexpr int records = 3;
+    constexpr int records = 2;
     for (int i = 0; i < records; ++i) {
       const Measured m = measured(kind, ledger_seed + static_cast<std::uint64_t>(i), nullptr,
                                   {.stiffness = 0.02, .gain = 0.01, .drive_gain = -0.01});

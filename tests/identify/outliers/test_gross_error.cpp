@@ -57,7 +57,7 @@ TEST_CASE("A wrong digit in one of five readings is found, whichever it is, and 
 }
 
 TEST_CASE("Readings of Coulomb and viscous friction, and of departures from it, have no gross error") {
-  for (std::uint64_t seed = first_seed; seed < first_seed + 5; ++seed)
+  for (std::uint64_t seed = first_seed; seed < first_seed + 2; ++seed)
     for (const Kind kind : {Kind::xy, Kind::xy_phase, Kind::response, Kind::extremes}) {
       CAPTURE(name_of(kind), seed);
       for (void (*alter)(Rig&) : {+[](Rig&) {}, +[](Rig& r) { r.drag = 1.0; }, +[](Rig& r) { r.cubic = 0.06; }}) {
