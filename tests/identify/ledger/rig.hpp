@@ -36,6 +36,7 @@ struct Rig {
   double V = 0.1;
 
   [[nodiscard]] double omega() const;
+  [[nodiscard]] bool has_rigid_contact() const;
   [[nodiscard]] double x_f() const { return F0 / k; }
 };
 
