@@ -64,12 +64,29 @@ bool misses(Estimate& estimate, const Ledger& ledger) {
   return true;
 }
 
+/// Is it friction over speed or displacement that departs, or what may depart in its place: a drift that follows
+/// the speed, or what is named only beside friction, which explains the same departure?
+bool stands_for_friction(const LedgerEntry& entry, const Ledger& ledger) {
+  using enum Assumption;
+  if (entry.is_like_speed) return true;
+  const auto names = [](const std::vector<Assumption>& departure, Assumption one) {
+    return std::ranges::find(departure, one) != departure.end();
+  };
+  bool found = false;
+  for (const std::vector<Assumption>& departure : ledger.departures) {
+    if (!names(departure, entry.assumption)) continue;
+    if (!names(departure, friction_velocity) && !names(departure, friction_displacement)) return false;
+    found = true;
+  }
+  return found;
+}
+
 void judge(Estimate& estimate, const Ledger& ledger) {
   if (!estimate.outcome.ok() || misses(estimate, ledger) || ledger.data.empty() || !estimate.sound) return;
   std::vector<Assumption> violated;
   for (const LedgerEntry& entry : ledger.entries) {
-    // A drift that friction over speed can stand for is in a range over laws, which is extended to the fit with it.
-    const bool is_held = estimate.laws && entry.is_like_speed;
+    // A range over laws is extended to the fit with what explains the departure as well as friction does.
+    const bool is_held = estimate.laws && stands_for_friction(entry, ledger);
     if (entry.standing == Standing::violated && !is_held && rests_on(estimate).contains(entry.assumption))
       violated.push_back(entry.assumption);
   }
@@ -112,15 +129,17 @@ void keep_physical(Estimate& estimate) {
   }
 }
 
-/// The departures of friction that the ledger can relax, and a drift that may be one of them: a range over laws
-/// answers for them.
-std::vector<const LedgerEntry*> friction_departures(const Ledger& ledger) {
+/// The departures of friction that the ledger can relax, and what may depart in their place: a range over laws
+/// answers for them. Its library has wrong constants and a spring that is not linear among the laws.
+std::vector<const LedgerEntry*> held_departures(const Estimate& ranges, const Ledger& ledger) {
   std::vector<const LedgerEntry*> found;
   using enum Assumption;
-  for (const Assumption assumption : {friction_velocity, friction_displacement, stationarity}) {
-    const LedgerEntry& entry = ledger.entry(assumption);
-    if (assumption == stationarity && !entry.is_like_speed) continue;
-    if (entry.standing == Standing::violated && entry.zeta_change && entry.F0_change) found.push_back(&entry);
+  for (const LedgerEntry& entry : ledger.entries) {
+    const bool is_friction = entry.assumption == friction_velocity || entry.assumption == friction_displacement;
+    const bool is_law = !is_friction && !rests_on(ranges).contains(entry.assumption);
+    if (entry.standing == Standing::violated && entry.zeta_change && entry.F0_change && !is_law &&
+        stands_for_friction(entry, ledger))
+      found.push_back(&entry);
   }
   return found;
 }
@@ -136,18 +155,19 @@ Interval reached(const Interval& interval, double plain, double change, double p
 
 /// The library of laws reads extremes, and its departures end at a largest severity; the ledger reads the whole
 /// record. A range over laws that lacks the estimate with the departure relaxed is extended to it. Returns the
-/// tests of these relaxations.
+/// tests of these relaxations, each with "free".
 std::vector<std::string> extend_to_relaxed(Estimate& estimate, const Ledger& ledger) {
   std::vector<std::string> tests;
   if (!estimate.usable || !estimate.laws || !estimate.interval95) return tests;
-  for (const LedgerEntry* entry : friction_departures(ledger)) {
+  for (const LedgerEntry* entry : held_departures(estimate, ledger)) {
     ParameterIntervals& at = *estimate.interval95;
     const ParameterIntervals before = at;
     at.zeta = reached(at.zeta, ledger.plain.zeta, *entry->zeta_change, *entry->p_value);
     at.c = reached(at.c, ledger.plain.c, *entry->zeta_change, *entry->p_value);
     at.x_f = reached(at.x_f, ledger.plain.x_f, *entry->F0_change, *entry->p_value);
     at.F0 = reached(at.F0, ledger.plain.F0, *entry->F0_change, *entry->p_value);
-    if (at.zeta != before.zeta || at.F0 != before.F0) tests.push_back(entry->test);
+    if (at.zeta != before.zeta || at.F0 != before.F0)
+      tests.push_back(entry->test + (entry->test.ends_with(" free") ? "" : " free"));
   }
   return tests;
 }
@@ -249,8 +269,10 @@ Identification concluded(std::vector<Estimate> estimates, Ledger ledger) {
   const bool any = std::ranges::any_of(all.estimates, [](const Estimate& e) { return e.outcome.ok(); });
   if (any) all.verdict = verdict_of(all);
   if (!reached_by.empty())
-    all.verdict += " The interval of any_law also holds the estimate with " +
-                   core::joined(reached_by, " and with ") + " free, which lies outside this range.";
+    all.verdict += std::string(" The interval of any_law also holds the ") +
+                   (reached_by.size() > 1 ? "estimates" : "estimate") + " with " +
+                   core::joined(reached_by, " and with ") + ", which " + (reached_by.size() > 1 ? "lie" : "lies") +
+                   " outside this range.";
   return all;
 }
 

@@ -8,7 +8,7 @@
 /// is usable: it has all data, and what is violated is relaxed in it. Otherwise the estimate with the smallest area
 /// of the intervals of c and F0 answers; the order of a list plays no part. If none has an interval and all agree
 /// to 2 %, the one in the middle answers. A range over laws that answers beside a departure of friction is extended
-/// to the 95 % interval of the estimate with this departure relaxed.
+/// to the 95 % intervals of the estimates with this departure, and with what explains it as well, relaxed.
 
 #include <string>
 #include <vector>

@@ -138,13 +138,34 @@ TEST_CASE("A range over laws holds the estimate with the departure of friction r
   CHECK(at.c[0] == Approx(3.1 - 3.1 * 1.959964 / 3.0).epsilon(1e-6));
   CHECK(at.zeta[1] == ranges.interval95->zeta[1]);
   CHECK(at.F0 == ranges.interval95->F0);
-  CHECK(mentions(found.verdict, "also holds the estimate with something free free"));
+  CHECK(mentions(found.verdict, "also holds the estimate with something free, which lies outside"));
 
   // A relaxation that the range holds changes nothing; friction is not below zero.
   entry.zeta_change = 0.05;
   CHECK(concluded({ranges}, drag).estimates.front().interval95->zeta == ranges.interval95->zeta);
   entry.zeta_change = -1.5;
   CHECK(concluded({ranges}, drag).estimates.front().interval95->zeta[0] == 0.0);
+}
+
+TEST_CASE("What may depart in place of friction leaves the answer to the range over laws, which then holds it") {
+  Estimate ranges = estimate("any_law", 0.06, 0.7, 0.1);
+  ranges.laws = std::make_shared<const LawIntervals>();
+  for (const Assumption friction : {Assumption::friction_velocity, Assumption::friction_displacement})
+    for (const Assumption other : {Assumption::sensors, Assumption::one_mode, Assumption::stationarity}) {
+      Ledger either = ledger({other, friction});
+      either.plain = {0.06, 6.0, 0.0007, 0.7};
+      LedgerEntry& entry = either.entry(other);
+      entry.zeta_change = 0.3;
+      entry.F0_change = -1.6;
+      const Identification found = concluded({ranges}, either);
+      CHECK(answering(found) == "any_law");
+      CHECK(found.estimates.front().interval95->zeta[1] > 1.3 * 0.06);
+      CHECK(found.estimates.front().interval95->F0[0] == 0.0);
+      CHECK(mentions(found.verdict, "also holds the estimate with something free, which lies outside"));
+      // Where it departs by itself as well, no law of friction can stand for it.
+      either.departures.push_back({other});
+      CHECK_FALSE(concluded({ranges}, either).answer);
+    }
 }
 
 TEST_CASE("A drift that may be friction over speed leaves the answer to the range over laws, which then holds it") {
@@ -156,7 +177,6 @@ TEST_CASE("A drift that may be friction over speed leaves the answer to the rang
   LedgerEntry& drift = either.entry(Assumption::stationarity);
   drift.zeta_change = -0.3;
   drift.F0_change = 0.05;
-  CHECK_FALSE(concluded({ranges}, either).answer);
   drift.is_like_speed = true;
   const Identification found = concluded({ranges}, either);
   CHECK(answering(found) == "any_law");

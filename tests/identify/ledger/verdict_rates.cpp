@@ -1,6 +1,6 @@
 /// How often the ledger of assumptions and the answer are right, by records of random rigs, identified as the
-/// program does it. usage: verdict_rates RECORDS FIRST_SEED [ROW]...   ROW: a part of the name of a row. Prints a
-/// line for each.
+/// program does it. usage: verdict_rates RECORDS FIRST_SEED [--ranges] [ROW]...   ROW: a part of the name of a row.
+/// Prints a line for each. --ranges: with ranges over laws, seconds for a record in which friction departs.
 
 #include <Eigen/LU>
 #include <algorithm>
@@ -35,6 +35,7 @@ struct Row {
   Kind kind;
   void (*alter)(Rig&) = nullptr;
   Off off = {};
+  bool with_ranges = false;
 };
 
 const std::vector<Kind> all = {Kind::xy,     Kind::xy_phase, Kind::response, Kind::extremes, Kind::decay,
@@ -96,7 +97,8 @@ std::vector<Row> rows() {
   return list;
 }
 
-Identification identified(Measured& measured) {
+/// `with_ranges`: methods that take seconds run as well, which answer where friction departs.
+Identification identified(Measured& measured, bool with_ranges) {
   Record& record = measured.record;
   static_cast<void>(complete(record, measured.constants.frequency));
   const LedgerOptions options{.deviations = measured.deviations};
@@ -109,7 +111,7 @@ Identification identified(Measured& measured) {
     return concluded(std::move(estimates), std::move(ledger));
   }
   for (const MethodEntry& method : methods())
-    if (!method.takes_seconds && method.lacks(record).empty())
+    if ((with_ranges || !method.takes_seconds) && method.lacks(record).empty())
       estimates.push_back(method.run(record, measured.constants));
   return concluded(std::move(estimates), std::move(ledger));
 }
@@ -188,7 +190,7 @@ double median(std::vector<double> values) {
 void count_verdict(const Row& row, std::uint64_t seed, Counts& counts) {
   Measured record = measured(row.kind, seed, row.alter, row.off);
   const auto start = std::chrono::steady_clock::now();
-  const Identification found = identified(record);
+  const Identification found = identified(record, row.with_ranges);
   counts.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   const Rig& rig = record.rig;
   ++counts.records;
@@ -273,12 +275,17 @@ int main(int argc, char** argv) {
   if (argc < 3) return 2;
   const int records = std::atoi(argv[1]);
   const std::uint64_t first = std::strtoull(argv[2], nullptr, 10);
+  const bool with_ranges = argc > 3 && std::string(argv[3]) == "--ranges";
+  const std::vector<std::string> parts(argv + (with_ranges ? 4 : 3), argv + argc);
   const auto wanted = [&](const std::string& name) {
-    return argc == 3 || std::any_of(argv + 3, argv + argc,
-                                    [&](const char* part) { return name.find(part) != std::string::npos; });
+    return parts.empty() || std::ranges::any_of(parts, [&](const std::string& part) {
+             return name.find(part) != std::string::npos;
+           });
   };
-  for (const Row& row : rows()) {
+  std::vector<Row> list = rows();
+  for (Row& row : list) {
     if (!wanted(row.name)) continue;
+    row.with_ranges = with_ranges;
     Counts counts;
     for (int i = 0; i < records; ++i) count_verdict(row, first + static_cast<std::uint64_t>(i), counts);
     print(row, counts);
