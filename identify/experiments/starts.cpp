@@ -215,6 +215,10 @@ double size_of(const FitParameter& parameter, const DataScale& scale) {
 
 }  // namespace
 
+double spread_of(const FitParameter& parameter, const DataScale& scale) {
+  return guess_of(parameter, scale).spread;
+}
+
 std::vector<double> sizes_of(const std::vector<FitParameter>& parameters, const DataScale& scale) {
   Eigen::VectorXd sizes(static_cast<Eigen::Index>(parameters.size()));
   for (std::size_t i = 0; i < parameters.size(); ++i)

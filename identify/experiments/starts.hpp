@@ -41,6 +41,9 @@ struct DataScale {
 /// Sizes of the parameters, > 0, in their units. For a stated value that is not zero: its absolute value.
 [[nodiscard]] std::vector<double> sizes_of(const std::vector<FitParameter>& parameters, const DataScale& scale);
 
+/// The largest factor between a start and the size of a parameter.
+[[nodiscard]] double spread_of(const FitParameter& parameter, const DataScale& scale);
+
 /// Start `number` (0, 1, ...). Start 0 has the stated values, and the sizes of the other parameters.
 [[nodiscard]] Eigen::VectorXd start_of(const std::vector<FitParameter>& parameters,
                                        const std::vector<double>& sizes, int number, const DataScale& scale = {});

@@ -225,6 +225,15 @@ std::optional<Eigen::VectorXd> describe(const FitProblem& problem, const Request
                          result);
 }
 
+void warn_of_search(const SearchResult& found, long most_work, Fit& result) {
+  if (found.is_cut_short)
+    result.warnings.push_back(cut_short(most_work) + ". The estimates are the best until then");
+  else if (!found.is_settled)
+    result.warnings.emplace_back(
+        "searches that began far from the estimate found a better one each time, until no more were made: it may "
+        "not be the best. State values or bounds, or compare with a fit of more starts");
+}
+
 /// Lets a force at a speed be sought at the speed of the data, unless bounds hold for it. Of steady states the
 /// energy and the harmonic balance give starts for the force as it is.
 void seek_at_speed(const DataScale& scale, std::vector<FitParameter>& parameters) {
@@ -288,9 +297,8 @@ Fit fit_rig(const Rig& rig, std::vector<FitParameter> parameters, const Experime
                                                                (fault.empty() ? "" : ": " + fault)};
     return result;
   }
-  if (found->is_cut_short)
-    result.warnings.push_back(cut_short(options.most_work) + ". The estimates are the best until then");
-  else if (options.seeks_loads)
+  warn_of_search(*found, options.most_work, result);
+  if (!found->is_cut_short && options.seeks_loads)
     seek_loads(task, *found, scale.length, search, options.most_work, result.warnings);
   constexpr int most_rounds = 4;
   for (int round = 1;; ++round) {

@@ -119,6 +119,13 @@ std::optional<FitProblem> FitProblem::balanced() const {
   return with_parts([](const Experiment& experiment) { return experiment.balanced(); });
 }
 
+FitProblem FitProblem::holding(std::size_t number) const {
+  FitProblem result(*this, {});
+  result.stepped_.resize(parameters_.size(), false);
+  result.stepped_[number] = true;
+  return result;
+}
+
 void FitProblem::number_rows() {
   for (std::size_t e = 0; e < experiments_.size(); ++e) {
     begins_.push_back(rows_);
@@ -144,6 +151,11 @@ bool FitProblem::has_stepped() const { return std::ranges::count(stepped_, true)
 bool FitProblem::has_loops_only() const {
   return std::ranges::all_of(experiments_,
                              [](const Experiment* experiment) { return experiment->kind == ExperimentKind::loop; });
+}
+
+bool FitProblem::has_steady_states() const {
+  return std::ranges::any_of(
+      experiments_, [](const Experiment* experiment) { return experiment->kind == ExperimentKind::steady_states; });
 }
 
 long FitProblem::work() const {

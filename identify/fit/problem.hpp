@@ -72,7 +72,7 @@ class FitProblem {
   FitProblem(const Rig& rig, const std::vector<FitParameter>& parameters, const Experiments& experiments,
              const std::vector<double>& sizes, std::vector<RecordValues> known = {});
 
-  // `this` must outlive the problems returned by roughly(), first_part(), tied() and balanced().
+  // `this` must outlive the problems returned by roughly(), first_part(), tied(), balanced() and holding().
 
   /// The same with less accurate motions of fewer samples.
   [[nodiscard]] FitProblem roughly(const Accuracy& accuracy) const;
@@ -83,10 +83,15 @@ class FitProblem {
   /// With the motion of steady states held as it was measured; nothing if there are no steady states.
   [[nodiscard]] std::optional<FitProblem> balanced() const;
 
+  /// With one parameter held where a search begins: its derivatives are zero.
+  [[nodiscard]] FitProblem holding(std::size_t number) const;
+
   /// Begins to count the work of the motions (`Experiment::work`), also those of the problems made from this one.
   /// Beyond `most` there are no motions any more, and a single motion ends there.
   void limit(long most) const;
   [[nodiscard]] bool is_exhausted() const { return work() > limit_->most; }
+  /// Work since then.
+  [[nodiscard]] long spent() const { return work() - limit_->begun; }
   /// Allows this share of the limit beyond it.
   void extend(double share) const;
 
@@ -99,6 +104,7 @@ class FitProblem {
   }
   [[nodiscard]] bool has_stepped() const;
   [[nodiscard]] bool has_loops_only() const;
+  [[nodiscard]] bool has_steady_states() const;
 
   [[nodiscard]] Eigen::Index rows() const { return rows_; }
   /// Of each experiment, the values of its own parameters that are not sought.

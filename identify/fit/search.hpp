@@ -7,6 +7,8 @@
 /// * If these two do not end at the same sum of squares, more searches begin with all readings.
 /// * If the residuals are not noise, the first parts are fitted once more from the best result.
 /// * If they are still not noise, a search begins with models tied to the measured motion (`tie.hpp`).
+/// * More searches begin far from the end, along parameters that are open there (`far_starts.hpp`), until none of
+///   them finds anything better.
 /// Steady states are also searched for from the best harmonic balance (`harmonic_balance.hpp`).
 /// The first steps have a looser tolerance and fewer samples.
 
@@ -34,6 +36,7 @@ struct SearchResult {
   Eigen::VectorXd unbounded;       ///< the same without the bound of outliers
   std::vector<double> deviations;  ///< of each signal
   bool is_cut_short = false;       ///< the limit of the work was reached; this is the best until then
+  bool is_settled = true;          ///< the last searches from far starts (`far_starts.hpp`) found nothing better
 };
 
 /// `sizes`: of each parameter, as in the problem. Nothing if the rig has no such motion at any start.

@@ -1,0 +1,85 @@
+#include "identify/fit/far_starts.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+namespace dualdamp::identify {
+
+namespace {
+
+/// Deviations of the coordinates by the derivatives. A coordinate that changes nothing has about `most`.
+Eigen::VectorXd deviations_of(const SearchEnd& end, double readings) {
+  constexpr double most = 10.0;
+  const Eigen::Index count = end.jacobian.cols();
+  const double variance = end.place.squares / std::max(1.0, readings - static_cast<double>(count));
+  const Eigen::MatrixXd information =
+      end.jacobian.transpose() * end.jacobian + variance / (most * most) * Eigen::MatrixXd::Identity(count, count);
+  const Eigen::MatrixXd covariance = information.ldlt().solve(Eigen::MatrixXd::Identity(count, count));
+  return (variance * covariance.diagonal().cwiseMax(0.0)).cwiseSqrt();
+}
+
+bool is_speed(const FitParameter& parameter) { return parameter.unit == "m/s"; }
+
+/// Values of a coordinate over the range of its starts.
+std::vector<double> values_along(const FitProblem& problem, const FitParameter& parameter, std::size_t number,
+                                 const Eigen::VectorXd& from, const DataScale& scale) {
+  const SearchCoordinate& c = problem.coordinates()[number];
+  std::vector<double> values;
+  if (parameter.above) {
+    const double base = problem.values(from)[static_cast<Eigen::Index>(*parameter.above)];
+    constexpr std::array shares = {0.05, 0.1, 0.2, 0.4, 0.8, 1.6};
+    for (const double share : shares) values.push_back(share * base / c.size);
+  } else {
+    constexpr int count = 9;
+    const double reach = std::log(spread_of(parameter, scale));
+    for (int k = 0; k < count; ++k) values.push_back(reach * ((2.0 * k + 1.0) / count - 1.0));
+  }
+  for (double& value : values) value = std::clamp(value, c.low, c.high);
+  const auto [first, last] = std::ranges::unique(values);
+  values.erase(first, last);
+  return values;
+}
+
+}  // namespace
+
+std::vector<std::size_t> open_parameters(const FitProblem& problem, const std::vector<FitParameter>& parameters,
+                                         const SearchEnd& end) {
+  if (problem.has_steady_states()) return {};
+  constexpr double known = 0.03;
+  const Eigen::VectorXd deviations = deviations_of(end, problem.counted().sum());
+  std::vector<std::size_t> open;
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    const FitParameter& parameter = parameters[i];
+    const auto at = static_cast<Eigen::Index>(i);
+    const bool is_logarithm = problem.coordinates()[i].logarithmic;
+    if (parameter.owner != Owner::law || problem.is_stepped(at) || !(is_logarithm || parameter.above)) continue;
+    if (deviations[at] > known * (is_logarithm ? 1.0 : end.place.q[at])) open.push_back(i);
+  }
+  std::ranges::stable_sort(open, {}, [&](std::size_t i) {
+    return is_speed(parameters[i]) ? 0 : parameters[i].above ? 1 : 2;
+  });
+  return open;
+}
+
+std::vector<Eigen::VectorXd> far_starts(const FitProblem& problem, const std::vector<FitParameter>& parameters,
+                                        std::size_t number, const Eigen::VectorXd& from, const DataScale& scale,
+                                        const FitHeld& fit_held) {
+  const FitProblem held = problem.holding(number);
+  std::vector<SearchPlace> places;
+  for (const double value : values_along(problem, parameters[number], number, from, scale)) {
+    Eigen::VectorXd q = from;
+    q[static_cast<Eigen::Index>(number)] = value;
+    places.push_back(fit_held(held, q));
+  }
+  std::ranges::sort(places, {}, &SearchPlace::squares);
+  constexpr std::size_t wanted = 2;
+  std::vector<Eigen::VectorXd> starts;
+  for (const SearchPlace& place : places)
+    if (std::isfinite(place.squares) && starts.size() < wanted) starts.push_back(place.q);
+  return starts;
+}
+
+}  // namespace dualdamp::identify
