@@ -55,12 +55,11 @@ std::vector<std::size_t> open_parameters(const FitProblem& problem, const std::v
     const FitParameter& parameter = parameters[i];
     const auto at = static_cast<Eigen::Index>(i);
     const bool is_logarithm = problem.coordinates()[i].logarithmic;
-    if (parameter.owner != Owner::law || problem.is_stepped(at) || !(is_logarithm || parameter.above)) continue;
+    const bool is_missed = parameter.above || (is_speed(parameter) && is_logarithm);
+    if (parameter.owner != Owner::law || problem.is_stepped(at) || !is_missed) continue;
     if (deviations[at] > known * (is_logarithm ? 1.0 : end.place.q[at])) open.push_back(i);
   }
-  std::ranges::stable_sort(open, {}, [&](std::size_t i) {
-    return is_speed(parameters[i]) ? 0 : parameters[i].above ? 1 : 2;
-  });
+  std::ranges::stable_sort(open, {}, [&](std::size_t i) { return is_speed(parameters[i]) ? 0 : 1; });
   return open;
 }
 

@@ -6,10 +6,13 @@
 /// false minimum: the sum of squares has a kink wherever the mass comes to rest one half swing earlier or later.
 /// Both leave little more than noise, so that no test of the residuals tells them.
 ///
-///   open     parameters that the readings leave open by more than 3 % where the search ended
+///   open     speeds, and levels above another one, that the readings leave open by more than 3 % where the search
+///            ended
 ///   along    one of them has values over the range of its starts; a parameter above another one has distances of
 ///            0.05 to 1.6 times the other. At each value the other parameters are fitted in a few steps
 ///   starts   the two best of these places
+///
+/// Other parameters, such as the stiffness of a bristle, are left out, because each of them takes as long.
 ///
 /// Errors: none; what cannot be predicted has an infinite sum of squares. Cost: nine short searches for each open
 /// parameter.
