@@ -187,10 +187,10 @@ bool has_several_weights(const FitProblem& problem, const SearchOptions& options
 constexpr Accuracy of_first_steps{.tolerance = 1e-7, .step = 1e-3};
 
 /// Searches from places far from the end of another one, along each parameter that is open there. Nothing, unless
-/// one of them ends clearly lower.
+/// one of them ends clearly lower. None begins when the problem has spent `most`.
 std::optional<LeastSquaresFit> search_far(const SearchResult& from, const std::vector<FitParameter>& parameters,
                                           const WeightedSearch& search, const FitProblem& problem,
-                                          const SearchOptions& options) {
+                                          const SearchOptions& options, long most) {
   constexpr int few = 4;
   constexpr int some = 16;
   constexpr double enough = 4.0;  // variances
@@ -198,7 +198,6 @@ std::optional<LeastSquaresFit> search_far(const SearchResult& from, const std::v
   end.sum_of_squares = search.squares(end);
   if (end.jacobian.rows() != problem.rows() || !std::isfinite(end.sum_of_squares)) return std::nullopt;
   const double variance = end.sum_of_squares / std::max(1.0, problem.counted().sum());
-  const long most = 2 * problem.spent();
   const auto fit_held = [&](const FitProblem& held, const Eigen::VectorXd& q) -> SearchPlace {
     if (problem.spent() > most) return {q, infinity};
     const Eigen::VectorXd there = WeightedSearch(held, options).improve(q, rough, few).parameters;
@@ -208,7 +207,7 @@ std::optional<LeastSquaresFit> search_far(const SearchResult& from, const std::v
   for (const std::size_t i :
        open_parameters(problem, parameters, {{end.parameters, end.sum_of_squares}, end.jacobian}))
     for (const Eigen::VectorXd& q : far_starts(problem, parameters, i, best->parameters, options.scale, fit_held))
-      take_better(search.improve(q, rough, some), search, problem, best);
+      if (problem.spent() <= most) take_better(search.improve(q, rough, some), search, problem, best);
   if (best->sum_of_squares > end.sum_of_squares - enough * variance) return std::nullopt;
   return best;
 }
@@ -258,12 +257,13 @@ class EndedSearches {
   void take_far(const std::vector<FitParameter>& parameters, const WeightedSearch& rough_search,
                 const FitProblem& rough_problem) {
     constexpr int most_rounds = 4;
+    const long most = 2 * rough_problem.spent();
     for (int round = 1; best_ && !is_cut_short(); ++round) {
-      const bool is_better = take(search_far(*best_, parameters, rough_search, rough_problem, options_));
-      if (!is_better || round == most_rounds) {
-        best_->is_settled = !is_better;
-        return;
-      }
+      const bool is_better = take(search_far(*best_, parameters, rough_search, rough_problem, options_, most));
+      if (is_better && round < most_rounds) continue;
+      // Where a far start was better, and no work is left for others, another one may be better still.
+      best_->is_settled = !is_better && (round == 1 || rough_problem.spent() <= most);
+      return;
     }
   }
 
