@@ -197,6 +197,15 @@ std::string range_text(const Identification& all) {
   return " The tests of these data do not exclude " + core::joined(texts, " and ") + ".";
 }
 
+/// Does the answer rest on an assumption that is violated? A range over laws does, where that may depart in place
+/// of friction.
+bool rests_on_violated(const Identification& all) {
+  const MethodEntry* method = find_method(all.estimates[*all.answer].method);
+  return method != nullptr && std::ranges::any_of(all.ledger.entries, [&](const LedgerEntry& entry) {
+           return entry.standing == Standing::violated && method->rests_on.contains(entry.assumption);
+         });
+}
+
 }  // namespace
 
 std::string four_digits(double value) {
@@ -214,7 +223,9 @@ std::string why_preferred(const Identification& all) {
   const auto rivals =
       std::ranges::count_if(all.estimates, [](const Estimate& e) { return std::isfinite(area(e)); });
   std::string text = all.ledger.data.empty() ? "no assumption could be tested in this record"
-                                             : "none of the assumptions it rests on is violated";
+                     : rests_on_violated(all)
+                         ? "its interval also holds what explains the departure as well as friction does"
+                         : "none of the assumptions it rests on is violated";
   const auto usable = std::ranges::count_if(all.estimates, &Estimate::usable);
   if (rivals == 0 && usable > 1)
     text += ", and " + std::to_string(usable) +

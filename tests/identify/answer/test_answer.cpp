@@ -159,6 +159,8 @@ TEST_CASE("What may depart in place of friction leaves the answer to the range o
       entry.F0_change = -1.6;
       const Identification found = concluded({ranges}, either);
       CHECK(answering(found) == "any_law");
+      CHECK(mentions(found.reason, "its interval also holds what explains the departure as well as friction does"));
+      CHECK_FALSE(mentions(found.reason, "none of the assumptions it rests on is violated"));
       CHECK(found.estimates.front().interval95->zeta[1] > 1.3 * 0.06);
       CHECK(found.estimates.front().interval95->F0[0] == 0.0);
       CHECK(mentions(found.verdict, "also holds the estimate with something free, which lies outside"));
