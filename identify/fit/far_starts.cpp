@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 namespace dualdamp::identify {
@@ -63,21 +64,35 @@ std::vector<std::size_t> open_parameters(const FitProblem& problem, const std::v
   return open;
 }
 
-std::vector<Eigen::VectorXd> far_starts(const FitProblem& problem, const std::vector<FitParameter>& parameters,
-                                        std::size_t number, const Eigen::VectorXd& from, const DataScale& scale,
-                                        const FitHeld& fit_held) {
+std::vector<SearchPlace> far_starts(const FitProblem& problem, const std::vector<FitParameter>& parameters,
+                                    std::size_t number, const Eigen::VectorXd& from, const DataScale& scale,
+                                    const FitHeld& fit_held) {
   const FitProblem held = problem.holding(number);
+  const auto at = static_cast<Eigen::Index>(number);
+  const auto with = [at](Eigen::VectorXd q, double value) {
+    q[at] = value;
+    return q;
+  };
+  const std::vector<double> values = values_along(problem, parameters[number], number, from, scale);
   std::vector<SearchPlace> places;
-  for (const double value : values_along(problem, parameters[number], number, from, scale)) {
-    Eigen::VectorXd q = from;
-    q[static_cast<Eigen::Index>(number)] = value;
-    places.push_back(fit_held(held, q));
-  }
+  const auto follow = [&](auto first, auto last) {
+    std::vector<Eigen::VectorXd> before;
+    for (; first != last; ++first) {
+      std::vector<Eigen::VectorXd> points = {with(from, *first)};
+      if (!before.empty()) points.push_back(with(before.back(), *first));
+      places.push_back(fit_held(held, points));
+      if (std::isfinite(places.back().squares)) before.push_back(places.back().q);
+    }
+  };
+  // Outwards from where the search ended.
+  const auto middle = std::ranges::lower_bound(values, from[at]);
+  follow(middle, values.end());
+  follow(std::make_reverse_iterator(middle), values.rend());
   std::ranges::sort(places, {}, &SearchPlace::squares);
   constexpr std::size_t wanted = 2;
-  std::vector<Eigen::VectorXd> starts;
-  for (const SearchPlace& place : places)
-    if (std::isfinite(place.squares) && starts.size() < wanted) starts.push_back(place.q);
+  std::vector<SearchPlace> starts;
+  for (SearchPlace& place : places)
+    if (std::isfinite(place.squares) && starts.size() < wanted) starts.push_back(std::move(place));
   return starts;
 }
 

@@ -9,7 +9,8 @@
 ///   open     speeds, and levels above another one, that the readings leave open by more than 3 % where the search
 ///            ended
 ///   along    one of them has values over the range of its starts; a parameter above another one has distances of
-///            0.05 to 1.6 times the other. At each value the other parameters are fitted in a few steps
+///            0.05 to 1.6 times the other. At each value the other parameters are fitted in a few steps, from where
+///            the search ended or from the place of the value before, whichever is better
 ///   starts   the two best of these places
 ///
 /// Other parameters, such as the stiffness of a bristle, are left out, because each of them takes as long.
@@ -39,13 +40,13 @@ struct SearchEnd {
                                                        const std::vector<FitParameter>& parameters,
                                                        const SearchEnd& end);
 
-/// Fits the parameters that `held` does not hold, from `q`.
-using FitHeld = std::function<SearchPlace(const FitProblem& held, const Eigen::VectorXd& q)>;
+/// Fits the parameters that `held` does not hold, from the best of these points.
+using FitHeld = std::function<SearchPlace(const FitProblem& held, const std::vector<Eigen::VectorXd>& points)>;
 
 /// Starts along parameter `number`, the best first.
-[[nodiscard]] std::vector<Eigen::VectorXd> far_starts(const FitProblem& problem,
-                                                      const std::vector<FitParameter>& parameters,
-                                                      std::size_t number, const Eigen::VectorXd& from,
-                                                      const DataScale& scale, const FitHeld& fit_held);
+[[nodiscard]] std::vector<SearchPlace> far_starts(const FitProblem& problem,
+                                                  const std::vector<FitParameter>& parameters, std::size_t number,
+                                                  const Eigen::VectorXd& from, const DataScale& scale,
+                                                  const FitHeld& fit_held);
 
 }  // namespace dualdamp::identify

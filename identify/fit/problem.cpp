@@ -320,6 +320,10 @@ bool FitProblem::column(const Eigen::VectorXd& q, const Eigen::VectorXd& middle,
   std::array<double, 2> at = {std::max(q[i] - h, c.low), std::min(q[i] + h, c.high)};
   std::array<Eigen::VectorXd, 2> outputs = {middle, middle};
   for (std::size_t side = 0; side < 2; ++side) {
+    if (side == 0 && accuracy_.is_one_sided && at[1] > q[i]) {
+      at[side] = q[i];
+      continue;
+    }
     Eigen::VectorXd there = q;
     there[i] = at[side];
     const Eigen::VectorXd p = values(there);

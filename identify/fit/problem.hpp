@@ -43,6 +43,7 @@ struct SearchCoordinate {
 struct Accuracy {
   double tolerance = 0.0;  ///< of the smooth engine, unless that of the rig is looser; 0: that of the rig
   double step = 1e-4;
+  bool is_one_sided = false;  ///< differences of half the motions: the first steps need only their direction
 };
 
 /// Rows [begin, end) of one signal of one experiment.

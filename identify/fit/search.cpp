@@ -51,13 +51,35 @@ void take_better(LeastSquaresFit found, const WeightedSearch& search, const FitP
   if (!best || found.sum_of_squares < best->sum_of_squares) best = std::move(found);
 }
 
-/// The best of these points for `part`, after a few steps of a search.
+/// Whether two searches came to the same minimum: by their sums of squares, and by the change of the readings
+/// between them.
+bool is_same_place(const LeastSquaresFit& a, const LeastSquaresFit& b) {
+  constexpr double alike = 0.01;
+  const double between = (b.jacobian * (a.parameters - b.parameters)).squaredNorm();
+  return std::abs(a.sum_of_squares / b.sum_of_squares - 1.0) < alike && between < alike * b.sum_of_squares;
+}
+
+/// The best of these points for `part`, after a few steps of a search; of those at one place the first, and none
+/// that is far worse than another one.
 std::vector<Eigen::VectorXd> improved(std::vector<Eigen::VectorXd> points, std::size_t wanted,
                                       const FitProblem& part, const SearchOptions& options) {
   constexpr int few = 8;
+  constexpr double far_worse = 100.0;
   const WeightedSearch search(part, options);
   if (points.size() > wanted) points = best_of(points, search, wanted);
-  for (Eigen::VectorXd& q : points) q = search.improve(q, rough, few).parameters;
+  double least = infinity;
+  std::vector<LeastSquaresFit> ends;
+  for (const Eigen::VectorXd& q : points) {
+    LeastSquaresFit end = search.improve(q, rough, few);
+    const auto is_there = [&](const LeastSquaresFit& other) { return is_same_place(other, end); };
+    const bool has_motion = end.jacobian.rows() == part.rows();
+    if (!has_motion || std::ranges::any_of(ends, is_there)) continue;
+    least = std::min(least, end.sum_of_squares);
+    ends.push_back(std::move(end));
+  }
+  points.clear();
+  for (LeastSquaresFit& end : ends)
+    if (!(end.sum_of_squares > far_worse * least)) points.push_back(std::move(end.parameters));
   return points;
 }
 
@@ -106,8 +128,8 @@ std::vector<Eigen::VectorXd> balanced_starts(const std::vector<Eigen::VectorXd>&
   return best_of(improved(points, tried, *balanced, options), WeightedSearch(*balanced, options), wanted);
 }
 
-/// Searches with the first parts of the motions. If two of them do not end at the same sum of squares, or if there
-/// are no motions, also searches from several starts with all readings.
+/// Searches with the first parts of the motions. If two of them do not end at the same sum of squares and leave
+/// more than noise, or if there are no motions, also searches from several starts with all readings.
 std::optional<LeastSquaresFit> search_roughly(const std::vector<Eigen::VectorXd>& points,
                                               const WeightedSearch& search, const FitProblem& problem,
                                               const SearchOptions& options) {
@@ -121,6 +143,7 @@ std::optional<LeastSquaresFit> search_roughly(const std::vector<Eigen::VectorXd>
   };
   ends_alike(search_growing(points, 0.1, search, problem, options));
   if (ends_alike(search_growing(points, 0.35, search, problem, options))) return best;
+  if (best && !holds_motion(search.result(*best), problem)) return best;
   std::vector<Eigen::VectorXd> starts = best_of(points, search, options.most_starts);
   // Near resonance the amplitude tells more of the damping than of the friction: a start with a friction that does
   // not act may come closer than the one from the energy of the states, from which a search ends at the minimum.
@@ -171,20 +194,18 @@ std::optional<LeastSquaresFit> finish(LeastSquaresFit found, WeightedSearch& sea
   return found;
 }
 
-/// Whether two searches came to the same minimum: by their sums of squares, and by the change of the readings
-/// between them.
-bool is_same_place(const LeastSquaresFit& a, const LeastSquaresFit& b) {
-  constexpr double alike = 0.01;
-  const double between = (b.jacobian * (a.parameters - b.parameters)).squaredNorm();
-  return std::abs(a.sum_of_squares / b.sum_of_squares - 1.0) < alike && between < alike * b.sum_of_squares;
-}
-
 bool has_several_weights(const FitProblem& problem, const SearchOptions& options) {
   return options.robust || problem.signals().size() > 1;
 }
 
 /// The first steps need only find the region of the minimum.
-constexpr Accuracy of_first_steps{.tolerance = 1e-7, .step = 1e-3};
+constexpr Accuracy of_first_steps{.tolerance = 1e-7, .step = 1e-3, .is_one_sided = true};
+
+/// Whether a sum of squares is less than another one by more than chance between places of one valley.
+bool is_clearly_less(double squares, double than, const FitProblem& problem) {
+  constexpr double enough = 4.0;  // variances
+  return squares < than - enough * than / std::max(1.0, problem.counted().sum());
+}
 
 /// Searches from places far from the end of another one, along each parameter that is open there. Nothing, unless
 /// one of them ends clearly lower. None begins when the problem has spent `most`.
@@ -193,22 +214,22 @@ std::optional<LeastSquaresFit> search_far(const SearchResult& from, const std::v
                                           const SearchOptions& options, long most) {
   constexpr int few = 4;
   constexpr int some = 16;
-  constexpr double enough = 4.0;  // variances
   LeastSquaresFit end = search.improve(from.coordinates, rough, some);
   end.sum_of_squares = search.squares(end);
   if (end.jacobian.rows() != problem.rows() || !std::isfinite(end.sum_of_squares)) return std::nullopt;
-  const double variance = end.sum_of_squares / std::max(1.0, problem.counted().sum());
-  const auto fit_held = [&](const FitProblem& held, const Eigen::VectorXd& q) -> SearchPlace {
-    if (problem.spent() > most) return {q, infinity};
-    const Eigen::VectorXd there = WeightedSearch(held, options).improve(q, rough, few).parameters;
+  const auto fit_held = [&](const FitProblem& held, const std::vector<Eigen::VectorXd>& points) -> SearchPlace {
+    const std::vector<Eigen::VectorXd> first = best_of(points, search, 1);
+    if (first.empty() || problem.spent() > most) return {points.front(), infinity};
+    const Eigen::VectorXd there = WeightedSearch(held, options).improve(first.front(), rough, few).parameters;
     return {there, search.squares(there)};
   };
   std::optional<LeastSquaresFit> best = end;
   for (const std::size_t i :
        open_parameters(problem, parameters, {{end.parameters, end.sum_of_squares}, end.jacobian}))
-    for (const Eigen::VectorXd& q : far_starts(problem, parameters, i, best->parameters, options.scale, fit_held))
-      if (problem.spent() <= most) take_better(search.improve(q, rough, some), search, problem, best);
-  if (best->sum_of_squares > end.sum_of_squares - enough * variance) return std::nullopt;
+    for (const SearchPlace& place : far_starts(problem, parameters, i, best->parameters, options.scale, fit_held))
+      if (problem.spent() <= most || is_clearly_less(place.squares, best->sum_of_squares, problem))
+        take_better(search.improve(place.q, rough, some), search, problem, best);
+  if (!is_clearly_less(best->sum_of_squares, end.sum_of_squares, problem)) return std::nullopt;
   return best;
 }
 
@@ -257,9 +278,11 @@ class EndedSearches {
   void take_far(const std::vector<FitParameter>& parameters, const WeightedSearch& rough_search,
                 const FitProblem& rough_problem) {
     constexpr int most_rounds = 4;
-    const long most = 2 * rough_problem.spent();
+    const long most = 3 * rough_problem.spent();
     for (int round = 1; best_ && !is_cut_short(); ++round) {
-      const bool is_better = take(search_far(*best_, parameters, rough_search, rough_problem, options_, most));
+      const double before = alike_.squares(best_->coordinates);
+      const bool is_better = take(search_far(*best_, parameters, rough_search, rough_problem, options_, most)) &&
+                             is_clearly_less(alike_.squares(best_->coordinates), before, problem_);
       if (is_better && round < most_rounds) continue;
       // Where a far start was better, and no work is left for others, another one may be better still.
       best_->is_settled = !is_better && (round == 1 || rough_problem.spent() <= most);

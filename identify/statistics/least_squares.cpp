@@ -134,7 +134,7 @@ ceres::Solver::Summary solve(const LeastSquaresProblem& problem, Eigen::VectorXd
   constexpr int first_iterations = 4;
   if (problem.low.size() == 0) return solve(problem, {}, most_iterations, parameters);
   ceres::Solver::Summary summary = solve(problem, {}, first_iterations, parameters);
-  if (summary.termination_type == ceres::CONVERGENCE) return summary;
+  if (summary.termination_type == ceres::CONVERGENCE || most_iterations <= first_iterations) return summary;
   Eigen::VectorXd on_bounds = parameters;
   const std::vector<int> held = take_to_bounds(problem, on_bounds);
   if (!held.empty() && held.size() < static_cast<std::size_t>(parameters.size())) {
