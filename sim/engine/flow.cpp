@@ -34,6 +34,14 @@ constexpr double rounded = 1e-13;
 /// A change of force by this part of it or more is not rounding.
 constexpr double resolved = 1e-11;
 
+/// Slopes over two steps, one ten times the other, are equal within this part of them.
+constexpr double nearly_equal = 1e-3;
+
+/// The displacement of a state is shortened by this factor at a time, down to this part of the state. A state that
+/// is smaller than this part of its size counts as such a part.
+constexpr double ladder_of_states = 10.0;
+constexpr double least_state = 1e-15;
+
 }  // namespace
 
 Flow::Flow(const Model& model, const Drive& drive, const VelocityHistory& past)
@@ -182,14 +190,61 @@ Flow::Slope Flow::difference(std::size_t i, std::size_t column, double step, std
   return {(force - base) / exact_step, std::abs(force - base) > resolved * (std::abs(force) + std::abs(base))};
 }
 
+/// The slopes of all rates of law i, and behind them that of its force, from a difference to both sides.
+void Flow::slopes(std::size_t i, std::size_t column, double step, std::span<const double> X, double t, double base,
+                  std::vector<double>& of_rates_and_force) const {
+  of_rates_and_force.assign(count_[i] + 1, 0.0);
+  for (const double change : {step, -step}) {
+    const double of_force = difference(i, column, change, X, t, base).value;
+    for (std::size_t k = 0; k < count_[i]; ++k) of_rates_and_force[k] += 0.5 * displaced_rates_[k];
+    of_rates_and_force[count_[i]] += 0.5 * of_force;
+  }
+}
+
+/// The slopes of law i by a state: of the rates, in displaced_rates_, and of the force, returned. `slope` and
+/// displaced_rates_: those over `step`. After a long slip the bristles of dahl with an exponent other than 1 are
+/// closer to their limit than the usual step is long, and the slope over it is a multiple of the slope there. So
+/// each slope is that over the step at which a step ten times as long changes it least.
+double Flow::closer(std::size_t i, std::size_t column, double step, std::span<const double> X, double t,
+                    double base, double slope) const {
+  const double shortest = least_state * std::max(std::abs(X[column]), least_state * scales_[column]);
+  const std::size_t count = count_[i] + 1;
+  closest_slopes_.assign(displaced_rates_.begin(), displaced_rates_.end());
+  closest_slopes_.push_back(slope);
+  shorter_slopes_ = closest_slopes_;
+  slopes(i, column, ladder_of_states * step, X, t, base, last_slopes_);
+  apart_.assign(count, std::numeric_limits<double>::infinity());
+  for (;;) {
+    bool are_equal = true;
+    for (std::size_t k = 0; k < count; ++k) {
+      const double found = shorter_slopes_[k];
+      const double larger = std::max(std::abs(found), std::abs(last_slopes_[k]));
+      const double apart = larger > 0.0 ? std::abs(found - last_slopes_[k]) / larger : 0.0;
+      const double value = k < count_[i] ? base_rates_[k] : base;
+      if (apart < apart_[k] && (std::isinf(apart_[k]) || std::abs(found * step) > resolved * std::abs(value))) {
+        apart_[k] = apart;
+        closest_slopes_[k] = found;
+      }
+      are_equal = are_equal && apart_[k] < nearly_equal;
+    }
+    step /= ladder_of_states;
+    if (are_equal || !(step > shortest)) break;
+    std::swap(last_slopes_, shorter_slopes_);
+    slopes(i, column, step, X, t, base, shorter_slopes_);
+  }
+  std::ranges::copy_n(closest_slopes_.begin(), static_cast<std::ptrdiff_t>(count_[i]), displaced_rates_.begin());
+  return closest_slopes_.back();
+}
+
 /// The contribution of law i to one column of the Jacobian.
 void Flow::differentiate_law(std::size_t i, std::size_t column, std::span<const double> X, double t, double base,
-                             std::span<double> columns) const {
+                             bool closely, std::span<double> columns) const {
   const double own = std::abs(X[column]);
   const bool affine = model_.friction[i].is_affine();
   double step =
       (affine ? affine_increment : increment) * (own + (column == 1 ? slow * scales_[1] : scales_[column]));
   double slope = difference(i, column, step, X, t, base).value;
+  if (closely && column > 1 && !affine) slope = closer(i, column, step, X, t, base, slope);
   // Friction that depends on the logarithm of the speed is a steep dashpot at speeds far below the largest one. So
   // the step is shortened until the slope no longer grows.
   const double shortest = std::max(increment * own, least_speed * scales_[1]);
@@ -205,6 +260,14 @@ void Flow::differentiate_law(std::size_t i, std::size_t column, std::span<const 
 }
 
 void Flow::jacobian(std::span<const double> X, double t, std::span<double> columns) const {
+  differentiate(X, t, false, columns);
+}
+
+void Flow::close_jacobian(std::span<const double> X, double t, std::span<double> columns) const {
+  differentiate(X, t, true, columns);
+}
+
+void Flow::differentiate(std::span<const double> X, double t, bool closely, std::span<double> columns) const {
   const Oscillator& o = model_.oscillator;
   std::ranges::fill(columns, 0.0);
   if (direction_ != Direction::none) {
@@ -218,8 +281,8 @@ void Flow::jacobian(std::span<const double> X, double t, std::span<double> colum
     displaced_rates_.assign(count_[i], 0.0);
     const double base = respond(i, X, instant(i, X, t), base_rates_);
     for (const std::size_t column : {std::size_t{0}, std::size_t{1}})
-      differentiate_law(i, column, X, t, base, columns);
-    for (std::size_t k = 0; k < count_[i]; ++k) differentiate_law(i, first_[i] + k, X, t, base, columns);
+      differentiate_law(i, column, X, t, base, closely, columns);
+    for (std::size_t k = 0; k < count_[i]; ++k) differentiate_law(i, first_[i] + k, X, t, base, closely, columns);
   }
 }
 

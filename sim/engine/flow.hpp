@@ -12,7 +12,8 @@
 ///
 /// The Jacobian of the known part is exact. That of the laws comes from differences, relative error about 1e-8:
 /// enough for Newton iterations and Floquet multipliers, and the same for every law (decision 017). If a law
-/// changes over speeds far below the motion's, the differences are taken over such speeds.
+/// changes over speeds far below the motion's, the differences are taken over such speeds. `close_jacobian` does
+/// so for states: where a longer difference gives another slope it takes shorter ones.
 
 #include <array>
 #include <limits>
@@ -45,6 +46,7 @@ class Flow final : public VectorField {
   [[nodiscard]] std::size_t size() const override { return size_; }
   void evaluate(std::span<const double> X, double t, std::span<double> rates) const override;
   void jacobian(std::span<const double> X, double t, std::span<double> columns) const override;
+  void close_jacobian(std::span<const double> X, double t, std::span<double> columns) const override;
 
   /// Number of evaluations of laws so far.
   [[nodiscard]] long responses() const { return responses_; }
@@ -82,8 +84,13 @@ class Flow final : public VectorField {
   };
   Slope difference(std::size_t i, std::size_t column, double step, std::span<const double> X, double t,
                    double base) const;
+  double closer(std::size_t i, std::size_t column, double step, std::span<const double> X, double t, double base,
+                double slope) const;
+  void slopes(std::size_t i, std::size_t column, double step, std::span<const double> X, double t, double base,
+              std::vector<double>& of_rates_and_force) const;
   void differentiate_law(std::size_t i, std::size_t column, std::span<const double> X, double t, double base,
-                         std::span<double> columns) const;
+                         bool closely, std::span<double> columns) const;
+  void differentiate(std::span<const double> X, double t, bool closely, std::span<double> columns) const;
 
   Model model_;
   const Drive& drive_;
@@ -104,6 +111,10 @@ class Flow final : public VectorField {
   mutable std::vector<double> displaced_;
   mutable std::vector<double> base_rates_;
   mutable std::vector<double> displaced_rates_;
+  mutable std::vector<double> last_slopes_;
+  mutable std::vector<double> shorter_slopes_;
+  mutable std::vector<double> closest_slopes_;
+  mutable std::vector<double> apart_;
   /// The drive at recent times: iterations and displaced steps need it at the stages of a step again and again.
   struct KnownDrive {
     double t = std::numeric_limits<double>::quiet_NaN();

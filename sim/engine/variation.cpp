@@ -99,7 +99,7 @@ class RadauVariation final : public Variation {
       step.stepper.at(at, state_);
       const double t = step.t + at * step.h;
       const std::span<double> jacobian = std::span(jacobians_).subspan(i * n_() * n_(), n_() * n_());
-      field.jacobian(state_, t, jacobian);
+      field.close_jacobian(state_, t, jacobian);
       for (double& entry : jacobian) entry *= h;
       field.evaluate(state_, t + step.increment, later_);
       field.evaluate(state_, t - step.increment, earlier_);

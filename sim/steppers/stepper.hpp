@@ -25,6 +25,10 @@ class VectorField {
   virtual void evaluate(std::span<const double> x, double t, std::span<double> rates) const = 0;
   /// df_i/dx_j, column by column. It affects the speed of the implicit method, not the solution.
   virtual void jacobian(std::span<const double> x, double t, std::span<double> columns) const = 0;
+  /// The same as closely as the field is known: what a perturbation of the motion follows.
+  virtual void close_jacobian(std::span<const double> x, double t, std::span<double> columns) const {
+    jacobian(x, t, columns);
+  }
 };
 
 class Stepper {

@@ -401,3 +401,29 @@ TEST_CASE(
           1e-5 * std::abs(expected[1]) + 1e-5 * 1000.0 * std::abs(expected[0]));
   }
 }
+
+TEST_CASE("smooth engine: bristles close to their limit have the slope that they have there",
+          "[sim][smooth][derivative]") {
+  // After a long slip they are 4e-8 of their deflection below it, closer than the usual difference for a Jacobian
+  // is long, and with an exponent of 1.21 the slope over that difference is a multiple of the slope there.
+  sim::Model model;
+  model.oscillator = {
+      .mass = 0.8806702910810212, .stiffness = 0.014102179157980819, .damping = 0.05446339049698237};
+  model.excitation = {.type = sim::ExcitationType::base_harmonic,
+                      .amplitude = 0.057864806271325245,
+                      .frequency = 0.09029009909957765};
+  add_law(model, "dahl",
+          {{"kinetic", 0.00017935416166372928}, {"sigma0", 0.22817271123673333}, {"exponent", 1.210412389144714}});
+  sim::PeriodMap map(model);
+  sim::State start = map.from_start(0.052532921475056039, 0.0054608610952225712, Monodromy::without).begin;
+  start.memories[0].state = {0.00078604559350362372};
+  const ForcingPeriod period = map.from(start, Monodromy::with);
+  // The variational equations in 1 -+ sigma0 z/kinetic, in which nothing cancels, by SciPy's DOP853 at 1e-13.
+  CAPTURE(period.monodromy);
+  CHECK(period.monodromy(0, 2) == Approx(-0.891594710).epsilon(1e-5));
+  CHECK(period.monodromy(1, 2) == Approx(0.0370911506).epsilon(1e-5));
+  CHECK(period.monodromy(2, 2) == Approx(-3.63466e-9).epsilon(1e-2));
+  CHECK(period.monodromy(2, 0) == Approx(1.83104e-11).epsilon(5e-2));
+  CHECK(period.monodromy(0, 0) == Approx(-2.45939581e-3).epsilon(1e-6));
+  CHECK(period.monodromy(0, 1) == Approx(0.609837176).epsilon(1e-7));
+}
