@@ -262,7 +262,9 @@ const Interval* SmoothEngine::step(double left, bool to_period_end) {
   describe_step();
   if (tracking_) {
     derivative_.pass(taken);
-    if (hit && (!at_once || search_.coincides(*hit, taken))) {
+    const bool coincides = at_once && search_.coincides(*hit, taken) &&
+                           derivative_.has_own_instant(search_.guards(), hit->guard, taken);
+    if (hit && (!at_once || coincides)) {
       derivative_.enter(search_.guards(), hit->guard, taken);
     } else if ((is_over && by_schedule) || (at_once && !follows_event_)) {
       // A guard that an interval finds violated at its begin was not crossed: nothing delays that.

@@ -166,7 +166,7 @@ std::optional<EventSearch::Hit> EventSearch::find_violated(const SmoothStep& ste
 
 bool EventSearch::coincides(const Hit& hit, const SmoothStep& step) const {
   const auto* guard = std::get_if<LawGuard>(&guards_.ending(hit.guard));
-  if (guard == nullptr || !(landing_.error > 0.0) || guard->law == landing_.law) return false;
+  if (guard == nullptr || !(landing_.error > 0.0)) return false;
   return guards_.value(hit.guard, step.begin, step.t) >= -level_at_start(hit.guard, step);
 }
 

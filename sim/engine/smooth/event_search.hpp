@@ -52,8 +52,7 @@ class EventSearch {
 
   /// A guard that is negative at the begin of the interval, or zero and going to be.
   [[nodiscard]] std::optional<Hit> find_violated(const SmoothStep& step) const;
-  /// Whether this guard is one of a second law, which reaches it at the same instant as the last event,
-  /// independently of it.
+  /// Whether this guard of a law is reached at the same instant as that of the last event.
   [[nodiscard]] bool coincides(const Hit& hit, const SmoothStep& step) const;
 
   /// The first crossing on the step.

@@ -28,6 +28,9 @@ constexpr double part_for_rate = 1e-6;
 /// Rates that differ by less than this part are the same before and after a mode change.
 constexpr double same_rates = 1e-2;
 
+/// Gradients that differ by less than this part are those of one guard.
+constexpr double same_guard = 1e-3;
+
 Eigen::Map<const Eigen::VectorXd> as_vector(std::span<const double> values) {
   return {values.data(), static_cast<Eigen::Index>(values.size())};
 }
@@ -76,6 +79,7 @@ void MotionDerivative::reset(const std::vector<friction::Memory>& memories, fric
   if (direction == friction::Direction::none) columns_.row(1).setZero();
   lead_ = Eigen::RowVectorXd::Zero(n);
   mode_lead_ = {};
+  others_.clear();
   course_.length = 0.0;
   changes_.clear();
 }
@@ -170,26 +174,49 @@ void MotionDerivative::drop_lead(const SmoothStep& step) {
   lead_.setZero();
 }
 
-/// Of a guard at the end of the step, by the state; `by_time`: by the time alone, which a guard has where it asks
-/// for the drive.
-Eigen::RowVectorXd MotionDerivative::gradient(const Guards& guards, std::size_t guard, const SmoothStep& step,
-                                              double& by_time) const {
-  Eigen::RowVectorXd gradient(columns_.rows());
+/// Of all guards at the end of the step, by the state.
+Eigen::MatrixXd MotionDerivative::gradients(const Guards& guards, const SmoothStep& step) const {
   const std::span<const double> X = step.end;
+  Eigen::MatrixXd gradients(static_cast<Eigen::Index>(guards.size()), static_cast<Eigen::Index>(X.size()));
   std::vector<double> displaced(X.begin(), X.end());
-  const auto value = [&](double at) { return guards.value(guard, displaced, at); };
+  std::vector<double> above;
+  std::vector<double> below;
   const double t = step.time(1.0);
   for (std::size_t k = 0; k < X.size(); ++k) {
     const double change = displacement * std::max(step.flow.scales()[k], least_size * std::abs(X[k]));
     displaced[k] = X[k] + change;
-    const double above = value(t);
+    guards.evaluate(displaced, t, above);
     displaced[k] = X[k] - change;
-    gradient[static_cast<Eigen::Index>(k)] = (above - value(t)) / (2.0 * change);
+    guards.evaluate(displaced, t, below);
+    gradients.col(static_cast<Eigen::Index>(k)) = (as_vector(above) - as_vector(below)) / (2.0 * change);
     displaced[k] = X[k];
   }
-  const double later = part_for_rate * shortest_period_;
-  by_time = (value(t + later) - value(t - later)) / (2.0 * later);
-  return gradient;
+  return gradients;
+}
+
+void MotionDerivative::note_others(const Guards& guards, std::size_t guard, const Eigen::MatrixXd& gradients) {
+  const auto* crossed = std::get_if<LawGuard>(&guards.ending(guard));
+  if (crossed == nullptr) return;
+  std::vector<Eigen::Index> rows;
+  for (std::size_t w = 0; w < guards.size(); ++w) {
+    const auto* other = std::get_if<LawGuard>(&guards.ending(w));
+    if (w != guard && other != nullptr && other->law == crossed->law) rows.push_back(static_cast<Eigen::Index>(w));
+  }
+  others_.push_back({crossed->law, gradients(rows, Eigen::all)});
+}
+
+bool MotionDerivative::has_own_instant(const Guards& guards, std::size_t guard, const SmoothStep& step) const {
+  const auto* crossed = std::get_if<LawGuard>(&guards.ending(guard));
+  if (crossed == nullptr) return true;
+  const auto last = std::ranges::find(others_.rbegin(), others_.rend(), crossed->law, &Others::law);
+  if (last == others_.rend()) return true;
+  const Eigen::RowVectorXd sizes = as_vector(step.flow.scales());
+  const Eigen::RowVectorXd gradient = gradients(guards, step).row(static_cast<Eigen::Index>(guard));
+  if (gradient.cols() != last->gradients.cols()) return false;
+  const double size = gradient.cwiseProduct(sizes).cwiseAbs().maxCoeff();
+  return std::ranges::any_of(last->gradients.rowwise(), [&](const auto& other) {
+    return (other - gradient).cwiseProduct(sizes).cwiseAbs().maxCoeff() < same_guard * size;
+  });
 }
 
 /// A lead is one along the motion and not in time: it brings the crossing no nearer as far as the guard changes
@@ -197,11 +224,17 @@ Eigen::RowVectorXd MotionDerivative::gradient(const Guards& guards, std::size_t 
 void MotionDerivative::enter(const Guards& guards, std::size_t guard, const SmoothStep& step) {
   const double t = step.time(1.0);
   const double rate = guards.rate(guard, step.end, t, step.length > 0.0 ? step.length : step.longest);
+  if (step.length > 0.0) others_.clear();
   // A guard that only touches zero has no crossing to shift.
   if (rate == 0.0) return drop_lead(step);
-  double by_time = 0.0;
-  const Eigen::RowVectorXd by_state = gradient(guards, guard, step, by_time);
-  const Eigen::RowVectorXd ahead = (by_time * lead_ - by_state * columns_) / rate;
+  const Eigen::MatrixXd by_state = gradients(guards, step);
+  note_others(guards, guard, by_state);
+  // By the time alone, which a guard has where it asks for the drive.
+  const double later = part_for_rate * shortest_period_;
+  const double by_time =
+      (guards.value(guard, step.end, t + later) - guards.value(guard, step.end, t - later)) / (2.0 * later);
+  const Eigen::RowVectorXd ahead =
+      (by_time * lead_ - by_state.row(static_cast<Eigen::Index>(guard)) * columns_) / rate;
   std::vector<double> rates(step.end.size());
   step.flow.evaluate(step.end, t, rates);
   columns_ += as_vector(rates) * ahead;

@@ -62,6 +62,9 @@ class MotionDerivative {
   void pass(const SmoothStep& step);
   /// To the crossing of a guard at the end of the step, on the motion before it.
   void enter(const Guards& guards, std::size_t guard, const SmoothStep& step);
+  /// Whether an event that follows one of a law at the same instant has an instant of its own, which a perturbation
+  /// delays by itself: its guard is one of another law, or was one of this law before its event.
+  [[nodiscard]] bool has_own_instant(const Guards& guards, std::size_t guard, const SmoothStep& step) const;
   /// The step ends at a time that does not depend on the motion: there every perturbation is a change of the state.
   void drop_lead(const SmoothStep& step);
   /// An event follows: it may change the rates, so those of the step no longer hold.
@@ -85,6 +88,11 @@ class MotionDerivative {
     Eigen::RowVectorXd time;  ///< of each column [s]; empty: there is none
     Eigen::VectorXd rates_before;
   };
+  /// The guards of a law beside the one that was crossed.
+  struct Others {
+    std::size_t law = 0;
+    Eigen::MatrixXd gradients;  ///< a row of each
+  };
   /// How the motion goes on behind an implicit step.
   struct Course {
     std::vector<double> rates;  ///< by the step's polynomial
@@ -96,8 +104,8 @@ class MotionDerivative {
   [[nodiscard]] Eigen::VectorXd rates_now(const Present& present) const;
   [[nodiscard]] bool forgets_speed(const SmoothStep& step) const;
   void lead_near_stop(const SmoothStep& step);
-  [[nodiscard]] Eigen::RowVectorXd gradient(const Guards& guards, std::size_t guard, const SmoothStep& step,
-                                            double& by_time) const;
+  [[nodiscard]] Eigen::MatrixXd gradients(const Guards& guards, const SmoothStep& step) const;
+  void note_others(const Guards& guards, std::size_t guard, const Eigen::MatrixXd& gradients);
   void carry_through_changes(const Present& present, std::span<const double> sizes);
   [[nodiscard]] Eigen::VectorXd through(const Change& change, const friction::Instant& now, Eigen::Index column,
                                         const Eigen::VectorXd& states, std::span<const double> sizes) const;
@@ -109,6 +117,7 @@ class MotionDerivative {
   Eigen::MatrixXd columns_;
   Eigen::RowVectorXd lead_;  ///< of each column: the time by which its motion is ahead, beside columns_ [s]
   ModeLead mode_lead_;
+  std::vector<Others> others_;  ///< of the crossings at the present instant
   Course course_;
   std::vector<Change> changes_;  ///< at the event that ends the interval
   std::unique_ptr<Variation> variation_;

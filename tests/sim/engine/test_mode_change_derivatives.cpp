@@ -1,0 +1,45 @@
+/// Monodromy matrices of the smooth engine over mode changes of laws.
+
+#include <catch2/catch.hpp>
+#include <vector>
+
+#include "sim/orbits/period_map.hpp"
+#include "tests/support/make_law.hpp"
+
+using namespace dualdamp;
+using friction::ParameterValues;
+
+TEST_CASE("smooth engine: two elements of a law that let go at one instant delay a perturbation each by itself",
+          "[sim][smooth][derivative]") {
+  // Both have slipped before the mass turned, so that they let go again at one position. The force is the same
+  // before and behind: a change of one spring's force acts as a change of the other's. The expected values are
+  // differences of motions by SciPy's DOP853 at 1e-12.
+  sim::Model model;
+  model.oscillator = {.mass = 0.00371046410668037,
+                      .stiffness = 0.11985325935371842,
+                      .damping = 4.3958193976395434e-05,
+                      .damper_to = sim::DamperTo::base};
+  model.excitation = {.type = sim::ExcitationType::force_harmonic,
+                      .amplitude = 0.0009557197582384445,
+                      .frequency = 28.284773620634983,
+                      .phase = 2.961937614229332};
+  const std::vector<ParameterValues> elements = {{{"stiffness", 0.39116371155845975}, {"share", 0.5}},
+                                                 {{"stiffness", 0.4043747319727298}, {"share", 0.5}}};
+  model.friction = {test::law("generalized_maxwell_slip", {{"kinetic", 0.00032102405418036104},
+                                                           {"stribeck_velocity", 0.002397362445641481},
+                                                           {"elements", elements},
+                                                           {"attraction", 0.004262762744310418}}),
+                    test::law("coulomb", {{"kinetic", 0.0002823545125434487}})};
+  sim::PeriodMap map(model);
+  sim::State start = map.from_start(0.00048669752326118424, -0.0028353806033836805, sim::Monodromy::without).begin;
+  start.memories[0].state = {0.00014072570165646857, 0.00015089959475141998};
+  const Eigen::MatrixXd monodromy = map.from(start, sim::Monodromy::with).monodromy;
+  CAPTURE(monodromy);
+  for (const Eigen::Index column : {2, 3}) {
+    CHECK(monodromy(0, column) == Approx(-1.53634524).epsilon(1e-6));
+    CHECK(monodromy(1, column) == Approx(3.11531492).epsilon(1e-6));
+    CHECK(monodromy(2, column) == Approx(-0.17238449).epsilon(1e-6));
+    CHECK(monodromy(3, column) == Approx(0.01123442).epsilon(1e-5));
+  }
+  CHECK(monodromy(1, 0) == Approx(-1.04949912).epsilon(1e-6));
+}
