@@ -28,6 +28,9 @@ constexpr double part_for_rate = 1e-6;
 /// Rates that differ by less than this part are the same before and after a mode change.
 constexpr double same_rates = 1e-2;
 
+/// Rates that differ by less than this part of the largest one do so by rounding.
+constexpr double rounding_of_rates = 1e-13;
+
 /// Gradients that differ by less than this part are those of one guard.
 constexpr double same_guard = 1e-3;
 
@@ -237,9 +240,9 @@ void MotionDerivative::enter(const Guards& guards, std::size_t guard, const Smoo
       (by_time * lead_ - by_state.row(static_cast<Eigen::Index>(guard)) * columns_) / rate;
   std::vector<double> rates(step.end.size());
   step.flow.evaluate(step.end, t, rates);
+  if (is<LawGuard>(guards.ending(guard))) mode_lead_ = {-ahead, as_vector(rates), columns_, lead_};
   columns_ += as_vector(rates) * ahead;
   lead_ -= ahead;
-  if (is<LawGuard>(guards.ending(guard))) mode_lead_ = {-ahead, as_vector(rates)};
 }
 
 /// A law's states after a mode change, of the perturbed motion `column`, from `states`, those before it. It is
@@ -257,6 +260,7 @@ Eigen::VectorXd MotionDerivative::through(const Change& change, const friction::
     part = std::max(part, std::abs(states[static_cast<Eigen::Index>(k)]) / own[k]);
   // A column that has died out is a subnormal number, by which nothing can be divided.
   const double step = part >= std::numeric_limits<double>::min() ? displacement / part : 0.0;
+  bool keeps_states = true;
   const auto after = [&](double by) {
     friction::Memory memory = change.before;
     for (std::size_t k = 0; k < memory.state.size(); ++k)
@@ -264,11 +268,14 @@ Eigen::VectorXd MotionDerivative::through(const Change& change, const friction::
     friction::Instant at = now;
     at.x += by * dx;
     at.v += by * dv;
+    const std::vector<double> displaced = memory.state;
     law.jump(memory, change.trigger, at, change.direction);
+    keeps_states = keeps_states && memory.state == displaced;
     return memory.state;
   };
   const std::vector<double> above = after(step);
   const std::vector<double> below = after(-step);
+  if (keeps_states) return states;
   if (step == 0.0) return Eigen::VectorXd::Zero(as_vector(above).size());
   if (above.size() != below.size()) return {};
   return (as_vector(above) - as_vector(below)) / (2.0 * step);
@@ -278,16 +285,34 @@ Eigen::VectorXd MotionDerivative::through(const Change& change, const friction::
 /// it may be long, and the variational equation would have to tell the perturbation as a small difference of the
 /// delay and of what the columns make of it.
 void MotionDerivative::leave(const Present& present, std::span<const double> sizes) {
-  carry_through_changes(present, sizes);
   const ModeLead added = std::exchange(mode_lead_, {});
+  const Eigen::MatrixXd at_crossing = added.time.size() > 0 ? columns_ : Eigen::MatrixXd();
+  carry_through_changes(present, sizes);
   if (added.time.size() == 0) return;
   const Eigen::VectorXd rates = rates_now(present);
   if (rates.size() != added.rates_before.size()) return;
   const auto parts = as_vector(sizes).array();
   const double change = ((rates - added.rates_before).array() / parts).abs().maxCoeff();
   if (!(change < same_rates * (added.rates_before.array() / parts).abs().maxCoeff())) return;
-  columns_ += rates * added.time;
-  lead_ -= added.time;
+  take_back(added, at_crossing, rates, sizes);
+}
+
+/// `at_crossing`: the columns before the mode changes. Where a guard reaches zero at no rate, as a late speed does
+/// when a mass is released that has long been at rest, the delay is so long that its rounding is more than the lead
+/// that was there before. So states that the mode change leaves alone are changed by the difference of the rates
+/// alone.
+void MotionDerivative::take_back(const ModeLead& added, const Eigen::MatrixXd& at_crossing,
+                                 const Eigen::VectorXd& rates, std::span<const double> sizes) {
+  lead_ = added.lead_before;
+  if (columns_.rows() != at_crossing.rows() || columns_ != at_crossing) {
+    columns_ += rates * added.time;
+    return;
+  }
+  const Eigen::ArrayXd parts = as_vector(sizes);
+  Eigen::VectorXd turn = rates - added.rates_before;
+  const double rounding = rounding_of_rates * (rates.array() / parts).abs().maxCoeff();
+  turn = (turn.array().abs() < rounding * parts).select(0.0, turn);
+  columns_ = added.columns_before + turn * added.time;
 }
 
 /// The motion after the mode changes begins with the same lead.

@@ -87,6 +87,8 @@ class MotionDerivative {
   struct ModeLead {
     Eigen::RowVectorXd time;  ///< of each column [s]; empty: there is none
     Eigen::VectorXd rates_before;
+    Eigen::MatrixXd columns_before;
+    Eigen::RowVectorXd lead_before;
   };
   /// The guards of a law beside the one that was crossed.
   struct Others {
@@ -106,6 +108,8 @@ class MotionDerivative {
   void lead_near_stop(const SmoothStep& step);
   [[nodiscard]] Eigen::MatrixXd gradients(const Guards& guards, const SmoothStep& step) const;
   void note_others(const Guards& guards, std::size_t guard, const Eigen::MatrixXd& gradients);
+  void take_back(const ModeLead& added, const Eigen::MatrixXd& at_crossing, const Eigen::VectorXd& rates,
+                 std::span<const double> sizes);
   void carry_through_changes(const Present& present, std::span<const double> sizes);
   [[nodiscard]] Eigen::VectorXd through(const Change& change, const friction::Instant& now, Eigen::Index column,
                                         const Eigen::VectorXd& states, std::span<const double> sizes) const;

@@ -43,3 +43,36 @@ TEST_CASE("smooth engine: two elements of a law that let go at one instant delay
   }
   CHECK(monodromy(1, 0) == Approx(-1.04949912).epsilon(1e-6));
 }
+
+TEST_CASE("smooth engine: a guard that reaches zero at no rate leaves the lead of a perturbation as it was",
+          "[sim][smooth][derivative]") {
+  // Twice in the period the mass sticks so long that the late speed is 1e-31 m/s at the release. It changes its
+  // sign there at a rate of 1e-37 m/s^2: a delay of 1e12 s for each metre, beside a lead of 0.02 s. The expected
+  // values are differences of motions by SciPy's DOP853 at 1e-12.
+  sim::Model model;
+  model.oscillator = {.mass = 8.272423830431121, .stiffness = 544014.5451998804, .damping = 608.9330663788951};
+  model.excitation = {.type = sim::ExcitationType::force_harmonic,
+                      .amplitude = 62700.31991872185,
+                      .frequency = 27.012524443597425,
+                      .phase = 5.198232084947693};
+  model.friction = {test::law("friction_lag", {{"kinetic", 2425.3703076757843},
+                                               {"static", 5219.920648074622},
+                                               {"stribeck_velocity", 0.6324654313772804},
+                                               {"exponent", 0.7338418557451512},
+                                               {"lag", 0.00027433456408901854}}),
+                    test::law("asymmetric_coulomb", {{"kinetic_forward", 931.5080886558087},
+                                                     {"static_forward", 2026.095673358375},
+                                                     {"viscous_forward", 0.0},
+                                                     {"kinetic_backward", 14031.176454781247},
+                                                     {"viscous_backward", 11.64076355050654}})};
+  sim::PeriodMap map(model);
+  sim::State start = map.from_start(0.048054445060788271, 2.9633195834061095, sim::Monodromy::without).begin;
+  start.memories[0].state = {3.0343135327805921};
+  const Eigen::MatrixXd monodromy = map.from(start, sim::Monodromy::with).monodromy;
+  CAPTURE(monodromy);
+  CHECK(monodromy(0, 0) == Approx(2.473113e-3).epsilon(1e-5));
+  CHECK(monodromy(1, 0) == Approx(-5.446640).epsilon(1e-5));
+  CHECK(monodromy(2, 0) == Approx(-5.469999).epsilon(1e-5));
+  CHECK(monodromy(1, 1) == Approx(0.03631848).epsilon(1e-5));
+  CHECK(monodromy(2, 2) == Approx(1.232527e-4).epsilon(1e-4));
+}
