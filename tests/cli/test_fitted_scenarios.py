@@ -89,7 +89,7 @@ class FittedScenarios(case.Case):
             motion = self.table("made/motion/history.csv")
             return self.write("decay.csv", "\n".join(["t [s],x [m]", *(f"{t!r},{x + offset + 2e-5 * math.sin(977.0 * i * i)!r}" for i, (t, x) in enumerate(zip(motion["t"], motion["x"])))]) + "\n")
 
-        fit = ("fit", "coulomb", decay(1.6e-3), *CONSTANTS, "--starts", "1", "--no-profile", "--free", "cubic_stiffness")
+        fit = ("fit", "coulomb", decay(1.6e-3), *CONSTANTS, "--no-profile", "--free", "cubic_stiffness")
         said = self.run_program(*fit).stderr
         self.assertIn("Seek the zero: 'free' with offset", said)
         self.assertIn("the zero of the sensor is off ('free' with offset seeks it)", said)
