@@ -197,10 +197,15 @@ Finding compare_derivative(const std::string& name, const sim::Model& model, con
   for (Eigen::Index j = 0; j < monodromy.cols(); ++j) {
     if (j == 1 && !moves) continue;
     const Nearest nearest = nearest_quotient(quotients, j, size, patience);
-    finding.worst = std::max(finding.worst, std::isinf(nearest.error) ? 0.0 : nearest.error);
-    if (nearest.error <= tolerance) continue;
+    if (nearest.error <= tolerance) {
+      finding.worst = std::max(finding.worst, nearest.error);
+      continue;
+    }
     if (patience.is_over() || !quotients.ok()) {
-      if (j == 0) finding = {name, Verdict::not_compared, 0.0, "a period takes too long"};
+      if (finding.verdict == Verdict::agreed)
+        finding = {name, Verdict::not_compared, finding.worst,
+                   j == 0 ? "a period takes too long"
+                          : fmt::format("from column {} on: the difference quotients take too long", j)};
       return finding;
     }
     if (!nearest.is_known || nearest.is_bent) {

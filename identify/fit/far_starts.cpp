@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <iterator>
+#include <ranges>
 #include <utility>
 
 namespace dualdamp::identify {
@@ -75,19 +76,19 @@ std::vector<SearchPlace> far_starts(const FitProblem& problem, const std::vector
   };
   const std::vector<double> values = values_along(problem, parameters[number], number, from, scale);
   std::vector<SearchPlace> places;
-  const auto follow = [&](auto first, auto last) {
+  const auto follow = [&](const auto& part) {
     std::vector<Eigen::VectorXd> before;
-    for (; first != last; ++first) {
-      std::vector<Eigen::VectorXd> points = {with(from, *first)};
-      if (!before.empty()) points.push_back(with(before.back(), *first));
+    for (const double value : part) {
+      std::vector<Eigen::VectorXd> points = {with(from, value)};
+      if (!before.empty()) points.push_back(with(before.back(), value));
       places.push_back(fit_held(held, points));
       if (std::isfinite(places.back().squares)) before.push_back(places.back().q);
     }
   };
   // Outwards from where the search ended.
   const auto middle = std::ranges::lower_bound(values, from[at]);
-  follow(middle, values.end());
-  follow(std::make_reverse_iterator(middle), values.rend());
+  follow(std::ranges::subrange(middle, values.end()));
+  follow(std::ranges::subrange(std::make_reverse_iterator(middle), values.rend()));
   std::ranges::sort(places, {}, &SearchPlace::squares);
   constexpr std::size_t wanted = 2;
   std::vector<SearchPlace> starts;
