@@ -208,7 +208,8 @@ bool is_clearly_less(double squares, double than, const FitProblem& problem) {
 }
 
 /// Searches from places far from the end of another one, along each parameter that is open there. Nothing, unless
-/// one of them ends clearly lower. None begins when the problem has spent `most`.
+/// one of them ends clearly lower. When the problem has spent `most`, only a place that is clearly lower already is
+/// searched from.
 std::optional<LeastSquaresFit> search_far(const SearchResult& from, const std::vector<FitParameter>& parameters,
                                           const WeightedSearch& search, const FitProblem& problem,
                                           const SearchOptions& options, long most) {

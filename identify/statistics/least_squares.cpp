@@ -128,7 +128,8 @@ double squares(const LeastSquaresProblem& problem, const Eigen::VectorXd& parame
 /// A run within bounds. The solver makes its steps for the whole space and cuts them off at a bound: along a bound
 /// it needs a hundred steps instead of ten. Parameters that end at a bound are therefore held there, and released
 /// if the sum of squares does not decrease beyond the bound. The linearised problem may lead to the wrong bound,
-/// far from the minimum: what ends there must not be worse than the place from which it was taken.
+/// far from the minimum: what ends there must not be worse than the place from which it was taken. A run of a few
+/// steps is not continued so: it was asked for no more than these.
 ceres::Solver::Summary solve(const LeastSquaresProblem& problem, Eigen::VectorXd& parameters) {
   const int most_iterations = problem.most_iterations;
   constexpr int first_iterations = 4;
