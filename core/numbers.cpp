@@ -106,8 +106,11 @@ std::string format_number(double value, int digits) {
 }
 
 std::string percent(double share, int digits) {
-  constexpr double all = 100.0;
-  return format_number(all * share, digits) + " %";
+  constexpr double most_in_full = 1e6;
+  const double value = 100.0 * share;
+  const double size = std::abs(value);
+  const bool is_whole = size >= std::pow(10.0, digits) - 0.5 && size < most_in_full;
+  return (is_whole ? std::to_string(std::llround(value)) : format_number(value, digits)) + " %";
 }
 
 std::string signed_percent(double share, int digits) { return (share < 0.0 ? "" : "+") + percent(share, digits); }

@@ -31,7 +31,7 @@ struct NumberText {
 /// At most `digits` significant digits, for people to read.
 [[nodiscard]] std::string format_number(double value, int digits);
 
-/// "3 %" of a share of 0.03, with at most `digits` significant digits.
+/// "3 %" of a share of 0.03: at most `digits` significant digits, or whole percents where these have more.
 [[nodiscard]] std::string percent(double share, int digits);
 
 /// "+3 %" or "-3 %", for a change or an interval. A share of zero has a plus too.

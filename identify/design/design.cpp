@@ -141,13 +141,7 @@ std::vector<std::span<const CandidateMeasurement>> by_plan(std::span<const Candi
   return groups;
 }
 
-/// Two significant digits; whole percents from 99.5 % on.
-std::string rounded_percent(double share) {
-  constexpr int digits = 2;
-  constexpr double all = 99.5;
-  const double value = 100.0 * share;
-  return value < all ? core::percent(share, digits) : std::to_string(std::llround(value)) + " %";
-}
+std::string rounded_percent(double share) { return core::percent(share, 2); }
 
 std::string text_of(const MeasurementAdvice& advice, const LawIntervals& now) {
   const auto half = [](const Interval& ends, double value) { return 0.5 * (ends[1] - ends[0]) / value; };

@@ -184,7 +184,7 @@ std::vector<std::string> harmonic_excitations() {
 }
 
 Choice friction_laws() {
-  Choice result{"law", {}};
+  Choice result{.key = "law", .variants = {}, .names_laws = true};
   for (const friction::LawEntry& law : friction::laws()) {
     result.variants.push_back({std::string(law.name), std::string(law.summary), {fields_of(law.parameters)}});
   }

@@ -53,7 +53,7 @@ class Reader {
         Json value = this->value(entry->value, field, field_path);
         if (!value.is_null()) values[field.name] = std::move(value);
         if (field.takes_uncertainty) uncertainty(node, *entry, field, field_path, values);
-      } else if (field.is_required && !(laws_are_sought_ && choice != nullptr && choice->key == "law")) {
+      } else if (field.is_required && !(laws_are_sought_ && choice != nullptr && choice->names_laws)) {
         complain_about_missing(node, section, field, field_path);
       } else if (!field.fallback.is_null()) {
         values[field.name] = field.fallback;
@@ -357,7 +357,7 @@ class Reader {
     Json values = Json::object();
     values[choice.key] = variant->name;
     Json rest = section(node, variant->section, path, &choice);
-    if (choice.key == "law") check_law(node, variant->name, path, rest);
+    if (choice.names_laws) check_law(node, variant->name, path, rest);
     values.update(rest);
     return values;
   }
@@ -377,7 +377,7 @@ class Reader {
           "'" + path + "." + choice.key + "' cannot be " +
               (entry->value.kind == Node::Kind::scalar ? "'" + shown(entry->value) + "'" : shown(entry->value)),
           core::joined(choice.names()) +
-              (choice.key == "law" ? "; or the law of a plugin, " + document_.words()(core::Setting::plugin) : ""),
+              (choice.names_laws ? "; or the law of a plugin, " + document_.words()(core::Setting::plugin) : ""),
           shown(entry->value), nearest(entry->value.text, choice.names()));
       return nullptr;
     }

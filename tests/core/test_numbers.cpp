@@ -71,6 +71,15 @@ TEST_CASE("numbers: a share is written in percent, with a sign where it is a cha
   CHECK(signed_percent(0.0, 2) == "+0 %");
 }
 
+TEST_CASE("numbers: a share above its digits is in whole percents, without an exponent", "[core][numbers]") {
+  CHECK(percent(0.12, 1) == "12 %");
+  CHECK(percent(0.098, 1) == "10 %");
+  CHECK(percent(0.996, 2) == "100 %");
+  CHECK(percent(1.234, 2) == "123 %");
+  CHECK(signed_percent(-34.56, 3) == "-3456 %");
+  CHECK(percent(1e5, 3) == "1e+07 %");
+}
+
 TEST_CASE("numbers: the range of sizes as text is the range of sizes, and its squares are finite",
           "[core][numbers]") {
   const NumberText least = read_number(magnitude_range);
