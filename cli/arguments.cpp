@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "cli/shared_options.hpp"
+#include "cli/usage_error.hpp"
 #include "core/build_info.hpp"
 #include "core/diagnostics.hpp"
 #include "core/numbers.hpp"
@@ -73,7 +74,7 @@ class Parser {
       std::ostringstream errors;
       const int status = app_.exit(error, out, errors);
       if (status == 0) return {Leave{out.str(), 0, false}};
-      return {Leave{app_.get_subcommands().empty() ? wrong_command() : error.what(), usage, json}};
+      return {Leave{usage_error(app_, error), usage, json}};
     }
     return {chosen(), plugins_, isolation_.empty() ? 0.0 : std::stod(isolation_), json};
   }
@@ -356,19 +357,6 @@ class Parser {
         });
     add_plugins(*completion_command_);
     manual_command_ = app_.add_subcommand("manual", "Print the manual page: dualdamp manual | man -l -");
-  }
-
-  /// The message for a command line without a known command.
-  [[nodiscard]] std::string wrong_command() const {
-    const std::vector<std::string> words = app_.remaining();
-    const auto word = std::ranges::find_if(words, [](const std::string& text) { return !text.starts_with('-'); });
-    std::string message = word == words.end() ? "a command is missing" : "there is no command '" + *word + "'";
-    const char* separator = "; there are: ";
-    for (const CLI::App* command : app_.get_subcommands([](const CLI::App*) { return true; })) {
-      message += separator + command->get_name();
-      separator = ", ";
-    }
-    return message;
   }
 
   [[nodiscard]] Command chosen() const {

@@ -4,6 +4,7 @@
 #include <cctype>
 
 #include "core/diagnostics.hpp"
+#include "core/nearest.hpp"
 
 namespace dualdamp::scenarios {
 
@@ -54,8 +55,10 @@ void check_equals(CheckedFile& file, const std::string& path, const Json& expect
 void check_expectations(CheckedFile& file, const Expectable& result) {
   std::vector<std::string> patterns;
   for (const ResultField& field : result.fields) patterns.push_back(field.path);
-  for (std::size_t i = 0; i < file.values().at("expect").size(); ++i) {
-    const Json& expectation = file.values().at("expect").at(i);
+  const auto expectations = file.values().find("expect");
+  if (expectations == file.values().end()) return;  // none, or reported
+  for (std::size_t i = 0; i < expectations->size(); ++i) {
+    const Json& expectation = expectations->at(i);
     const std::string item = "expect[" + std::to_string(i) + "]";
     check_equals(file, item, expectation);
     if (!expectation.contains("value") || patterns.empty()) continue;
@@ -66,7 +69,7 @@ void check_expectations(CheckedFile& file, const Expectable& result) {
       const bool is_of_point = path && std::ranges::find(patterns, of_point + path->pattern) != patterns.end();
       file.complain(place, "the result of " + result.subject + " has no number '" + text + "'",
                     core::joined(patterns), {},
-                    is_of_point ? "sweep[0].result." + text : nearest(path ? path->pattern : text, patterns));
+                    is_of_point ? "sweep[0].result." + text : core::nearest(path ? path->pattern : text, patterns));
     } else {
       check_index(file, result, place, *path);
     }

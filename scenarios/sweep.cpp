@@ -242,6 +242,7 @@ class Sweep {
                                 return list == "sweep" ? std::optional(points_.size()) : std::nullopt;
                               }});
     if (!reading.problems.empty()) throw_sorted(std::move(reading.problems), points_.name());
+    if (!reading.values.contains("expect")) return {};
     values = reading.values.at("expect");
     return expectations(reading.values, document, reading);
   }

@@ -143,7 +143,4 @@ struct Choice {
 [[nodiscard]] std::string describe_values(const Field& field,
                                           core::Coordinate coordinate = core::Coordinate::displacement);
 
-/// The name among `names` that `word` probably means; empty when none is similar.
-[[nodiscard]] std::string nearest(std::string_view word, const std::vector<std::string>& names);
-
 }  // namespace dualdamp::scenarios

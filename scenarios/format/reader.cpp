@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/diagnostics.hpp"
+#include "core/nearest.hpp"
 #include "core/numbers.hpp"
 #include "core/uncertain_quantity.hpp"
 #include "core/units.hpp"
@@ -82,7 +83,7 @@ class Reader {
     for (const Entry& entry : node.entries)
       if (std::ranges::find(names, entry.key) == names.end())
         complain(entry.place, "unknown key '" + shortened(entry.key) + "'" + where,
-                 names.empty() ? "no key" : core::joined(names), {}, nearest(entry.key, names));
+                 names.empty() ? "no key" : core::joined(names), {}, core::nearest(entry.key, names));
   }
 
   /// " of type none": what the keys depend on.
@@ -177,7 +178,7 @@ class Reader {
   Json word(const Node& node, const Field& field, const std::string& path) {
     if (field.words.empty() || std::ranges::find(field.words, node.text) != field.words.end()) return node.text;
     return refused(node, "'" + path + "' cannot be '" + shown(node) + "'", core::joined(field.words),
-                   nearest(node.text, field.words));
+                   core::nearest(node.text, field.words));
   }
 
   Json truth(const Node& node, const Field& field, const std::string& path) {
@@ -240,7 +241,7 @@ class Reader {
     if (!text.value) {
       const bool is_word = !field.words.empty() && !is_number_like(node.text);
       complain(node.place, "'" + path + "': " + text.fault, allowed, shown(node),
-               is_word ? nearest(node.text, field.words) : text.suggestion);
+               is_word ? core::nearest(node.text, field.words) : text.suggestion);
       return nullptr;
     }
     if (!in_range(node, field, path, *text.value, core::unit_for(coordinate_, unit))) return nullptr;
@@ -378,7 +379,7 @@ class Reader {
               (entry->value.kind == Node::Kind::scalar ? "'" + shown(entry->value) + "'" : shown(entry->value)),
           core::joined(choice.names()) +
               (choice.names_laws ? "; or the law of a plugin, " + document_.words()(core::Setting::plugin) : ""),
-          shown(entry->value), nearest(entry->value.text, choice.names()));
+          shown(entry->value), core::nearest(entry->value.text, choice.names()));
       return nullptr;
     }
     return variant;

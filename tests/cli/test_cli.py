@@ -250,10 +250,14 @@ class Refusals(Case):
         self.assertEqual(self.document("run", "--json", status=2)["scenario"], None)
         self.assertFalse((self.folder / "results").exists())
 
-    def test_a_command_that_is_none_is_named(self):
-        for words, message in ((["runn", "base.yaml"], "there is no command 'runn'; there are: run, stress, check,"), ([], "a command is missing; there are: run, stress, check,")):
-            with self.subTest(words=words):
-                self.assertIn(message, self.run_program(*words, status=2).stderr)
+    def test_a_command_or_option_that_is_none_is_named(self):
+        commands = "run, stress, check,"
+        for line, message in {"fly base.yaml": f"there is no command 'fly'; there are: {commands}", "": f"a command is missing; there are: {commands}",
+                              "runn base.yaml": "there is no command 'runn'; did you mean 'run'?", "stress exprt": "there is no command 'exprt'; did you mean 'export'?",
+                              "--versoin": "there is no option '--versoin'; did you mean '--version'?", "run base.yaml --fly": "the command 'run' has no option '--fly'\n",
+                              "identify x.csv --mas=1 kg": "the command 'identify' has no option '--mas'; did you mean '--mass'?"}.items():
+            with self.subTest(line):
+                self.assertIn(message, self.run_program(*line.split(), status=2).stderr)
 
     def test_interrupt(self):
         """Each of these runs for minutes; the time it may take to end is generous because the machine may be busy."""

@@ -252,6 +252,7 @@ TEST_CASE("sweep: expectations are of its own result", "[scenarios][sweep]") {
   CHECK(problem_of(sweep + "expect: [{value: peak, equals: 1}]").message.find("has no number 'peak'") !=
         std::string::npos);
   CHECK(problem_of(sweep + "expect: [{value: peak, equals: 1}]").suggestion == "sweep[0].result.peak");
+  CHECK(problem_of(sweep + "expect: []").message == "'expect' has the wrong number of items");
   CHECK(problem_of(sweep + "expect: [{value: \"sweep[2].result.peak\", equals: 1}]").message.find("no such item") !=
         std::string::npos);
 }

@@ -1,0 +1,77 @@
+#include "cli/usage_error.hpp"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <string_view>
+#include <vector>
+
+#include "core/diagnostics.hpp"
+#include "core/nearest.hpp"
+
+namespace dualdamp::cli {
+
+namespace {
+
+using Words = std::vector<std::string>;
+
+/// The command that the line names: `stress export` rather than `stress`.
+const CLI::App& named_command(const CLI::App& app) {
+  const CLI::App* command = &app;
+  while (!command->get_subcommands().empty()) command = command->get_subcommands().back();
+  return *command;
+}
+
+Words commands_of(const CLI::App& app) {
+  Words names;
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
+    names.push_back(command->get_name());
+  return names;
+}
+
+Words options_of(const CLI::App& command) {
+  Words names;
+  for (const CLI::Option* option : command.get_options())
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  return names;
+}
+
+bool is_option(std::string_view word) { return word.size() > 1 && word.front() == '-'; }
+
+std::string suggestion(std::string_view word, const Words& names) {
+  const std::string meant = core::nearest(word, names);
+  return meant.empty() ? std::string() : "; did you mean '" + meant + "'?";
+}
+
+/// Of the first option among the words that were not read; empty without one.
+std::string wrong_option(const CLI::App& command, const Words& unread) {
+  const auto option = std::ranges::find_if(unread, is_option);
+  if (option == unread.end()) return {};
+  const std::string name = option->substr(0, option->find('='));
+  const std::string owner = command.get_parent() == nullptr
+                                ? "there is no option"
+                                : "the command '" + command.get_name() + "' has no option";
+  return owner + " '" + name + "'" + suggestion(name, options_of(command));
+}
+
+std::string wrong_command(const CLI::App& app, const Words& unread) {
+  const Words commands = commands_of(app);
+  const auto word = std::ranges::find_if_not(unread, is_option);
+  if (word == unread.end()) {
+    const std::string option = wrong_option(app, unread);
+    return option.empty() ? "a command is missing; there are: " + core::joined(commands) : option;
+  }
+  const std::string meant = suggestion(*word, commands);
+  return "there is no command '" + *word + "'" + (meant.empty() ? "; there are: " + core::joined(commands) : meant);
+}
+
+}  // namespace
+
+std::string usage_error(const CLI::App& app, const CLI::ParseError& error) {
+  const CLI::App& command = named_command(app);
+  const Words unread = app.remaining(true);
+  if (!commands_of(command).empty()) return wrong_command(command, unread);
+  const std::string option = wrong_option(command, unread);
+  return option.empty() ? error.what() : option;
+}
+
+}  // namespace dualdamp::cli

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <string>
+
+namespace CLI {
+class App;
+class ParseError;
+}  // namespace CLI
+
+namespace dualdamp::cli {
+
+/// What is wrong with a command line that `app` has refused, with the command or option that it probably means.
+[[nodiscard]] std::string usage_error(const CLI::App& app, const CLI::ParseError& error);
+
+}  // namespace dualdamp::cli
