@@ -6,7 +6,7 @@
 #include <variant>
 #include <vector>
 
-#include "cli/command_table.hpp"
+#include "cli/shell/command_table.hpp"
 
 namespace dualdamp::cli {
 

@@ -145,6 +145,9 @@ std::string verification_text(const scenarios::Verification& verification) {
     text += rows(verification.rows_left_out) + "a number in only one of the two computations, ";
   if (verification.rows_without_numbers > 0)
     text += rows(verification.rows_without_numbers) + "a reason in place of a number in both, ";
+  if (verification.others_left_out > 0)
+    text += std::to_string(verification.others_left_out) +
+            " of the other steady states known in only one of the two computations, ";
   return text + "largest difference " + core::format_number(verification.largest_difference, 2) + " (" +
          verification.quantity + ", " + core::format_number(verification.tolerance, 2) + " allowed) of " +
          std::to_string(verification.quantities) +

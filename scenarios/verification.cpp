@@ -50,7 +50,7 @@ std::string unit_of(const std::vector<ResultField>& fields, const std::string& p
 using Leaves = std::map<std::string, Json>;
 
 void collect(const Json& json, const std::string& path, Leaves& leaves) {
-  if (is_account(path) || path == "multipliers") return;
+  if (is_account(path) || path == "multipliers" || path == "others") return;
   if (json.is_object()) {
     for (const auto& [key, value] : json.items()) collect(value, path.empty() ? key : path + "." + key, leaves);
   } else if (json.is_array()) {
@@ -124,6 +124,7 @@ class Comparison {
     for (const auto& [path, value] : theirs)
       if (!mine.contains(path)) differ(path, "only the other result has it");
     compare_multipliers();
+    compare_others();
     for (const Table& table : answer_.tables)
       if (!is_derived(table)) compare_table(table);
     return std::move(result_);
@@ -210,6 +211,35 @@ class Comparison {
           std::abs(value), std::abs(*nearest));
       theirs.erase(nearest);
     }
+  }
+
+  /// Other steady states: each computation lists those that it knows by its own way to the result. Two that are
+  /// nearly equal are one.
+  void compare_others() {
+    if (!answer_.result.contains("others") || !other_.result.contains("others")) return;
+    const Json& mine = answer_.result.at("others");
+    const Json& theirs = other_.result.at("others");
+    std::vector<char> is_met(theirs.size(), 0);
+    for (std::size_t i = 0; i < mine.size(); ++i) {
+      const auto same = std::ranges::find_if(theirs, [&](const Json& state) { return is_one(mine[i], state); });
+      if (same == theirs.end()) {
+        ++result_.others_left_out;
+        continue;
+      }
+      is_met[static_cast<std::size_t>(same - theirs.begin())] = 1;
+      for (const char* key : {"peak", "trough"})
+        compare_numbers("others[" + std::to_string(i) + "]." + key, "m", mine[i].at(key), same->at(key),
+                        sizes_["m"]);
+    }
+    result_.others_left_out += std::ranges::count(is_met, 0);
+  }
+
+  bool is_one(const Json& a, const Json& b) {
+    constexpr double nearly = 1e-4;
+    const auto is_near = [&](const char* key) {
+      return std::abs(a.at(key).get<double>() - b.at(key).get<double>()) <= nearly * sizes_["m"];
+    };
+    return a.at("period_ratio") == b.at("period_ratio") && is_near("peak") && is_near("trough");
   }
 
   void compare_table(const Table& table) {

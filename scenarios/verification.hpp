@@ -31,6 +31,7 @@ struct Verification {
   long quantities = 0;              ///< number of compared values
   long rows_left_out = 0;           ///< rows of lists for which only one computation has numbers
   long rows_without_numbers = 0;    ///< rows of lists for which both have a reason instead
+  long others_left_out = 0;         ///< other steady states that only one computation knows
   bool agrees = true;
   std::string reason;  ///< why it does not agree or could not be computed
 };

@@ -373,10 +373,9 @@ class Reader {
     reading_.places.emplace(path + "." + choice.key, entry->value.place);
     const Variant* variant = choice.find(entry->value.text);
     if (variant == nullptr || entry->value.kind != Node::Kind::scalar) {
+      const std::string mark = entry->value.kind == Node::Kind::scalar ? "'" : "";
       complain(
-          entry->value.place,
-          "'" + path + "." + choice.key + "' cannot be " +
-              (entry->value.kind == Node::Kind::scalar ? "'" + shown(entry->value) + "'" : shown(entry->value)),
+          entry->value.place, "'" + path + "." + choice.key + "' cannot be " + mark + shown(entry->value) + mark,
           core::joined(choice.names()) +
               (choice.names_laws ? "; or the law of a plugin, " + document_.words()(core::Setting::plugin) : ""),
           shown(entry->value), core::nearest(entry->value.text, choice.names()));

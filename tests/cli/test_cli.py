@@ -251,8 +251,7 @@ class Refusals(Case):
         self.assertFalse((self.folder / "results").exists())
 
     def test_a_command_or_option_that_is_none_is_named(self):
-        commands = "run, stress, check,"
-        for line, message in {"fly base.yaml": f"there is no command 'fly'; there are: {commands}", "": f"a command is missing; there are: {commands}",
+        for line, message in {"fly base.yaml": "there is no command 'fly'; there are: run, stress, check,", "": "a command is missing; there are: run, stress, check,",
                               "runn base.yaml": "there is no command 'runn'; did you mean 'run'?", "stress exprt": "there is no command 'exprt'; did you mean 'export'?",
                               "--versoin": "there is no option '--versoin'; did you mean '--version'?", "run base.yaml --fly": "the command 'run' has no option '--fly'\n",
                               "identify x.csv --mas=1 kg": "the command 'identify' has no option '--mas'; did you mean '--mass'?"}.items():

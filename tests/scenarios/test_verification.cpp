@@ -80,6 +80,27 @@ TEST_CASE("verification: counts are equal, and a missing number is a difference"
   CHECK(scenarios::compare_answers(other, answer(0.1, 1.0), fields).quantity == "peak");
 }
 
+TEST_CASE("verification: other steady states are compared where both computations know them",
+          "[scenarios][verification]") {
+  const auto with_others = [](std::vector<double> peaks) {
+    Answer result = answer(0.1, 1.0);
+    result.result["others"] = scenarios::Json::array();
+    for (const double peak : peaks)
+      result.result["others"].push_back({{"peak", peak}, {"trough", -0.1}, {"period_ratio", 3}});
+    return result;
+  };
+  const Verification same = scenarios::compare_answers(with_others({0.1, 0.2}), with_others({0.2, 0.1}), fields);
+  CHECK(same.agrees);
+  CHECK(same.others_left_out == 0);
+  const Verification one = scenarios::compare_answers(with_others({0.2}), with_others({0.1, 0.3}), fields);
+  CHECK(one.agrees);
+  CHECK(one.others_left_out == 3);
+  const Verification off = scenarios::compare_answers(with_others({0.2}), with_others({0.1, 0.2 + 1e-6}), fields);
+  CHECK_FALSE(off.agrees);
+  CHECK(off.quantity == "others[0].peak");
+  CHECK(off.others_left_out == 1);
+}
+
 TEST_CASE("verification: a phase that one computation does not have is not compared", "[scenarios][verification]") {
   Answer without = answer(0.1, 1.0);
   without.result["phase"] = nullptr;

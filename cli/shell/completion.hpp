@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "cli/command_table.hpp"
+#include "cli/shell/command_table.hpp"
 
 namespace dualdamp::cli {
 

@@ -1,4 +1,4 @@
-#include "cli/command_table.hpp"
+#include "cli/shell/command_table.hpp"
 
 #include <CLI/CLI.hpp>
 

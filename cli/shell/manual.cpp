@@ -1,4 +1,4 @@
-#include "cli/manual.hpp"
+#include "cli/shell/manual.hpp"
 
 #include <algorithm>
 #include <string_view>

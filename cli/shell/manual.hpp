@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "cli/command_table.hpp"
+#include "cli/shell/command_table.hpp"
 
 namespace dualdamp::cli {
 
