@@ -34,11 +34,13 @@ struct RunContext {
   double tolerance = 0.0;       ///< closure of a steady state
   const std::string& resolved;  ///< the scenario as JSON
   const RunOptions& options;
+  const sim::State* from = nullptr;  ///< where the search for a steady state begins; null: the initial state
 
   /// A search for steady states with the scenario's tolerance.
   [[nodiscard]] sim::SteadyStateOptions steady_states() const {
     sim::SteadyStateOptions steady;
     steady.tolerance = tolerance;
+    if (from != nullptr) steady.from = *from;
     return steady;
   }
 };

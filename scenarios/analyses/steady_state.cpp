@@ -55,6 +55,7 @@ Answer SteadyStateQuestion::run(const RunContext& context) const {
   if (!state.outcome.ok()) return failed(state.outcome.reason);
   Answer answer;
   answer.warnings = state.warnings;
+  answer.orbit = std::make_shared<const sim::State>(state.start);
   Json& result = answer.result;
   result["peak"] = state.peak;
   result["trough"] = state.trough;

@@ -1,12 +1,17 @@
 #pragma once
 /// The answer of an analysis: JSON, tables, warnings.
 
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "core/diagnostics.hpp"
 #include "scenarios/format/json.hpp"
 #include "scenarios/results/table.hpp"
+
+namespace dualdamp::sim {
+struct State;
+}
 
 namespace dualdamp::scenarios {
 
@@ -25,6 +30,7 @@ struct Answer {
   std::vector<std::string> warnings;
   std::vector<Table> tables;
   std::vector<TextFile> files = {};
+  std::shared_ptr<const sim::State> orbit = {};  ///< of a steady state: its state at t = 0
 };
 
 /// No result, and why.

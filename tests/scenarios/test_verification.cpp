@@ -4,13 +4,17 @@
 
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <memory>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <tuple>
 #include <vector>
 
 #include "core/diagnostics.hpp"
+#include "scenarios/analysis.hpp"
 #include "scenarios/run.hpp"
+#include "sim/engine/state.hpp"
 
 using namespace dualdamp;
 using scenarios::Answer;
@@ -50,7 +54,52 @@ Answer curve_answer(double x) {
   return result;
 }
 
+/// A steady state that the smooth engine finds only from a state near it.
+class HardSteadyState : public scenarios::Question {
+ public:
+  HardSteadyState(bool is_reached, double peak_of_smooth) : is_reached_(is_reached), peak_(peak_of_smooth) {}
+
+  [[nodiscard]] Answer run(const scenarios::RunContext& context) const override {
+    const bool is_exact = context.model.solver.kind == sim::SolverKind::automatic;
+    if (!is_exact && context.from == nullptr) return scenarios::failed("too many steps");
+    if (!is_exact) CHECK(context.from->x == 0.1);
+    Answer found = answer(is_exact ? 0.1 : peak_, 1.0);
+    found.orbit = std::make_shared<const sim::State>(sim::State{.x = 0.1});
+    return found;
+  }
+  [[nodiscard]] std::optional<scenarios::OtherWay> other_way(const scenarios::RunContext& /*context*/,
+                                                             const Answer& /*answer*/) const override {
+    scenarios::OtherWay transient{"the transient", scenarios::failed("it has not settled")};
+    if (is_reached_) transient.answer.result = {{"peak", 0.1}};
+    return transient;
+  }
+
+ private:
+  bool is_reached_;
+  double peak_;
+};
+
+Verification verification_of_hard(bool is_reached, double peak_of_smooth) {
+  scenarios::Scenario scenario = verified_scenario(coulomb, "{type: steady_state}");
+  scenario.question = std::make_shared<HardSteadyState>(is_reached, peak_of_smooth);
+  scenario.result_fields = fields;
+  const scenarios::RunOptions options;
+  return scenarios::verify(scenario, options, scenario.question->run({scenario.model, 1e-14, "", options}));
+}
+
 }  // namespace
+
+TEST_CASE("verification: a steady state whose way is too long for the other engine is computed again on its orbit",
+          "[scenarios][verification]") {
+  const Verification found = verification_of_hard(true, 0.1);
+  CHECK(found.agrees);
+  CHECK(found.engine == "smooth engine, explicit steps at tolerance 1e-13, begun on the orbit; the transient");
+  CHECK_FALSE(verification_of_hard(true, 0.2).agrees);
+  // Another orbit than the one that the motion approaches could be on its own orbit too.
+  const Verification unreached = verification_of_hard(false, 0.1);
+  CHECK_FALSE(unreached.agrees);
+  CHECK(unreached.reason == "the other computation has no result: too many steps");
+}
 
 TEST_CASE("verification: the quantity that is off is named", "[scenarios][verification]") {
   const Verification same = scenarios::compare_answers(answer(0.1, 1.0), answer(0.1, 1.0), fields);
