@@ -254,7 +254,7 @@ class Comparison {
       if (!is_compared(table, column)) continue;
       const Column* const peer = other->find(column.name);
       if (peer == nullptr) {
-        differ(name + "[]." + column.name, "only this result has it");
+        if (has_cells(column, mine, compared)) differ(name + "[]." + column.name, "only this result has it");
         continue;
       }
       for (std::size_t i = 0; i < mine.size(); ++i)
@@ -262,6 +262,18 @@ class Comparison {
           compare_cell(name + "[" + std::to_string(i) + "]." + column.name, table, column, mine[i], *peer,
                        theirs[i]);
     }
+  }
+
+  /// Whether a column that only one table has says something in a compared row. Columns for what few rows have are
+  /// left out where no row has it.
+  static bool has_cells(const Column& column, const std::vector<std::size_t>& rows,
+                        const std::vector<char>& compared) {
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      const bool is_empty =
+          column.kind == CellKind::text ? column.text(rows[i]).empty() : std::isnan(column.numbers[rows[i]]);
+      if (compared[i] && !is_empty) return true;
+    }
+    return false;
   }
 
   /// Rows for which a computation has a reason instead of numbers are not compared. Those are counted for which the

@@ -204,16 +204,19 @@ bool may_have_mirror_images(const Excitation& drive) {
 }
 
 /// The mirror image, half a forcing period later. Every symmetric model has it; whether this one does, the motion
-/// that begins there tells.
+/// that begins there tells. The laws begin anew there, which may lead to another orbit. A subharmonic motion has
+/// such a place in each of its forcing periods.
 std::optional<SteadyState> OrbitFinder::mirror_image(const SteadyState& of, OrbitSolver& solver) {
-  const Sample half = one_period(model_, of, 2 * of.period_ratio)[1];
-  const State later = solver.map_over(1).from_start(-half.x, -half.v, Monodromy::without).end;
-  const std::optional<Orbit> found =
-      of.period_ratio == 1 ? solver.near_motion_from(later) : solver.near(later, of.period_ratio);
-  if (!found) return std::nullopt;
-  SteadyState other = outlined(*found);
-  if (!is_mirror_image(other, of)) return std::nullopt;
-  return other;
+  const std::vector<Sample> halves = one_period(model_, of, 2 * of.period_ratio);
+  for (std::size_t i = 1; i < halves.size(); i += 2) {
+    const State later = solver.map_over(1).from_start(-halves[i].x, -halves[i].v, Monodromy::without).end;
+    const std::optional<Orbit> found =
+        of.period_ratio == 1 ? solver.near_motion_from(later) : solver.near(later, of.period_ratio);
+    if (!found) continue;
+    SteadyState other = outlined(*found);
+    if (is_mirror_image(other, of)) return other;
+  }
+  return std::nullopt;
 }
 
 void OrbitFinder::add_mirror_images(SteadyState& result) {

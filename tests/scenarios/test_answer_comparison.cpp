@@ -125,6 +125,21 @@ TEST_CASE("comparison of answers: rows without numbers in one computation are to
   CHECK(found.agrees);
 }
 
+TEST_CASE("comparison of answers: a column that only one answer has counts where a compared row fills it",
+          "[scenarios][verification]") {
+  const auto with_column = [](std::vector<double> numbers, std::vector<std::string> reasons) {
+    Answer curve = curve_answer(1.0);
+    curve.tables[0].columns.push_back({.name = "Y_sticks", .unit = "m", .numbers = std::move(numbers)});
+    curve.tables[0].columns.push_back(
+        {.name = "reason", .texts = std::move(reasons), .kind = scenarios::CellKind::text});
+    return curve;
+  };
+  CHECK(scenarios::compare_answers(with_column({0.1, NAN}, {"open", ""}), curve_answer(1.0), {}).agrees);
+  const Verification found = scenarios::compare_answers(with_column({0.1, NAN}, {"", ""}), curve_answer(1.0), {});
+  CHECK_FALSE(found.agrees);
+  CHECK(found.quantity == "points[].Y_sticks");
+}
+
 TEST_CASE("comparison of answers: each point of a curve is measured by its own amplitude",
           "[scenarios][verification]") {
   // Relative to an amplitude of 1 m an error of 1e-12 m would not count.

@@ -81,6 +81,29 @@ TEST_CASE("beside a mass at rest both engines list both asymmetric motions that 
   }
 }
 
+TEST_CASE("the mirror image of a subharmonic motion is found from whichever of its periods leads there") {
+  // The slider of the contact begins anew in the mirror image, which leads to another orbit from one of three
+  // places.
+  sim::Model model;
+  model.oscillator = {.mass = 1.0, .stiffness = 1.0, .damping = 0.13};
+  model.excitation = {.type = sim::ExcitationType::base_harmonic,
+                      .amplitude = 1.9188044401897117,
+                      .frequency = 0.09532703465771306};
+  model.friction = {test::law("contact_compliance", {{"kinetic", 0.15},
+                                                     {"static", 0.485439289539661},
+                                                     {"contact_stiffness", 6.258302601449795},
+                                                     {"contact_damping", 0.005778106940294374}}),
+                    test::law("coulomb", {{"kinetic", 0.06590412330603829}, {"static", 0.1543368414405835}})};
+  for (const double tolerance : {1e-9, 1e-10, 1e-12, 1e-14}) {
+    const sim::SteadyState state = sim::steady_state(model, {.tolerance = tolerance});
+    REQUIRE(state.outcome.ok());
+    CHECK(state.period_ratio == 3);
+    CHECK(std::ranges::any_of(state.others, [&](const sim::OtherState& other) {
+      return other.peak == Approx(-state.trough) && other.trough == Approx(-state.peak);
+    }));
+  }
+}
+
 TEST_CASE("a model that is not symmetric has no mirror images of its steady states") {
   // Each was listed with a mirror image that no motion reaches.
   sim::Model model;
