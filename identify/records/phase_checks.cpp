@@ -124,6 +124,30 @@ Balance balance_of(const std::vector<Pair>& pairs, const KnownConstants& constan
   return balance;
 }
 
+std::optional<double> excess_of_Y(const std::vector<Pair>& pairs, const KnownConstants& constants) {
+  constexpr double beside = 0.03;  // of k
+  constexpr double alike = 0.9;
+  bool is_below = false;
+  bool is_above = false;
+  double given = 0.0;
+  double needed = 0.0;
+  double both = 0.0;
+  for (const Pair& pair : pairs) {
+    const double omega = frequency_of(pair, constants);
+    const double real = (constants.stiffness - constants.mass * omega * omega) / constants.stiffness;
+    const double a = pair.Y * std::cos(pair.phase);
+    const double b = real * pair.x;
+    if (!std::isfinite(a * b)) continue;
+    is_below = is_below || real > beside;
+    is_above = is_above || real < -beside;
+    given += a * a;
+    needed += b * b;
+    both += a * b;
+  }
+  if (!is_below || !is_above || !(both * both > alike * given * needed)) return std::nullopt;
+  return both / needed;
+}
+
 std::optional<PhaseFault> phase_fault(const std::vector<Pair>& pairs, const KnownConstants& constants,
                                       bool from_histories, const core::SettingWords& words) {
   const Balance balance = balance_of(pairs, constants);

@@ -32,6 +32,11 @@ struct Balance {
 
 [[nodiscard]] Balance balance_of(const std::vector<Pair>& pairs, const KnownConstants& constants);
 
+/// How many times too large Y is for x and the phases. Nothing if they do not tell: that needs pairs on both sides
+/// of the natural frequency, whose k Y cos(phase) is in proportion to (k - m w^2) x. On one side friction that
+/// holds the mass for a part of the period makes up for any factor.
+[[nodiscard]] std::optional<double> excess_of_Y(const std::vector<Pair>& pairs, const KnownConstants& constants);
+
 struct PhaseFault {
   std::string message, allowed;
 };

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include "core/constants.hpp"
@@ -28,14 +29,17 @@ bool is_gross(double ratio) {
   return std::isfinite(ratio) && ratio > 0.0 && (ratio > gross || ratio < 1.0 / gross);
 }
 
-/// "about 1000 times too large": rounded to the factor of a wrong unit, if one is near.
-std::string times_off(double ratio) {
-  constexpr std::array<double, 7> factors = {9.80665, 25.4, 57.29578, 60.0, 1000.0, 9806.65, 1e6};
+/// Factors of wrong units: of lengths, and of lengths, times, angles and accelerations beside each other.
+constexpr std::array<double, 5> of_lengths = {10.0, 25.4, 100.0, 1000.0, 1e6};
+constexpr std::array<double, 7> of_motions = {9.80665, 25.4, 57.29578, 60.0, 1000.0, 9806.65, 1e6};
+
+/// "about 1000 times too large": the factor of a wrong unit if one is near.
+std::string times_off(double ratio, std::span<const double> factors = of_motions) {
   constexpr double near = 0.25;
   const double size = std::max(ratio, 1.0 / ratio);
-  const auto* const factor =
+  const auto factor =
       std::ranges::find_if(factors, [size](double f) { return std::abs(std::log(size / f)) < near; });
-  return (factor == factors.end() ? "about " + shown(size) : "about " + core::format_number(*factor, digits + 1)) +
+  return "about " + (factor == factors.end() ? shown(size) : core::format_number(*factor, digits + 1)) +
          " times too " + (ratio > 1.0 ? "large" : "small");
 }
 
@@ -302,7 +306,7 @@ class Check {
                  " of " + std::to_string(balance.pairs) + " pairs," + where,
              swapped + "; mass, stiffness, frequency and times in their units");
     else
-      refuse("column x is " + times_off(upper_median(balance.excess)) + " for Y" + where,
+      refuse("column x is " + times_off(upper_median(balance.excess), of_lengths) + " for Y" + where,
              "both in their units, and mass, stiffness and frequency too: " + in_millimetres());
   }
 
@@ -338,15 +342,49 @@ class Check {
     }
     check_size("x", largest, omega);
     check_size("Y", base, omega);
+    if (faults_.empty()) check_order(pairs);
+    if (!faults_.empty()) return;
     for (const auto& [name, ratios] : {std::pair{"fundamental", &fundamentals}, {"mean_square_speed", &speeds}})
       if (!ratios->empty() && is_gross(upper_median(*ratios)))
-        refuse("column " + std::string(name) + " is " + times_off(upper_median(*ratios)) + " for column x",
-               "both in their units: " + in_units("x", name));
+        refuse(
+            "column " + std::string(name) + " is " + times_off(upper_median(*ratios), of_lengths) + " for column x",
+            "both in their units: " + in_units("x", name));
+  }
+
+  /// The fundamental of x is nearly as large as x. Where x or fundamental has exchanged its place with Y, it is
+  /// not.
+  void check_order(const std::vector<Pair>& pairs) {
+    constexpr std::size_t fewest = 3;
+    constexpr double near = 0.15;
+    constexpr double apart = 0.25;
+    const auto distance = [](double a, double b) { return std::abs(std::log(a / b)); };
+    std::vector<double> off;
+    bool fundamental_is_of_Y = true;
+    bool Y_is_of_x = true;
+    for (const Pair& pair : pairs) {
+      if (!(pair.fundamental > 0.0 && pair.x > 0.0 && pair.Y > 0.0)) continue;
+      off.push_back(distance(pair.fundamental, pair.x));
+      fundamental_is_of_Y = fundamental_is_of_Y && distance(pair.fundamental, pair.Y) < near;
+      Y_is_of_x = Y_is_of_x && distance(pair.Y, pair.x) < near;
+    }
+    if (off.size() < fewest || !(upper_median(off) > apart)) return;
+    const auto say = [this](const char* one, const char* other, const std::string& reason) {
+      refuse("columns " + std::string(one) + " and " + other + " seem to be swapped: " + reason,
+             "x, Y and fundamental of one pair in a row; " + words_(core::Setting::column, one, "...") + ", " +
+                 words_(core::Setting::column, other, "..."));
+    };
+    if (fundamental_is_of_Y)
+      return say("x", "Y", "fundamental, that of x, is close to Y in every pair, and not to x");
+    if (Y_is_of_x) say("Y", "fundamental", "Y is close to x in every pair, and fundamental, that of x, is not");
   }
 
   void check_phases(const std::vector<Pair>& pairs) {
     if (const auto fault = phase_fault(pairs, constants_, !record_.histories.empty(), words_))
-      refuse(fault->message, fault->allowed);
+      return refuse(fault->message, fault->allowed);
+    if (const std::optional<double> excess = excess_of_Y(pairs, constants_); excess && is_gross(*excess))
+      refuse("column Y is " + times_off(*excess, of_lengths) +
+                 " for x and the phases on both sides of the natural frequency, k Y cos(phase) = (k - m w^2) x",
+             "both in their units: " + in_millimetres());
   }
 
   void check_line(const std::vector<Pair>& pairs, const std::string& swapped) {

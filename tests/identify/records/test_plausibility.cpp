@@ -88,6 +88,55 @@ TEST_CASE("Exchanged columns are found near resonance and by phases") {
   CHECK(by_line > 0.5 * rigs);
 }
 
+TEST_CASE("A column that has changed its place with Y is found by the fundamental") {
+  std::mt19937_64 random(18);
+  for (int i = 0; i < 200; ++i) {
+    const Rig rig = random_rig(random, 0.9, 1.05);
+    const Pair& first = rig.record.pairs.front();
+    if (std::abs(std::log(first.x / first.Y)) < 0.5) continue;
+    Rig other = rig;
+    for (Pair& pair : other.record.pairs) std::swap(pair.Y, pair.fundamental);
+    CHECK(mentions(faults_in(other.record, other.constants), "columns Y and fundamental seem to be swapped"));
+    other = rig;
+    for (Pair& pair : other.record.pairs) {
+      std::swap(pair.Y, pair.x);
+      pair.fundamental = pair.Y * 1.02;
+    }
+    CHECK(faults_in(other.record, other.constants) != "");
+    other = rig;
+    for (Pair& pair : other.record.pairs) {
+      std::swap(pair.Y, pair.x);
+      pair.fundamental = pair.Y * 1.02;
+      std::swap(pair.x, pair.Y);
+    }
+    CHECK(faults_in(other.record, other.constants) == "");
+  }
+}
+
+TEST_CASE("Centimetres for millimetres of the base are found by phases on both sides of resonance") {
+  std::mt19937_64 random(19);
+  int sound = 0;
+  int found = 0;
+  constexpr int rigs = 200;
+  for (int i = 0; i < rigs; ++i) {
+    Rig rig = random_rig(random, 0.85, 0.93);
+    const double natural = rig.constants.natural_frequency();
+    std::mt19937_64 again = random;
+    const Rig above = random_rig(again, 1.07, 1.15);
+    for (Pair& pair : rig.record.pairs) pair.omega = rig.constants.frequency;
+    // The other side, of a rig with the same constants but its own damping and friction: only the phases count.
+    for (Pair pair : above.record.pairs) {
+      pair.omega = above.constants.frequency / above.constants.natural_frequency() * natural;
+      rig.record.pairs.push_back(pair);
+    }
+    sound += faults_in(rig.record, rig.constants).empty() ? 1 : 0;
+    for (Pair& pair : rig.record.pairs) pair.Y *= 10.0;
+    found += mentions(faults_in(rig.record, rig.constants), "column Y is about 10 times too large") ? 1 : 0;
+  }
+  CHECK(sound == rigs);
+  CHECK(found > 0.9 * rigs);
+}
+
 TEST_CASE("Amplitudes off by 1000, degrees for radians, and readings that do not fit") {
   std::mt19937_64 random(17);
   Rig rig = random_rig(random, 1.5, 2.0);
