@@ -148,6 +148,9 @@ std::string verification_text(const scenarios::Verification& verification) {
   if (verification.others_left_out > 0)
     text += std::to_string(verification.others_left_out) +
             " of the other steady states known in only one of the two computations, ";
+  if (verification.multipliers_left_out > 0)
+    text += std::to_string(verification.multipliers_left_out) +
+            " of the Floquet multipliers depend on a slider that only just reaches its limit, ";
   return text + "largest difference " + core::format_number(verification.largest_difference, 2) + " (" +
          verification.quantity + ", " + core::format_number(verification.tolerance, 2) + " allowed) of " +
          std::to_string(verification.quantities) +

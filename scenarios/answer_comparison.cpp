@@ -190,22 +190,43 @@ class Comparison {
   /// Compares each with the nearest of those that are left.
   void compare_multipliers() {
     if (!answer_.result.contains("multipliers") || !other_.result.contains("multipliers")) return;
-    const auto values = [](const Json& list) {
-      std::vector<std::complex<double>> result;
-      for (const Json& pair : list)
-        if (pair[0].is_number() && pair[1].is_number()) result.emplace_back(pair[0], pair[1]);
-      return result;
-    };
-    const std::vector<std::complex<double>> mine = values(answer_.result.at("multipliers"));
-    std::vector<std::complex<double>> theirs = values(other_.result.at("multipliers"));
+    std::vector<std::complex<double>> theirs = multipliers_of(other_);
+    const std::vector<std::complex<double>> mine = multipliers_of(answer_);
     if (mine.size() != theirs.size()) return differ("multipliers", "another number of them");
-    for (const std::complex<double>& value : mine) {
+    std::vector<std::complex<double>> rest;
+    const auto compare = [&](const std::complex<double>& value, double allowed) {
       const auto nearest = std::ranges::min_element(
           theirs, {}, [&](const std::complex<double>& other) { return std::abs(other - value); });
-      add("multipliers", std::abs(*nearest - value) / std::max(1.0, std::abs(value)), multiplier_tolerance,
-          std::abs(value), std::abs(*nearest));
+      const double difference = std::abs(*nearest - value) / std::max(1.0, std::abs(value));
+      if (!(difference <= allowed)) return rest.push_back(value);
+      add("multipliers", difference, multiplier_tolerance, std::abs(value), std::abs(*nearest));
       theirs.erase(nearest);
+    };
+    for (const std::complex<double>& value : mine) compare(value, multiplier_tolerance);
+    if (has_edge(rest, theirs) || has_edge(theirs, rest)) {
+      result_.multipliers_left_out = std::ssize(rest);
+      return;
     }
+    for (const std::complex<double>& value : std::exchange(rest, {}))
+      compare(value, std::numeric_limits<double>::infinity());
+  }
+
+  static std::vector<std::complex<double>> multipliers_of(const Answer& answer) {
+    std::vector<std::complex<double>> result;
+    for (const Json& pair : answer.result.at("multipliers"))
+      if (pair[0].is_number() && pair[1].is_number()) result.emplace_back(pair[0], pair[1]);
+    return result;
+  }
+
+  /// Whether one computation has a Floquet multiplier of 1 where the other has 0: a slider that only just reaches
+  /// its limit on the orbit sticks in one of them and slips in the other, which moves further multipliers too.
+  static bool has_edge(const std::vector<std::complex<double>>& one,
+                       const std::vector<std::complex<double>>& other) {
+    const auto has = [](const std::vector<std::complex<double>>& list, double value) {
+      return std::ranges::any_of(
+          list, [value](std::complex<double> each) { return std::abs(each - value) < multiplier_tolerance; });
+    };
+    return has(one, 1.0) && has(other, 0.0);
   }
 
   /// Other steady states: each computation lists those that it knows by its own way to the result. Two that are

@@ -28,6 +28,7 @@ struct Verification {
   long rows_left_out = 0;           ///< rows of lists for which only one computation has numbers
   long rows_without_numbers = 0;    ///< rows of lists for which both have a reason instead
   long others_left_out = 0;         ///< other steady states that only one computation knows
+  long multipliers_left_out = 0;    ///< Floquet multipliers that depend on a slider at its limit
   bool agrees = true;
   std::string reason;  ///< why it does not agree or could not be computed
 };

@@ -161,6 +161,24 @@ TEST_CASE("comparison of answers: Floquet multipliers are a set", "[scenarios][v
   CHECK(scenarios::compare_answers(mine, theirs, {}).quantity == "multipliers");
 }
 
+TEST_CASE("comparison of answers: a Floquet multiplier of 1 and one of 0 are of a slider at its limit",
+          "[scenarios][verification]") {
+  const auto with_multipliers = [](const std::string& list) {
+    Answer result;
+    result.result["multipliers"] = Json::parse(list);
+    return result;
+  };
+  const Answer slips = with_multipliers("[[0.4, 0.0], [0.0, 0.0], [0.0, 0.0]]");
+  const Answer sticks = with_multipliers("[[1.0, 0.0], [0.0, 0.0], [0.5, 0.0]]");
+  for (const auto& [one, two] : {std::pair{slips, sticks}, {sticks, slips}}) {
+    const Verification found = scenarios::compare_answers(one, two, {});
+    CHECK(found.agrees);
+    CHECK(found.multipliers_left_out == 2);
+  }
+  CHECK_FALSE(
+      scenarios::compare_answers(sticks, with_multipliers("[[0.5, 0.0], [0.1, 0.0], [0.0, 0.0]]"), {}).agrees);
+}
+
 TEST_CASE("comparison of answers: grazings are left out, other events are not", "[scenarios][verification]") {
   const auto events = [](std::vector<double> t, std::vector<std::string> kinds) {
     Answer result;
