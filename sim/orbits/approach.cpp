@@ -331,6 +331,22 @@ double Approach::divergence(const State& state) {
   return std::accumulate(growth.begin(), growth.end(), 0.0) / static_cast<double>(growth.size());
 }
 
+/// The number of forcing periods after which the motion repeats itself, if it is above `longest_period`; 0: none
+/// was found.
+long Approach::longer_period() {
+  constexpr double share = 0.1;  // of the periods so far
+  if (has_past_) return 0;
+  const State start = map_.engine().state();
+  PeriodMap& map = solver_.patient_map_over(1);
+  State state = start;
+  for (long n = 1; static_cast<double>(n) <= share * static_cast<double>(passed_); ++n) {
+    state = map.from(state, Monodromy::without).end;
+    if (!map.outcome().ok()) return 0;
+    if (distance(start, state, size_, omega_) < same_orbit) return n > longest_period ? n : 0;
+  }
+  return 0;
+}
+
 /// Why the integration found no orbit.
 core::Outcome Approach::failure() {
   const core::Outcome& followed = map_.outcome();
@@ -384,6 +400,10 @@ core::Outcome Approach::failure() {
     return {core::OutcomeKind::not_unique,
             "not unique: steady states form a continuum, and the motion still creeps along it" + after};
   }
+  if (const long period = longer_period(); period > 0)
+    return {core::OutcomeKind::no_steady_state, "no steady state of at most " + std::to_string(longest_period) +
+                                                    " forcing periods: the motion repeats itself after " +
+                                                    std::to_string(period) + " of them"};
   return {core::OutcomeKind::no_steady_state, "no steady state: the motion has not become periodic" + after};
 }
 

@@ -129,6 +129,20 @@ TEST_CASE("an orbit of slips within rounding, one period of which ends in anothe
   CHECK(state.never_moves());
 }
 
+TEST_CASE("a motion that repeats itself after 102 forcing periods has that in the reason") {
+  // By a history of 6,000 forcing periods, its last 400 repeat those 102 before to 5e-11 of their range.
+  sim::Model model;
+  model.oscillator = {.mass = 0.5339988607947619, .stiffness = 242.1482813940255, .damping = 0.629};
+  model.excitation = {.type = sim::ExcitationType::base_harmonic,
+                      .amplitude = 0.027266393153811838,
+                      .frequency = 1.1762648472879838};
+  model.friction = {
+      test::law("coulomb", {{"kinetic", 0.782}, {"static", 2.231}, {"position_slope", -70.5696200443791}})};
+  const sim::SteadyState state = sim::steady_state(model);
+  CHECK(state.outcome.reason ==
+        "no steady state of at most 64 forcing periods: the motion repeats itself after 102 of them");
+}
+
 TEST_CASE("a panel of many guards under many harmonics counts as several units of work, one of few as one") {
   // So a limit of work is one of processor time: measured 0.3 us a panel of the first model, 6 us of the second.
   sim::Model plain;
