@@ -342,8 +342,10 @@ class Check {
     }
     check_size("x", largest, omega);
     check_size("Y", base, omega);
-    if (faults_.empty()) check_order(pairs);
-    if (!faults_.empty()) return;
+    if (faults_.empty()) {
+      check_exchange(pairs);
+      if (!faults_.empty()) return;
+    }
     for (const auto& [name, ratios] : {std::pair{"fundamental", &fundamentals}, {"mean_square_speed", &speeds}})
       if (!ratios->empty() && is_gross(upper_median(*ratios)))
         refuse(
@@ -353,7 +355,7 @@ class Check {
 
   /// The fundamental of x is nearly as large as x. Where x or fundamental has exchanged its place with Y, it is
   /// not.
-  void check_order(const std::vector<Pair>& pairs) {
+  void check_exchange(const std::vector<Pair>& pairs) {
     constexpr std::size_t fewest = 3;
     constexpr double near = 0.15;
     constexpr double apart = 0.25;

@@ -98,18 +98,8 @@ TEST_CASE("A column that has changed its place with Y is found by the fundamenta
     for (Pair& pair : other.record.pairs) std::swap(pair.Y, pair.fundamental);
     CHECK(mentions(faults_in(other.record, other.constants), "columns Y and fundamental seem to be swapped"));
     other = rig;
-    for (Pair& pair : other.record.pairs) {
-      std::swap(pair.Y, pair.x);
-      pair.fundamental = pair.Y * 1.02;
-    }
-    CHECK(faults_in(other.record, other.constants) != "");
-    other = rig;
-    for (Pair& pair : other.record.pairs) {
-      std::swap(pair.Y, pair.x);
-      pair.fundamental = pair.Y * 1.02;
-      std::swap(pair.x, pair.Y);
-    }
-    CHECK(faults_in(other.record, other.constants) == "");
+    for (Pair& pair : other.record.pairs) std::swap(pair.Y, pair.x);
+    CHECK(mentions(faults_in(other.record, other.constants), "columns x and Y seem to be swapped"));
   }
 }
 
