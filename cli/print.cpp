@@ -148,6 +148,9 @@ std::string verification_text(const scenarios::Verification& verification) {
   if (verification.others_left_out > 0)
     text += std::to_string(verification.others_left_out) +
             " of the other steady states known in only one of the two computations, ";
+  if (verification.times_left_out > 0)
+    text += std::to_string(verification.times_left_out) + (verification.times_left_out == 1 ? " time" : " times") +
+            " of events left out at which the mass hardly moves, ";
   if (verification.multipliers_left_out > 0)
     text += std::to_string(verification.multipliers_left_out) +
             " of the Floquet multipliers depend on a slider that only just reaches its limit, ";

@@ -93,10 +93,12 @@ double fastest_between_rows(const Table& table) {
 
 class Comparison {
  public:
-  /// `rounding`: sizes below which a number of a unit is rounding only.
-  Comparison(const Answer& answer, const Answer& other, const std::vector<ResultField>& fields,
-             SizesOfUnits rounding)
-      : answer_(answer), other_(other), fields_(fields), sizes_(std::move(rounding)) {}
+  /// `finest`: sizes below which a number of a unit is not known to its tolerance.
+  Comparison(const Answer& answer, const Answer& other, const std::vector<ResultField>& fields, SizesOfUnits finest)
+      : answer_(answer), other_(other), fields_(fields), sizes_(std::move(finest)) {
+    const auto length = sizes_.find("m");
+    if (length != sizes_.end()) slow_swing_ = length->second;
+  }
 
   Verification compare() {
     Leaves mine;
@@ -271,6 +273,8 @@ class Comparison {
     if (mine.size() != theirs.size())
       return differ(name, std::to_string(mine.size()) + " rows, the other result " + std::to_string(theirs.size()));
     const std::vector<char> compared = compared_rows(table, mine, *other, theirs);
+    const std::vector<char> timed = rows_with_times(table, mine, slow_swing_);
+    result_.times_left_out += std::ranges::count(timed, 0);
     for (const Column& column : table.columns) {
       if (!is_compared(table, column)) continue;
       const Column* const peer = other->find(column.name);
@@ -279,7 +283,7 @@ class Comparison {
         continue;
       }
       for (std::size_t i = 0; i < mine.size(); ++i)
-        if (compared[i])
+        if (compared[i] && (timed[i] || column.name != "t"))
           compare_cell(name + "[" + std::to_string(i) + "]." + column.name, table, column, mine[i], *peer,
                        theirs[i]);
     }
@@ -340,6 +344,7 @@ class Comparison {
   const Answer& other_;
   const std::vector<ResultField>& fields_;
   SizesOfUnits sizes_;
+  double slow_swing_ = 0.0;  ///< length of a swing below which the times of its ends are not known [m]
   double share_ = -1.0;
   Verification result_;
 };
@@ -355,8 +360,8 @@ double verification_tolerance(std::string_view unit) {
 }
 
 Verification compare_answers(const Answer& answer, const Answer& other, const std::vector<ResultField>& fields,
-                             const SizesOfUnits& rounding) {
-  return Comparison(answer, aligned(answer, other, verification_tolerance("s")), fields, rounding).compare();
+                             const SizesOfUnits& finest) {
+  return Comparison(answer, aligned(answer, other, verification_tolerance("s")), fields, finest).compare();
 }
 
 }  // namespace dualdamp::scenarios

@@ -3,11 +3,11 @@
 ///
 /// A difference is relative: to the point's own value in curves and maps, otherwise to the largest value of the
 /// same unit in the result (for a speed also the largest mean speed between two events or samples), so that a
-/// position near zero need not have digits that the motion does not have. If the mass never moves, the difference
-/// is relative to a size that is rounding beside the drive. Phases differ modulo 2 pi, Floquet multipliers are
-/// compared as a set. Counts, words and truth values must be equal. Numbers about the computation (`certificate`,
-/// `energy.defect`) and grazings, which rounding decides, are left out. The order of events at one time and the
-/// period with which a subharmonic motion begins do not count as differences (`aligned_answer.hpp`).
+/// position near zero need not have digits that the motion does not have. If the mass hardly moves, the difference
+/// is relative to a finest size, and times of events are not compared. Phases differ modulo 2 pi, Floquet
+/// multipliers are compared as a set. Counts, words and truth values must be equal. Numbers about the computation
+/// (`certificate`, `energy.defect`) and grazings, which rounding decides, are left out. The order of events at one
+/// time and the period with which a subharmonic motion begins do not count as differences (`aligned_answer.hpp`).
 
 #include <map>
 #include <string>
@@ -28,6 +28,7 @@ struct Verification {
   long rows_left_out = 0;           ///< rows of lists for which only one computation has numbers
   long rows_without_numbers = 0;    ///< rows of lists for which both have a reason instead
   long others_left_out = 0;         ///< other steady states that only one computation knows
+  long times_left_out = 0;          ///< times of events of a mass that hardly moves
   long multipliers_left_out = 0;    ///< Floquet multipliers that depend on a slider at its limit
   bool agrees = true;
   std::string reason;  ///< why it does not agree or could not be computed
@@ -36,12 +37,11 @@ struct Verification {
 /// Largest relative difference of a quantity of this unit that counts as an error of computation.
 [[nodiscard]] double verification_tolerance(std::string_view unit);
 
-/// The smallest reference size for the numbers of a unit.
+/// The finest reference size for the numbers of a unit.
 using SizesOfUnits = std::map<std::string, double>;
 
 /// Compares two answers to the same question.
 [[nodiscard]] Verification compare_answers(const Answer& answer, const Answer& other,
-                                           const std::vector<ResultField>& fields,
-                                           const SizesOfUnits& rounding = {});
+                                           const std::vector<ResultField>& fields, const SizesOfUnits& finest = {});
 
 }  // namespace dualdamp::scenarios

@@ -78,6 +78,7 @@ Json verification_json(const Verification& verification) {
   if (verification.rows_left_out > 0) json["rows_left_out"] = verification.rows_left_out;
   if (verification.rows_without_numbers > 0) json["rows_without_numbers"] = verification.rows_without_numbers;
   if (verification.others_left_out > 0) json["others_left_out"] = verification.others_left_out;
+  if (verification.times_left_out > 0) json["times_left_out"] = verification.times_left_out;
   if (verification.multipliers_left_out > 0) json["multipliers_left_out"] = verification.multipliers_left_out;
   json["agrees"] = verification.agrees;
   if (!verification.reason.empty()) json["reason"] = verification.reason;

@@ -70,15 +70,32 @@ class Turns {
   std::vector<std::size_t> turns_;
 };
 
+/// Whether it is one of events that has their places.
+bool has_places(const Table& table) {
+  return table.key == "events" && table.find("kind") != nullptr && table.find("x") != nullptr &&
+         table.find("t") != nullptr;
+}
+
 }  // namespace
 
 std::vector<std::size_t> telling_rows(const Table& table, const std::vector<std::size_t>& rows, double length) {
-  const bool has_places = table.find("kind") != nullptr && table.find("x") != nullptr && table.find("t") != nullptr;
-  if (table.key != "events" || !has_places) return rows;
+  if (!has_places(table)) return rows;
   std::vector<std::size_t> idle = Turns(table, rows, length).idle();
   std::ranges::sort(idle);
   std::vector<std::size_t> result;
   std::ranges::set_difference(rows, idle, std::back_inserter(result));
+  return result;
+}
+
+std::vector<char> rows_with_times(const Table& table, const std::vector<std::size_t>& rows, double swing) {
+  std::vector<char> result(rows.size(), 1);
+  if (!has_places(table)) return result;
+  const std::vector<double>& x = table.find("x")->numbers;
+  // How far the mass moves before the first event is not known here.
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    const std::size_t next = std::min(i + 1, rows.size() - 1);
+    result[i] = std::abs(x[rows[i]] - x[rows[i - 1]]) >= swing || std::abs(x[rows[next]] - x[rows[i]]) >= swing;
+  }
   return result;
 }
 

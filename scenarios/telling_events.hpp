@@ -20,4 +20,10 @@ namespace dualdamp::scenarios {
 [[nodiscard]] std::vector<std::size_t> telling_rows(const Table& table, const std::vector<std::size_t>& rows,
                                                     double length);
 
+/// Whether the time of each of these rows is known: not at events before and after which the mass moves less than
+/// `swing` [m]. A creep has a place at each time, but it hardly tells when it turns. Rows of other tables have
+/// their times.
+[[nodiscard]] std::vector<char> rows_with_times(const Table& table, const std::vector<std::size_t>& rows,
+                                                double swing);
+
 }  // namespace dualdamp::scenarios

@@ -1,5 +1,6 @@
 #include "scenarios/verification.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <string>
@@ -72,7 +73,7 @@ Verification compare_computations(const Scenario& scenario, const Question& ques
       none.reason = "the other computation has a result, this one none";
       return none;
     }
-    Verification result = compare_answers(answer, other, scenario.result_fields, sizes_of_rounding(scenario.model));
+    Verification result = compare_answers(answer, other, scenario.result_fields, finest_sizes(scenario.model));
     result.engine = computation.words + part;
     if (result.agrees) return result;
     if (!apart) apart = std::move(result);
@@ -92,19 +93,24 @@ Verification worse(Verification a, Verification b) {
 
 }  // namespace
 
-SizesOfUnits sizes_of_rounding(const sim::Model& model) {
+SizesOfUnits finest_sizes(const sim::Model& model) {
   const sim::Oscillator& oscillator = model.oscillator;
   const sim::Excitation& drive = model.excitation;
   const double omega = sim::natural_frequency(oscillator);
   double X = std::abs(model.initial.position) + std::abs(model.initial.velocity) / omega;
   if (drive.is_harmonic()) X += drive.moves_base() ? drive.amplitude : drive.amplitude / oscillator.stiffness;
+  if (!std::isfinite(X)) return {};
+  // Of the exact engine the accuracy is that of the computation with which it is compared. A larger tolerance of a
+  // scenario is no excuse.
+  const double accuracy = sim::is_exact(model) ? tight : std::min(model.solver.tolerance, sim::Solver{}.tolerance);
+  const double length = accuracy / verification_tolerance("m") * X;
   // Times the tolerance of a work that is 1e-12 of the energy in the spring: beside a mass that rests, or far above
   // resonance, a base gives and takes that energy in each period, and what is left of both is rounding.
-  const double share = std::isfinite(X) ? 1e-9 * X : 0.0;
-  return {{"m", share},
-          {"m/s", share * omega},
-          {"N", share * oscillator.stiffness},
-          {"J", 1e3 * share * oscillator.stiffness * X}};
+  constexpr double of_energy = 1e-6;
+  return {{"m", length},
+          {"m/s", length * omega},
+          {"N", length * oscillator.stiffness},
+          {"J", of_energy * oscillator.stiffness * X * X}};
 }
 
 Verification verify(const Scenario& scenario, const RunOptions& options, const Answer& all) {
@@ -132,7 +138,7 @@ Verification verify(const Scenario& scenario, const RunOptions& options, const A
     if (answer.result.contains(key)) same.result[key] = answer.result.at(key);
   const std::string words = result.engine + "; " + more->words;
   result = worse(std::move(result),
-                 compare_answers(same, more->answer, scenario.result_fields, sizes_of_rounding(scenario.model)));
+                 compare_answers(same, more->answer, scenario.result_fields, finest_sizes(scenario.model)));
   result.engine = words;
   return result;
 }

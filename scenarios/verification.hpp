@@ -11,9 +11,9 @@
 
 namespace dualdamp::scenarios {
 
-/// Reference sizes, by unit, for which a difference of the tolerance is rounding beside the drive and the initial
-/// state.
-[[nodiscard]] SizesOfUnits sizes_of_rounding(const sim::Model& model);
+/// Reference sizes, by unit, for which a difference of the tolerance is the accuracy of a motion that is as large
+/// as the drive and the initial state. A smaller motion is not known better.
+[[nodiscard]] SizesOfUnits finest_sizes(const sim::Model& model);
 
 /// Computes the answer of this scenario again and compares it. The scenario's analysis must be verifiable.
 [[nodiscard]] Verification verify(const Scenario& scenario, const RunOptions& options, const Answer& answer);

@@ -45,6 +45,7 @@ function verification() {
     ["of", v.quantity ?? "–"], ["allowed", v.tolerance ?? "–"], ["", { text: v.agrees ? "✓ agrees" : "✗ does not agree", class: v.agrees ? "good" : "bad" }]];
   if (v.rows_left_out) rows.push(["rows with a number in only one of the two computations", v.rows_left_out]);
   if (v.rows_without_numbers) rows.push(["rows without a number in both", v.rows_without_numbers]);
+  if (v.times_left_out) rows.push(["times of events, not compared, at which the mass hardly moves", v.times_left_out]);
   if (v.multipliers_left_out) rows.push(["Floquet multipliers that depend on a slider which only just reaches its limit", v.multipliers_left_out]);
   if (v.others_left_out) rows.push(["other steady states that only one of the two computations knows", v.others_left_out]);
   if (v.reason) rows.push(["reason", { text: v.reason, class: "long" }]);

@@ -3,7 +3,7 @@
 
 usage: campaign.py PROGRAM ROOT KIND [--seconds S] [--executions N] [--seed S] [--workers N] [--keep DIR] [--only NUMBER]
 
-KIND: scenario, data, answers, result. Case NUMBER of a seed is always the same; faulty ones are kept in DIR (default
+KIND: scenario, neighbour, data, result. Case NUMBER of a seed is always the same; faulty ones are kept in DIR (default
 build/fuzz) as a folder with the input, the command line and what is wrong. Prints counts by exit status, and every fault.
 Exit status 1 where there is one. Long computations are counted, not faults: `out of time` at the budget of processor time.
 """
@@ -24,7 +24,6 @@ import seeds
 from execution import Execution, faults_of_refusal, faults_of_results
 
 MEMORY = 3 << 30  # address space of one execution
-BUDGET = 4  # s of processor time of one execution
 
 
 class Outcome:
@@ -60,7 +59,7 @@ def run_case(program, case, keep):
             (folder / file).write_bytes(content)
         for step in case.steps:
             earlier = result_of(folder / step.out) if step.out else None
-            execution = Execution(program, step.arguments, folder, BUDGET, MEMORY)
+            execution = Execution(program, step.arguments, folder, case.budget, MEMORY)
             faults = execution.faults(step.ends)
             if execution.status == 3:
                 faults += faults_of_refusal(execution, step.names)

@@ -135,18 +135,49 @@ def flow_text(text, kind):
     if kind == "scalar":
         return None if "\n" in text else text
     try:
-        value = yaml.load(text, Loader=yaml.CBaseLoader)
+        return on_one_line(yaml.load(text, Loader=yaml.CBaseLoader))
     except yaml.YAMLError:
         return None
 
-    def write(value):
-        if isinstance(value, dict):
-            return "{" + ", ".join(f"{key}: {write(item)}" for key, item in value.items()) + "}"
-        if isinstance(value, list):
-            return "[" + ", ".join(map(write, value)) + "]"
-        return f'"{value}"' if re.search(r"[,:{}\[\]#]", value) else value
 
-    return write(value)
+def on_one_line(value):
+    """The YAML of maps, lists and texts."""
+    if isinstance(value, dict):
+        return "{" + ", ".join(f"{key}: {on_one_line(item)}" for key, item in value.items()) + "}"
+    if isinstance(value, list):
+        return "[" + ", ".join(map(on_one_line, value)) + "]"
+    return f'"{value}"' if re.search(r"[,:{}\[\]#]", value) else value
+
+
+# What a scenario says of its rig. Other sections say what is computed.
+RIG_SECTIONS = ("system", "excitation", "initial")
+# Numbers that are no sizes.
+KEPT = {"count", "exponent", "file", "interpolation", "law", "order", "seed", "type"}
+
+
+def neighbour(random_, text):
+    """Another rig of the same kind: three of five numbers of a good scenario times 0.3 to 3, static at least kinetic friction.
+
+    A scenario as maps, lists and texts.
+    """
+    scenario = yaml.load(text, Loader=yaml.CBaseLoader)
+    # A title or an expected value speaks of the numbers as they were.
+    kept = {key: value for key, value in scenario.items() if key not in ("title", "expect")}
+    return kept | {key: resized(random_, kept[key]) for key in RIG_SECTIONS if key in kept}
+
+
+def resized(random_, value):
+    if isinstance(value, list):
+        return [resized(random_, item) for item in value]
+    if isinstance(value, dict):
+        other = {key: item if key in KEPT else resized(random_, item) for key, item in value.items()}
+        levels = [NUMBER.match(str(other.get(key))) for key in ("kinetic", "static")]
+        if all(levels) and float(levels[1][0]) < float(levels[0][0]):
+            other["static"] = other["kinetic"]
+        return other
+    if random_.random() < 0.4:
+        return value
+    return NUMBER.sub(lambda match: f"{float(match[0]) * 10 ** random_.uniform(-0.5, 0.5):.6e}", value, count=1) if NUMBER.match(value) else value
 
 
 def damaged(random_, content):

@@ -15,7 +15,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from execution import ENDS
-from mutations import Corpus, damaged, hostile_number, mutated_table
+from mutations import Corpus, damaged, hostile_number, mutated_table, neighbour, on_one_line
 
 RIG = ["--mass", "1.042 kg", "--stiffness", "1568 N/m", "--frequency", "6.1739 Hz"]
 SLOW_RIG = ["--mass", "2 kg", "--stiffness", "19.739 N/m"]
@@ -48,6 +48,7 @@ class Case:
     name: str
     files: dict
     steps: list
+    budget: int = 4  # s of processor time of one step
 
 
 # Of the sweep of the harness `resume`: a point that is whole, one that has failed, one that holds something else.
@@ -87,6 +88,19 @@ def scenario_case(root, seed, number, _):
     return Case(f"scenario-{seed}-{number}", files, [
         Step("check", ["run", "--dry-run", "case.yaml"], names),
         Step("run", ["run", "--quiet", "--jobs", "1", "--out", "out", "case.yaml"], names, "out")])
+
+
+# Analyses of motions: a second computation of each must agree.
+VERIFIED = {"simulate", "steady_state", "xy_curve", "frequency_response", "regime_map", "free_decay"}
+
+
+def neighbour_case(root, seed, number, _):
+    random_ = random.Random(f"neighbour {seed} {number}")
+    scenario = neighbour(random_, random_.choice(scenarios(root).texts))
+    files = {**shipped_data(root), "case.yaml": on_one_line(scenario).encode()}
+    verify = ["--verify"] if scenario["analysis"]["type"] in VERIFIED and "sweep" not in scenario else []
+    return Case(f"neighbour-{seed}-{number}", files, [
+        Step("run", ["run", *verify, "--quiet", "--jobs", "1", "--out", "out", "case.yaml"], list(files), "out", ENDS - {1})], 60)
 
 
 def data_case(root, seed, number, _):
@@ -133,7 +147,7 @@ def result_case(root, seed, number, program):
     return Case(f"result-{seed}-{number}", files, [Step("report", ["report", "results"], ["results"])])
 
 
-KINDS = {"scenario": scenario_case, "data": data_case, "result": result_case}
+KINDS = {"scenario": scenario_case, "neighbour": neighbour_case, "data": data_case, "result": result_case}
 
 
 def case(kind, root, seed, number, program):

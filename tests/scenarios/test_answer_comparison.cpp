@@ -196,6 +196,31 @@ TEST_CASE("comparison of answers: grazings are left out, other events are not", 
   CHECK(scenarios::compare_answers(all, events({1.0, 2.0}, {"stop", "reversal"}), {}).quantity == "events[1].kind");
 }
 
+TEST_CASE("comparison of answers: a creep has places, and no times of its turns", "[scenarios][verification]") {
+  const auto turning_at = [](double time, double place) {
+    Answer result;
+    result.result["events"] = nullptr;
+    result.tables.push_back({.name = "events",
+                             .columns = {{.name = "t", .unit = "s", .numbers = {1.0, time, 3.0, 4.0}},
+                                         {.name = "kind",
+                                          .texts = {"reversal", "reversal", "reversal", "reversal"},
+                                          .kind = scenarios::CellKind::text},
+                                         {.name = "x", .unit = "m", .numbers = {0.0, place, 0.0, place}}},
+                             .key = "events"});
+    return result;
+  };
+  const scenarios::SizesOfUnits finest = {{"m", 0.1}};
+  const Verification creep = scenarios::compare_answers(turning_at(2.0, 0.09), turning_at(2.1, 0.09), {}, finest);
+  CHECK(creep.agrees);
+  CHECK(creep.times_left_out == 3);
+  const auto differs = [&](double time, double place, double other) {
+    return scenarios::compare_answers(turning_at(2.0, place), turning_at(time, other), {}, finest).quantity;
+  };
+  CHECK(differs(2.1, 0.11, 0.11) == "events[1].t");
+  CHECK(differs(2.1, 0.09, 0.0901) == "events[1].x");
+  CHECK_FALSE(scenarios::compare_answers(turning_at(2.0, 0.09), turning_at(2.1, 0.09), {}).agrees);
+}
+
 TEST_CASE("comparison of answers: events at one time may come in another order, others not",
           "[scenarios][verification]") {
   const auto events = [](double second, const std::string& first_kind, const std::string& second_kind) {
