@@ -3,17 +3,15 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <atomic>
-#include <exception>
 #include <filesystem>
 #include <iostream>
 #include <map>
 #include <mutex>
+#include <new>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <system_error>
-#include <thread>
 
 #include "bench/analyses.hpp"
 #include "bench/processes.hpp"
@@ -34,7 +32,9 @@
 #include "cli/report/result_directory.hpp"
 #include "cli/shell/completion.hpp"
 #include "cli/shell/manual.hpp"
+#include "cli/startup.hpp"
 #include "cli/stress.hpp"
+#include "cli/workers.hpp"
 #include "core/cancellation.hpp"
 #include "core/input_file.hpp"
 #include "core/numbers.hpp"
@@ -248,20 +248,14 @@ int execute(const RunCommand& command) {
   if (joined.status != ExitStatus::done) return say(joined, style);
 
   InOrder outputs(command.files.size(), style);
-  std::atomic<std::size_t> next{0};
-  const auto work = [&] {
-    for (std::size_t i = next++; i < command.files.size(); i = next++)
-      outputs.put(i, run_file(command, command.files[i]));
-  };
   {
     // Processes that share stress tests must take the files in the same order.
     const int jobs = bench::Processes::several() ? 1 : std::max(command.jobs, 1);
     const std::size_t workers = std::min(static_cast<std::size_t>(jobs), command.files.size());
     std::optional<sim::ThreadLimit> limit;
     if (command.jobs > 0) limit.emplace(std::max(command.jobs - static_cast<int>(workers) + 1, 1));
-    std::vector<std::jthread> threads;
-    for (std::size_t i = 1; i < workers; ++i) threads.emplace_back(work);
-    work();
+    share_among(workers, command.files.size(),
+                [&](std::size_t i) { outputs.put(i, run_file(command, command.files[i])); });
   }
   if (command.json && !is_silent()) outputs.write_json(std::cout);
   return finish(outputs.worst());
@@ -431,18 +425,22 @@ Style style_of(const ChosenCommand& command) {
 
 int execute(const Call& call) noexcept {
   try {
-    const int status = std::visit(
-        [&](const auto& chosen) {
-          const std::optional<int> failed = load_plugins(call.plugins, style_of(chosen));
-          return failed ? *failed : execute(chosen);
-        },
-        call.command);
+    int status = 0;
+    const CommandOutput fault = guarded([&] {
+      status = std::visit(
+          [&](const auto& chosen) {
+            const std::optional<int> failed = load_plugins(call.plugins, style_of(chosen));
+            return failed ? *failed : execute(chosen);
+          },
+          call.command);
+      return CommandOutput{};
+    });
+    if (fault.status != ExitStatus::done) status = say(fault, {call.json, false});
     return core::cancellation_requested() ? interrupted() : status;
   } catch (const core::Cancelled&) {
     return interrupted();
-  } catch (const std::exception& error) {
-    std::cerr << bug(error.what()).errors;
-    return static_cast<int>(ExitStatus::internal_bug);
+  } catch (const std::bad_alloc&) {  // there is none left for a message either
+    return say_out_of_memory();
   }
 }
 

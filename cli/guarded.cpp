@@ -24,12 +24,17 @@ CommandOutput refused(ExitStatus status, const std::string& message) {
   return refused(status, {core::Diagnostic{{}, message, {}, {}, {}}});
 }
 
+namespace {
+
+/// The output about a bug of the program, with the commit of the program.
 CommandOutput bug(const std::string& what) {
   return refused(ExitStatus::internal_bug, "this is a bug of dualdamp " + std::string(core::build_info().version) +
                                                ": " + what +
                                                "; please report it with the scenario and the commit " +
                                                std::string(core::build_info().commit));
 }
+
+}  // namespace
 
 CommandOutput guarded(const std::function<CommandOutput()>& work) {
   try {
@@ -43,8 +48,7 @@ CommandOutput guarded(const std::function<CommandOutput()>& work) {
   } catch (const scenarios::OutputError& error) {
     return refused(ExitStatus::usage, error.what());
   } catch (const std::bad_alloc&) {
-    return refused(ExitStatus::usage,
-                   "there is not enough memory for this: ask for less, or raise the limit (ulimit -v)");
+    return refused(ExitStatus::usage, message_of_no_memory);
   } catch (const std::system_error& error) {
     return refused(ExitStatus::usage,
                    std::string("the system refused what the computation needs: ") + error.what());

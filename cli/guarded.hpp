@@ -13,8 +13,8 @@ namespace dualdamp::cli {
 [[nodiscard]] CommandOutput refused(core::ExitStatus status, const std::vector<core::Diagnostic>& problems);
 [[nodiscard]] CommandOutput refused(core::ExitStatus status, const std::string& message);
 
-/// The output about a bug of the program, with the commit of the program.
-[[nodiscard]] CommandOutput bug(const std::string& what);
+inline constexpr const char* message_of_no_memory =
+    "there is not enough memory for this: ask for less, or raise the limit (ulimit -v)";
 
 /// Calls `work` and returns its output, or that about the exception that it throws.
 [[nodiscard]] CommandOutput guarded(const std::function<CommandOutput()>& work);

@@ -35,13 +35,19 @@ void wait_for_interrupt(const sigset_t& signals) {
   ::_exit(status);
 }
 
+/// As in the background of a shell without job control: what is sent to the foreground is not meant for it.
+bool is_ignored(int number) {
+  struct sigaction action{};
+  return ::sigaction(number, nullptr, &action) == 0 && action.sa_handler == SIG_IGN;
+}
+
 }  // namespace
 
 void watch_for_interrupt() {
   sigset_t signals;
   sigemptyset(&signals);
-  sigaddset(&signals, SIGINT);
-  sigaddset(&signals, SIGTERM);
+  for (const int number : {SIGINT, SIGTERM})
+    if (!is_ignored(number)) sigaddset(&signals, number);
   // The limit on the size of a file is then an error of the write, not a signal that ends the program.
   (void)::signal(SIGXFSZ, SIG_IGN);
   // Threads that start later inherit the mask, so only the watcher gets the signals.

@@ -2,7 +2,8 @@
 /// Ends the program with status 130 on SIGINT or SIGTERM, but never while it writes results.
 ///
 /// Computations are cancelled (`core/cancellation.hpp`), and the program ends in the ordinary way. If that takes
-/// longer than half a second, or if a second signal comes, the process exits at once.
+/// longer than half a second, or if a second signal comes, the process exits at once. A signal that is ignored when
+/// the program starts stays ignored.
 
 #include <mutex>
 

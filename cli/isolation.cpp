@@ -144,6 +144,8 @@ int execute_isolated(const Call& call) noexcept {
     return say(ExitStatus::usage, std::string("no process for --isolate-plugins: ") + std::strerror(errno), call);
   const std::optional<int> status = wait_for(child, signals, end);
   if (!status) return say(ExitStatus::numerical_failure, no_end(call), call);
+  // Nobody reads the output any more, which ends this process in the same way.
+  if (WIFSIGNALED(*status) && WTERMSIG(*status) == SIGPIPE) (void)::raise(SIGPIPE);
   if (!WIFEXITED(*status)) return say(ExitStatus::numerical_failure, crash(WTERMSIG(*status), call), call);
   const int exited = WEXITSTATUS(*status);
   if (exited == *announced) return exited;
