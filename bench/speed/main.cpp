@@ -1,4 +1,5 @@
 // dualdamp-speed: time per forcing period of the standard case, the engines beside general solvers, in one run.
+// With --smooth the table of smooth laws alone.
 
 #include <fmt/core.h>
 
@@ -162,8 +163,12 @@ int compare(int batches) {
 
 }  // namespace
 
-int main() {
+int main(int count, char** words) {
   try {
+    if (count > 1 && std::string_view(words[1]) == "--smooth") {
+      print_smooth_table(25);
+      return 0;
+    }
     return compare(25);
   } catch (const std::exception& error) {
     fmt::print(stderr, "dualdamp-speed: {}\n", error.what());
