@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <string_view>
 #include <utility>
+
+#include "core/constants.hpp"
 
 namespace dualdamp::scenarios {
 
@@ -65,7 +66,7 @@ double distance(const Table& orbit, const Table& other) {
 /// Number of forcing periods by which the other orbit begins later; that orbit is shifted by them.
 int align_orbit(const Table& orbit, Table& other, int periods) {
   const std::size_t part = (orbit.size() - 1) / static_cast<std::size_t>(periods);
-  double least = std::numeric_limits<double>::infinity();
+  double least = core::infinity;
   int best = 0;
   for (int k = 0; k < periods; ++k, begin_later(other, part))
     if (const double here = distance(orbit, other); here < least) {

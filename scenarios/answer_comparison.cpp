@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <limits>
 #include <map>
 #include <utility>
 
@@ -149,14 +148,14 @@ class Comparison {
     result_.largest_difference = 1.0;
     result_.tolerance = 0.0;
     result_.reason = quantity + ": " + reason;
-    share_ = std::numeric_limits<double>::infinity();
+    share_ = core::infinity;
   }
 
   void add(const std::string& quantity, double difference, double tolerance, double mine, double theirs) {
     ++result_.quantities;
     const double share = difference / tolerance;
     if (share <= share_) return;
-    share_ = std::isnan(share) ? std::numeric_limits<double>::infinity() : share;
+    share_ = std::isnan(share) ? core::infinity : share;
     result_.quantity = quantity;
     result_.largest_difference = difference;
     result_.tolerance = tolerance;
@@ -209,8 +208,7 @@ class Comparison {
       result_.multipliers_left_out = std::ssize(rest);
       return;
     }
-    for (const std::complex<double>& value : std::exchange(rest, {}))
-      compare(value, std::numeric_limits<double>::infinity());
+    for (const std::complex<double>& value : std::exchange(rest, {})) compare(value, core::infinity);
   }
 
   static std::vector<std::complex<double>> multipliers_of(const Answer& answer) {

@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <ostream>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "core/constants.hpp"
 #include "core/numbers.hpp"
 #include "core/utf8.hpp"
 
@@ -103,7 +103,7 @@ class Scale {
 /// The smallest and the largest finite number, with a margin.
 std::pair<double, double> extent(const Chart& chart, std::vector<double> ChartSeries::* list,
                                  const ChartAxis& axis) {
-  double low = std::numeric_limits<double>::infinity();
+  double low = core::infinity;
   double high = -low;
   for (const ChartSeries& series : chart.series)
     for (const double value : series.*list)

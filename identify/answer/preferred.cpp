@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <string>
 #include <utility>
 
+#include "core/constants.hpp"
 #include "identify/statistics/ties.hpp"
 
 namespace dualdamp::identify {
@@ -18,10 +18,10 @@ bool overlap(const Interval& a, const Interval& b) { return a[0] <= b[1] && b[0]
 }  // namespace
 
 double area(const Estimate& estimate) {
-  if (!estimate.usable || !estimate.interval95) return std::numeric_limits<double>::infinity();
+  if (!estimate.usable || !estimate.interval95) return core::infinity;
   const ParameterIntervals& at = *estimate.interval95;
   const double size = (at.c[1] - at.c[0]) * (at.F0[1] - at.F0[0]);
-  return std::isfinite(size) ? size : std::numeric_limits<double>::infinity();
+  return std::isfinite(size) ? size : core::infinity;
 }
 
 bool is_negative(const Estimate& estimate) { return estimate.value.c < 0.0 || estimate.value.F0 < 0.0; }
@@ -80,7 +80,7 @@ std::size_t smallest(const std::vector<Estimate>& estimates, const std::function
 std::size_t widest_beside(const std::vector<Estimate>& estimates, std::size_t with) {
   return smallest(estimates, [&](const Estimate& one) {
     const bool counts = !one.laws && std::isfinite(area(one)) && !disagree(estimates[with], one);
-    return counts ? -area(one) : std::numeric_limits<double>::infinity();
+    return counts ? -area(one) : core::infinity;
   });
 }
 
@@ -97,7 +97,7 @@ std::optional<std::size_t> preferred(const std::vector<Estimate>& estimates, con
   // Ranges over laws count only if nothing narrower can be used.
   const bool others = std::ranges::any_of(estimates, [](const Estimate& e) { return e.usable && !e.laws; });
   const auto size = [others](const Estimate& e) {
-    return others && e.laws ? std::numeric_limits<double>::infinity() : area(e);
+    return others && e.laws ? core::infinity : area(e);
   };
   if (estimates.empty()) return std::nullopt;
   const std::size_t narrowest = smallest(estimates, size);

@@ -3,9 +3,9 @@
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
+#include "core/constants.hpp"
 #include "sim/parallel.hpp"
 
 namespace dualdamp::identify {
@@ -23,7 +23,7 @@ constexpr double least_damping = 0.01;
 struct Bracket {
   double inner = 0.0;
   double inner_growth = 0.0;
-  double outer = std::numeric_limits<double>::infinity();
+  double outer = core::infinity;
   double outer_growth = 0.0;
 
   /// The root by a new point. The growth is nearly linear, except at a jump, which is halved.
@@ -147,7 +147,7 @@ std::optional<double> Profiler::alone(Eigen::Index i, double value, ProfilePath&
 
 std::optional<double> Profiler::growth(Eigen::Index i, double value, double limit, ProfilePath& path) const {
   const ProfilePath before = path;
-  constexpr double nothing = std::numeric_limits<double>::infinity();
+  constexpr double nothing = core::infinity;
   std::optional<double> best = followed(i, value, nothing, 0.0, path);
   if (best && *best <= limit) return best;
   // The others may have moved across a jump of the sum of squares, such as that of one stick more.

@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <optional>
 #include <set>
 #include <vector>
 
+#include "core/constants.hpp"
 #include "identify/conclusion.hpp"
 #include "identify/ledger/amplitude_noise.hpp"
 #include "identify/ledger/amplitude_step.hpp"
@@ -218,8 +218,8 @@ struct AmplitudeFit {
   SteadyParameters at;
   Deviations deviations;
   Rows rows;
-  double deviance = std::numeric_limits<double>::infinity();  ///< -2 log-likelihood
-  double scatter = 1.0;  ///< of the amplitudes about a smooth curve, over their deviation
+  double deviance = core::infinity;  ///< -2 log-likelihood
+  double scatter = 1.0;              ///< of the amplitudes about a smooth curve, over their deviation
 };
 
 /// The noise of one channel: what a smooth curve leaves of its residuals. A departure is smooth, so it is not taken
@@ -297,7 +297,7 @@ AmplitudeFit best_fit(const SteadyStates& states, const SteadyParameters& begin,
   if (states.frequencies() < 2 && states.phases() == 0) return fit_with(states, begin, taken, 0.0);
   const double deviation = std::log(3.0);
   AmplitudeFit best;
-  double least = std::numeric_limits<double>::infinity();
+  double least = core::infinity;
   for (const double share : {0.03, 0.1, 0.3, 0.55, 1.0, 1.8, 3.3, 10.0}) {
     AmplitudeFit fit = fit_with(states, begin, taken, share * mean_ratio(states.points()));
     const double deviance = fit.deviance + std::pow(std::log(share) / deviation, 2);

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <string>
 #include <vector>
 
+#include "core/constants.hpp"
 #include "identify/methods/amplitudes/input_levels.hpp"
 #include "identify/models/sticking.hpp"
 #include "sim/analytic/den_hartog.hpp"
@@ -54,7 +54,7 @@ std::string lacks_levels(const std::vector<SteadyPoint>& points) {
 
 PlainFriction first_guess(const std::vector<SteadyPoint>& points) {
   PlainFriction best{0.05, 0.0};
-  double least = std::numeric_limits<double>::infinity();
+  double least = core::infinity;
   for (double zeta = 0.002; zeta < 0.9; zeta *= 1.25) {
     for (double share = 0.0; share < 0.95; share += 0.05) {
       // x_f as a share of about that which takes the whole drive of the lowest state.

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <utility>
 
+#include "core/constants.hpp"
 #include "core/random.hpp"
 #include "identify/statistics/distributions.hpp"
 #include "identify/statistics/ties.hpp"
@@ -69,7 +69,7 @@ double FamilyOfTests::t_for(Eigen::Index j, double score) const {
 }
 
 double FamilyOfTests::largest_score(const Eigen::VectorXd& t) const {
-  double most = -std::numeric_limits<double>::infinity();
+  double most = -core::infinity;
   for (Eigen::Index j = 0; j < t.size(); ++j) {
     const int sign = setting_.signs[static_cast<std::size_t>(j)];
     if (sign == 0 || sign * t[j] > 0.0) most = std::max(most, score(j, t[j]));

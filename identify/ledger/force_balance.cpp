@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "core/constants.hpp"
 #include "core/numbers.hpp"
 
 namespace dualdamp::identify {
@@ -21,7 +21,7 @@ std::string shown(double value) {
 /// Values of a constant at which no state needs more force than its drive gives.
 struct Allowed {
   double least = 0.0;
-  double most = std::numeric_limits<double>::infinity();
+  double most = core::infinity;
 
   void intersect(double low, double high) {
     least = std::max(least, low);
@@ -70,8 +70,7 @@ ForceBalance force_balance(const std::vector<Pair>& pairs, const KnownConstants&
     const double given = pair.Y / pair.x;  // k Y over k x
     balance.mass.intersect((1.0 - given) * constants.stiffness / square,
                            (1.0 + given) * constants.stiffness / square);
-    balance.stiffness.intersect(inertia / (1.0 + given),
-                                given < 1.0 ? inertia / (1.0 - given) : std::numeric_limits<double>::infinity());
+    balance.stiffness.intersect(inertia / (1.0 + given), given < 1.0 ? inertia / (1.0 - given) : core::infinity);
     const double needed = std::abs(1.0 - ratio) - errors.ratio * ratio;
     if (!(needed > room * (1.0 + errors.gain) * given)) continue;
     ++balance.above;

@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <utility>
+
+#include "core/constants.hpp"
 
 namespace dualdamp::identify {
 
@@ -39,7 +40,7 @@ void add_constants(HistoryRelaxations& list, const KnownConstants& constants) {
 /// Free vibrations from about the same amplitude.
 bool are_alike_decays(const std::vector<ForwardTest>& tests) {
   constexpr double apart = 1.5;  // of amplitudes: the larger one has swings that the other has not
-  double least = std::numeric_limits<double>::infinity();
+  double least = core::infinity;
   double most = 0.0;
   for (const ForwardTest& test : tests) {
     const History& history = *test.history;

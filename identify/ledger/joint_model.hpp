@@ -9,10 +9,10 @@
 #include <Eigen/Core>
 #include <cstddef>
 #include <functional>
-#include <limits>
 #include <string>
 #include <vector>
 
+#include "core/constants.hpp"
 #include "identify/assumption.hpp"
 #include "identify/estimate.hpp"
 #include "identify/record.hpp"
@@ -82,7 +82,7 @@ struct JointModel {
   double deviance = unknown;   ///< twice the negative log-likelihood, to compare fits of the record; NaN: not known
   double scale_freedom = 0.0;  ///< degrees of freedom behind the deviation that decides about friction
   /// Of a channel that is estimated beside one that is stated and decides about friction.
-  double other_freedom = std::numeric_limits<double>::infinity();
+  double other_freedom = core::infinity;
   /// Of a measured drive that steps between two samples, once or twice in all histories: their distance [s]. Where
   /// in between it steps is not known. 0: there is no such step.
   double step_interval = 0.0;

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "core/constants.hpp"
 #include "core/numbers.hpp"
 #include "identify/assumption.hpp"
 #include "identify/statistics/decompositions.hpp"
@@ -18,7 +18,7 @@ namespace {
 /// error counts as that error.
 double largest_change(const JointModel& model, const Eigen::MatrixXd& columns, double length) {
   const std::optional<Eigen::MatrixXd> covariance = unit_covariance(columns);
-  if (!covariance) return std::numeric_limits<double>::infinity();
+  if (!covariance) return core::infinity;
   const auto change = [&](Eigen::Index j, double value) {
     const double unit = std::sqrt((*covariance)(j, j));
     return length * unit / std::max(std::abs(value), unit);

@@ -3,9 +3,9 @@
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
+#include "core/constants.hpp"
 #include "identify/ledger/drift_or_speed.hpp"
 #include "identify/ledger/family_of_tests.hpp"
 #include "identify/statistics/decompositions.hpp"
@@ -263,7 +263,7 @@ Rest rest_of(const JointModel& model, Taken taken, std::size_t candidate, double
   const Projection projection = project(fitted, taken);
   rest.alike = projection.alike;
   if (!std::isfinite(projection.residuals.squaredNorm())) {
-    rest.misfit = std::numeric_limits<double>::infinity();
+    rest.misfit = core::infinity;
     return rest;
   }
   for (const RelaxationTest& test : tests_beside(fitted, projection, least_change)) {

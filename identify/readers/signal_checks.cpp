@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <vector>
 
+#include "core/constants.hpp"
 #include "identify/statistics/decompositions.hpp"
 #include "identify/statistics/median.hpp"
 #include "identify/statistics/noise_level.hpp"
@@ -108,7 +108,7 @@ class Top {
   double sign_;
   double range_;
   PlateauRule rule_;
-  double top_ = -std::numeric_limits<double>::infinity();
+  double top_ = -core::infinity;
 };
 
 /// At both ends of the range.

@@ -20,8 +20,8 @@
 /// unknown noise, resolution, clipping or number of readings, or an average over no period.
 
 #include <cstdint>
-#include <limits>
 
+#include "core/constants.hpp"
 #include "identify/record.hpp"
 
 namespace dualdamp::identify {
@@ -37,7 +37,7 @@ struct Sensor {
   double outlier_size = 0.0;  ///< relative
   double phase_lag = 0.0;     ///< at the forcing frequency [rad]
   double delay = 0.0;         ///< s
-  double clipping = std::numeric_limits<double>::infinity();
+  double clipping = core::infinity;
 
   /// Delay of a reading [s]. `omega` [rad/s] may be `unknown` if there is no phase lag.
   [[nodiscard]] double lag(double omega) const { return phase_lag == 0.0 ? delay : delay + phase_lag / omega; }

@@ -4,11 +4,11 @@
 #include <array>
 #include <cmath>
 #include <iterator>
-#include <limits>
 #include <optional>
 #include <string_view>
 #include <utility>
 
+#include "core/constants.hpp"
 #include "core/numbers.hpp"
 #include "identify/statistics/median.hpp"
 
@@ -32,7 +32,7 @@ std::vector<double> differences(const std::vector<double>& signal) {
 
 /// The smallest step between neighbouring samples: the resolution of a rounded signal.
 double resolution_of(const std::vector<double>& signal) {
-  double least = std::numeric_limits<double>::infinity();
+  double least = core::infinity;
   for (std::size_t i = 1; i < signal.size(); ++i)
     if (signal[i] != signal[i - 1]) least = std::min(least, std::abs(signal[i] - signal[i - 1]));
   return std::isfinite(least) ? least : 0.0;

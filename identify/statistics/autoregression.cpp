@@ -2,8 +2,9 @@
 
 #include <Eigen/Cholesky>
 #include <cmath>
-#include <limits>
 #include <utility>
+
+#include "core/constants.hpp"
 
 namespace dualdamp::identify {
 
@@ -28,7 +29,7 @@ Eigen::VectorXd covariances_of(const Eigen::VectorXd& errors, const std::vector<
 
 Autoregression autoregression_of(const Eigen::VectorXd& covariances, double count) {
   Autoregression best;
-  double least = std::numeric_limits<double>::infinity();
+  double least = core::infinity;
   for (Eigen::Index p = 0; p < covariances.size(); ++p) {
     Eigen::MatrixXd toeplitz(p, p);
     for (Eigen::Index r = 0; r < p; ++r)

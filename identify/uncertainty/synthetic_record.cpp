@@ -6,9 +6,9 @@
 #include <bit>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <utility>
 
+#include "core/constants.hpp"
 #include "core/random.hpp"
 #include "identify/models/sampled_oscillator.hpp"
 #include "identify/statistics/lasting_part.hpp"
@@ -143,7 +143,7 @@ class SyntheticHistory {
     next.v0 = measured_.v.empty() ? central_difference(five_point_average(measured_.x), measured_.sample_rate)[2]
                                   : measured_.v.front();
     constexpr int steps = 3;
-    double least = std::numeric_limits<double>::infinity();
+    double least = core::infinity;
     for (int step = 0; step < steps; ++step) {
       Eigen::VectorXd x;
       SampledOscillator::Derivatives of_motion;

@@ -1,12 +1,12 @@
 #include "scenarios/analyses/regime_map.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <map>
 #include <memory>
 #include <string>
 #include <tuple>
 
+#include "core/constants.hpp"
 #include "core/numbers.hpp"
 #include "scenarios/analyses/shared/curves.hpp"
 #include "scenarios/format/common_keys.hpp"
@@ -115,9 +115,9 @@ Table map_table(const sim::Curve& map, const std::string& unit) {
 struct Regime {
   sim::Regime kind = sim::Regime::no_steady_state;
   std::size_t points = 0;
-  double omega_from = std::numeric_limits<double>::infinity();
+  double omega_from = core::infinity;
   double omega_to = 0.0;
-  double Y_from = std::numeric_limits<double>::infinity();
+  double Y_from = core::infinity;
   double Y_to = 0.0;
 
   void add(const sim::CurvePoint& point) {

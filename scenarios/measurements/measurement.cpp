@@ -1,7 +1,6 @@
 #include "scenarios/measurements/measurement.hpp"
 
 #include <algorithm>
-#include <limits>
 
 #include "core/constants.hpp"
 #include "core/numbers.hpp"
@@ -78,7 +77,7 @@ double longest_period(const CheckedFile& file) {
   double slowest = file.number_at("excitation", "frequency").value_or(0.0);
   if (file.measurement()->contains("frequencies")) {
     const Json& grid = file.measurement()->at("frequencies");
-    slowest = std::numeric_limits<double>::infinity();
+    slowest = core::infinity;
     for (const Json& value : grid.is_array() ? grid : Json::array({grid.at("from"), grid.at("to")}))
       slowest = std::min(slowest, number(value));
   }

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <ranges>
 #include <utility>
 
+#include "core/constants.hpp"
 #include "identify/conclusion.hpp"
 #include "identify/ledger/stated_noise.hpp"
 #include "identify/statistics/decompositions.hpp"
@@ -187,8 +187,8 @@ class FreedTerm {
     const Eigen::Index last = step.size() - 1;
     const double of_term = covariance(last, last);
     const double reach = quantile * std::sqrt(variance * of_term);
-    const double least = sign > 0 ? 0.0 : -std::numeric_limits<double>::infinity();
-    const double most = sign < 0 ? 0.0 : std::numeric_limits<double>::infinity();
+    const double least = sign > 0 ? 0.0 : -core::infinity;
+    const double most = sign < 0 ? 0.0 : core::infinity;
     if (step[last] + reach < least || step[last] - reach > most) return;
     const double best = std::clamp(step[last], least, most);
     const std::array<double, 2> ends = {std::max(step[last] - reach, least) - best,

@@ -13,17 +13,17 @@
 /// Speeds are bounded from below: of a history by its fastest change of x, less noise, of steady states and
 /// extremes by the mean speed of a half swing.
 
-#include <limits>
 #include <string>
 
+#include "core/constants.hpp"
 #include "identify/estimate.hpp"
 #include "identify/record.hpp"
 
 namespace dualdamp::identify {
 
 struct LargestFriction {
-  double c = std::numeric_limits<double>::infinity();   ///< N.s/m
-  double F0 = std::numeric_limits<double>::infinity();  ///< N
+  double c = core::infinity;   ///< N.s/m
+  double F0 = core::infinity;  ///< N
 };
 
 /// Of all data of a record; infinite where the mass or the stiffness is unknown, or where nothing moves.

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <string>
 
+#include "core/constants.hpp"
 #include "identify/uncertainty/uncertain_constants.hpp"
 
 namespace dualdamp::identify {
@@ -18,7 +18,7 @@ double most_missed(const Ledger& ledger, Assumption assumption) {
   const LedgerEntry& entry = ledger.entry(assumption);
   // Beside one that is free no test sees another.
   const bool is_freed = assumption == Assumption::constants && entry.is_as_stated;
-  if (entry.standing == Standing::untested || is_freed) return std::numeric_limits<double>::infinity();
+  if (entry.standing == Standing::untested || is_freed) return core::infinity;
   // What is missed in one record of five lies 2.8 standard errors from nothing. At the level of a family of tests,
   // some 2.9 of them, one record of twenty misses 2.9 + 1.6.
   constexpr double of_family = 1.6;

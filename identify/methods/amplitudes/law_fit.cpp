@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
+#include "core/constants.hpp"
 #include "identify/statistics/decompositions.hpp"
 #include "identify/statistics/least_squares.hpp"
 
@@ -64,7 +64,7 @@ Eigen::VectorXd starting_point(const FundamentalLaw& law, const std::vector<LawP
   const auto count = static_cast<Eigen::Index>(points.size());
   const auto size = static_cast<Eigen::Index>(law.coefficients.size());
   Eigen::VectorXd best = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(law.parameters()));
-  double least = std::numeric_limits<double>::infinity();
+  double least = core::infinity;
   constexpr int grid = 24;
   for (int g = 0; g < (law.shape ? grid : 1); ++g) {
     const double shape =

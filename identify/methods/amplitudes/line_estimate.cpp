@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <utility>
 
+#include "core/constants.hpp"
 #include "identify/conclusion.hpp"
 #include "identify/methods/amplitudes/bootstrap.hpp"
 #include "identify/statistics/distributions.hpp"
@@ -256,7 +256,7 @@ Deviance deviance_of(const FittedLine& fit, const ResonanceData& data, double sc
       std::isfinite(fit.lambda) ? scatter / (fit.lambda + fit.line.slope * fit.line.slope) : scatter;
   return [=, least = sum(fit.line.slope, fit.line.intercept), G = data.G, length = data.unit](double zeta,
                                                                                               double x_f) {
-    if (!(zeta > 0.0)) return std::numeric_limits<double>::infinity();
+    if (!(zeta > 0.0)) return core::infinity;
     return (sum(0.5 / zeta, -G.value(zeta) * x_f / length) - least) / unit;
   };
 }

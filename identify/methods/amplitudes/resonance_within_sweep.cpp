@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 
+#include "core/constants.hpp"
 #include "core/numbers.hpp"
 #include "identify/conclusion.hpp"
 #include "identify/methods/amplitudes/bootstrap.hpp"
@@ -251,7 +251,7 @@ Estimate resonance_within_sweep(const Record& record, const KnownConstants& cons
   test_sweep_curvature(used, exact, estimate);
   judge_slopes(sweeps, *lines, estimate.warnings);
   const auto line_through = [](const std::vector<Datum>& pairs) {
-    return line_of(moments_of(pairs), std::numeric_limits<double>::infinity());
+    return line_of(moments_of(pairs), core::infinity);
   };
   judge_method(*data, exact, *friction, line_through, estimate, faults);
   list_sweeps(sweeps, *lines, *friction, *data, estimate);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "core/constants.hpp"
@@ -153,7 +152,7 @@ std::optional<ForceLine> force_line(std::vector<Datum> points, double share) {
   constexpr double same = 1e-9;  // of a speed
   const double spread = std::sqrt(result.moments.S_YY);
   if (result.points.size() < 2 || !(spread > same * result.moments.mean_Y)) return std::nullopt;
-  const std::optional<Line> line = line_of(result.moments, std::numeric_limits<double>::infinity());
+  const std::optional<Line> line = line_of(result.moments, core::infinity);
   if (!line) return std::nullopt;
   result.line = *line;
   result.residuals.resize(static_cast<Eigen::Index>(result.points.size()));

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstdint>
 #include <functional>
-#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -63,8 +62,7 @@ double quantile(const std::vector<Component>& mixture, double share) {
   const auto excess = [&](double x) { return below(mixture, x) - share; };
   const double at_low = excess(low);
   const double at_high = excess(high);
-  if (!(std::isfinite(high - low) && at_low < 0.0 && at_high > 0.0))
-    return std::numeric_limits<double>::quiet_NaN();
+  if (!(std::isfinite(high - low) && at_low < 0.0 && at_high > 0.0)) return unknown;
   constexpr int bits = 50;
   std::uintmax_t most = 100;
   const auto [left, right] = boost::math::tools::toms748_solve(

@@ -3,9 +3,9 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
+#include "core/constants.hpp"
 #include "identify/methods/any_law/severity_refinement.hpp"
 #include "identify/statistics/decompositions.hpp"
 
@@ -175,7 +175,7 @@ bool find_covariance(SeverityFit& fit) {
 /// What the smooth curve leaves of the residuals of each channel, from residuals over `noise`.
 ChannelNoise channel_noise(const ReadingModel& model, const ChannelNoise& noise, const VectorXd& residuals) {
   ChannelNoise found = noise;
-  found.freedom = std::numeric_limits<double>::infinity();
+  found.freedom = core::infinity;
   double freedom = 0.0;
   bool known = true;
   for (std::size_t channel = 0; channel < noise.deviations.size(); ++channel) {

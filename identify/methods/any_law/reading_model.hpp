@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "core/constants.hpp"
 #include "identify/departures/departures.hpp"
 #include "identify/estimate.hpp"
 #include "identify/record.hpp"
@@ -88,7 +89,7 @@ class ReadingModel {
   }
   /// The smallest of the channels' deviations, relative to the size of what the channel reads.
   [[nodiscard]] double relative_noise(const std::vector<double>& deviations) const {
-    double least = std::numeric_limits<double>::infinity();
+    double least = core::infinity;
     for (std::size_t i = 0; i < deviations.size(); ++i)
       if (least_deviations_[i] > 0.0) least = std::min(least, deviations[i] / least_deviations_[i]);
     return least_relative_deviation * least;

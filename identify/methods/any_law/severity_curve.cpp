@@ -8,6 +8,8 @@
 #include <memory>
 #include <utility>
 
+#include "core/constants.hpp"
+
 namespace dualdamp::identify {
 
 namespace {
@@ -95,7 +97,7 @@ const SeverityPoint& best_of(const std::vector<SeverityPoint>& points) {
 Interval region_of(const std::vector<SeverityPoint>& points, double reach, double SeverityPoint::* value,
                    double SeverityPoint::* deviation) {
   const double least = best_of(points).chi2;
-  Interval ends{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+  Interval ends{core::infinity, -core::infinity};
   for (const SeverityPoint& point : points) {
     const double room = reach - (point.chi2 - least);
     if (room < 0.0) continue;

@@ -5,12 +5,12 @@
 #include <boost/math/tools/roots.hpp>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <numbers>
 #include <numeric>
 #include <optional>
 #include <span>
 
+#include "core/constants.hpp"
 #include "core/numbers.hpp"
 #include "identify/conclusion.hpp"
 #include "identify/methods/decays/extremes.hpp"
@@ -113,7 +113,7 @@ double exact_R(std::span<const double> e, bool zero_offset) {
 std::optional<double> least_squares_R(const DecayModel& model) {
   const auto ratio = [](int i) { return least_R + (greatest_R - least_R) * i / search_cells; };
   int best = 0;
-  double least = std::numeric_limits<double>::infinity();
+  double least = core::infinity;
   for (int i = 0; i <= search_cells; ++i) {
     const double square = model.fit(ratio(i)).residual.squaredNorm();
     if (square < least) {

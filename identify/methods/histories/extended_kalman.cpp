@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <utility>
 
 #include "core/cancellation.hpp"
+#include "core/constants.hpp"
 #include "core/numbers.hpp"
 #include "identify/conclusion.hpp"
 #include "identify/models/force_parameters.hpp"
@@ -205,7 +205,7 @@ void judge(const FilterRun& run, double of_law, const std::optional<FilterRun>& 
   const double c = estimate.value.c;
   const double change =
       wider ? std::max(std::abs(wider->end.state[2] / F0 - 1.0), std::abs(wider->end.state[3] / c - 1.0))
-            : std::numeric_limits<double>::infinity();
+            : core::infinity;
   constexpr double too_much = 0.1;
   if (change > too_much)
     faults.push_back(wider ? "twice the width of the sign changes the friction by " + core::percent(change, 3)

@@ -8,9 +8,9 @@
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
-#include <limits>
 #include <system_error>
 
+#include "core/constants.hpp"
 #include "identify/readers/data_table.hpp"
 
 namespace dualdamp::identify {
@@ -142,7 +142,7 @@ class Elements {
   /// Bytes of one number of a type. Infinite for an unknown type, so that only a count of zero fits.
   [[nodiscard]] static double width(std::uint32_t type) {
     constexpr std::array<double, 14> widths = {0, 1, 1, 2, 2, 4, 4, 4, 0, 8, 0, 0, 8, 8};
-    return type < widths.size() && widths[type] > 0 ? widths[type] : std::numeric_limits<double>::infinity();
+    return type < widths.size() && widths[type] > 0 ? widths[type] : core::infinity;
   }
 
   std::string_view bytes_;
