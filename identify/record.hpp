@@ -94,6 +94,9 @@ struct History {
   std::string gaps = {};
   std::string no_pair = {};
   bool is_clipped = false;  ///< samples at the end of a sensor's range were found, and warned of
+
+  /// A drive was measured; a history without one is of a free vibration, or of a drive that the constants state.
+  [[nodiscard]] bool has_drive() const { return !y.empty() || !force.empty(); }
 };
 
 /// All that was measured; kinds of data that were not measured are empty.

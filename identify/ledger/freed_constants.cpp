@@ -43,10 +43,7 @@ double middle_of(const Record& record, double stiffness) {
 }
 
 /// Are all histories driven by a measured drive? What is off in x beside the motion of its drive is then known.
-bool is_driven(const Record& record) {
-  return std::ranges::all_of(record.histories,
-                             [](const History& history) { return !history.y.empty() || !history.force.empty(); });
-}
+bool is_driven(const Record& record) { return std::ranges::all_of(record.histories, &History::has_drive); }
 
 /// The signal later by some samples, or earlier; its ends are held.
 void shift(std::vector<double>& signal, std::ptrdiff_t samples) {

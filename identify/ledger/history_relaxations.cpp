@@ -44,7 +44,7 @@ bool are_alike_decays(const std::vector<ForwardTest>& tests) {
   double most = 0.0;
   for (const ForwardTest& test : tests) {
     const History& history = *test.history;
-    if (!history.y.empty() || !history.force.empty()) return false;
+    if (history.has_drive()) return false;
     const auto [low, high] = std::ranges::minmax(history.x);
     least = std::min(least, high - low);
     most = std::max(most, high - low);

@@ -180,7 +180,7 @@ void leave_out_reversals(const Eigen::VectorXd& v, Eigen::MatrixXd& rows) {
 }
 
 Eigen::Index moving_rows(const History& history, const Eigen::VectorXd& x, double x_f) {
-  if (!history.y.empty() || !history.force.empty()) return x.size();
+  if (history.has_drive()) return x.size();
   constexpr double least = 3.0;
   Eigen::Index last = x.size();
   while (last > 0 && !(std::abs(x[last - 1]) > least * x_f)) --last;
@@ -217,8 +217,7 @@ std::string fault_of_histories(const Record& record) {
   std::size_t samples = 0;
   for (const History& history : record.histories) {
     samples += history.x.size();
-    const bool free = history.y.empty() && history.force.empty();
-    if (!free) continue;
+    if (history.has_drive()) continue;
     if (std::string fault = decay_of(history).fault; !fault.empty()) return fault;
   }
   return samples > most_samples ? "tests take at most 60,000 samples: give a part, or every n-th sample" : "";

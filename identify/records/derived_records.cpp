@@ -52,9 +52,7 @@ std::vector<std::string> complete(Record& record, double frequency, double stiff
     record.pairs = std::move(driven.record);
     return warnings;
   }
-  const auto is_free = [](const History& history) {
-    return !history.x.empty() && history.force.empty() && history.y.empty();
-  };
+  const auto is_free = [](const History& history) { return !history.x.empty() && !history.has_drive(); };
   if (!std::ranges::all_of(record.histories, is_free)) return warnings;
   std::vector<DecayRecord> decays;
   for (History& history : record.histories) {

@@ -155,7 +155,7 @@ class Check {
     if (!(measured > 0.0)) return true;
     const bool is_driven = !history.y.empty() && constants_.frequency > 0.0;
     const double expected = is_driven ? constants_.frequency : constants_.natural_frequency();
-    if (!(expected > 0.0) || (!is_driven && !(history.y.empty() && history.force.empty()))) return true;
+    if (!(expected > 0.0) || (!is_driven && history.has_drive())) return true;
     return !refuse_times(measured, expected, is_driven ? "the stated frequency" : "the natural frequency");
   }
 

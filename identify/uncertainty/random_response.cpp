@@ -102,11 +102,11 @@ Record RandomResponse::record(int number) const {
   history.v.resize(history.x.size());
   if (moves(measured.y)) history.y.resize(history.x.size());
   if (moves(measured.force)) history.force.resize(history.x.size());
-  if (history.y.empty() && history.force.empty()) {
-    respond_to_kicks(*this, {seed, kick_stream}, measured.x.front(), v0, history);
-  } else {
+  if (history.has_drive()) {
     add_stretches(*this, {seed, stretch_stream}, history);
     respond(law, measured.x.front(), v0, history);
+  } else {
+    respond_to_kicks(*this, {seed, kick_stream}, measured.x.front(), v0, history);
   }
   Sensors sensors;
   sensors.x.noise = noise_level(measured.x);

@@ -199,7 +199,7 @@ struct NoiseLevels {
     x.add(measured.x, synthetic.x);
     v.add(measured.v, synthetic.v);
     a.add(measured.a, synthetic.a);
-    if (measured.y.empty() && measured.force.empty()) return;
+    if (!measured.has_drive()) return;
     // The forces less inertia and spring. What is left is noise, beside friction and damping, which are smooth.
     const std::vector<double> acceleration =
         measured.a.empty() ? second_difference(measured.x, measured.sample_rate) : measured.a;

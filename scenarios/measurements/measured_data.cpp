@@ -105,8 +105,7 @@ void check_stated_frequency(CheckedFile& file, identify::MeasuredRecord& data, d
     }
     return;
   }
-  const auto is_driven = [](const identify::History& h) { return !h.y.empty() || !h.force.empty(); };
-  if (!data.record.pairs && std::ranges::none_of(data.record.histories, is_driven)) {
+  if (!data.record.pairs && std::ranges::none_of(data.record.histories, &identify::History::has_drive)) {
     data.warnings.push_back("the stated frequency of " + hertz(frequency) +
                             " is not used: no drive was recorded, and a free vibration has no forcing frequency");
     return;

@@ -23,8 +23,6 @@ double range_of(const std::vector<double>& signal) {
   return *high - *low;
 }
 
-bool is_free(const History& history) { return history.y.empty() && history.force.empty(); }
-
 }  // namespace
 
 ForwardTest::ForwardTest(const NumberedHistory& item)
@@ -35,7 +33,7 @@ ForwardTest::ForwardTest(const NumberedHistory& item)
   // Noise alone separates the extremes of eight samples by about three deviations, and very rarely by six.
   const bool hardly_moves = range_of(begin) <= 6.0 * noise_level(begin) + 1e-12 * range_of(history->x);
   // Near a turn a mass hardly moves either, and a record of a free vibration often begins there.
-  starts_at_rest = hardly_moves && !is_free(*history);
+  starts_at_rest = hardly_moves && history->has_drive();
   if (!history->v.empty())
     v0 = history->v[0];
   else if (!hardly_moves)
@@ -132,7 +130,7 @@ std::vector<ForceParameters> starts(const Record& record, const std::vector<Forw
   if (!(force.m > 0.0) || !(force.k > 0.0)) return {};
   std::vector<ForceParameters> list{force};
   for (const ForwardTest& test : tests)
-    if (const auto start = is_free(*test.history) ? from_extremes(test, force, constants) : std::nullopt)
+    if (const auto start = test.history->has_drive() ? std::nullopt : from_extremes(test, force, constants))
       list.push_back(*start);
   const double length = ForwardLayout::length(tests);
   const double critical = critical_damping(force.m, force.k);
@@ -172,7 +170,7 @@ std::optional<Record> large_motion(const std::vector<ForwardTest>& tests, double
     std::size_t last = history.x.size();
     while (last > 0 && std::abs(history.x[last - 1]) < least) --last;
     constexpr double little = 0.9;
-    if (is_free(*test.history) && static_cast<double>(last) < little * static_cast<double>(history.x.size())) {
+    if (!history.has_drive() && static_cast<double>(last) < little * static_cast<double>(history.x.size())) {
       for (std::vector<double>* signal : {&history.x, &history.v, &history.a})
         if (!signal->empty()) signal->resize(last);
       shorter = true;
@@ -247,7 +245,8 @@ void ForwardFit::search_further(LeastSquaresProblem problem, const std::vector<E
   constexpr double heavy = 0.25;
   const double zeta = force.c / critical_damping(force.m, force.k);
   const double share = force.F0 / (force.k * layout_->length());
-  const bool all_free = std::ranges::all_of(tests_, [](const ForwardTest& test) { return is_free(*test.history); });
+  const bool all_free =
+      std::ranges::none_of(tests_, [](const ForwardTest& test) { return test.history->has_drive(); });
   const bool is_short = zeta > heavy || (all_free && share > 0.5 * heavy);
   const bool without_friction = found_.parameters[1] <= problem.low[1];
   const std::size_t count = is_short ? 6 : without_friction ? 2 : 0;

@@ -34,8 +34,7 @@ std::optional<std::pair<double, double>> swing_of(const sim::Model& model) {
 }
 
 std::string remove_zero_of(identify::History& history, const sim::Model& model) {
-  if (!history.y.empty() || !history.force.empty())
-    return identify::remove_zero(history, model.oscillator.stiffness);
+  if (history.has_drive()) return identify::remove_zero(history, model.oscillator.stiffness);
   if (model.excitation.type == sim::ExcitationType::none) {
     identify::DerivedDecay decay = identify::decay_of(history);
     return identify::remove_zero(history, decay.record);
