@@ -30,6 +30,16 @@ inline constexpr double family_level = 0.05;
           symmetry};
 }
 
+/// Is it about the law of friction: over speed, or over displacement?
+[[nodiscard]] constexpr bool is_of_law(Assumption assumption) {
+  return assumption == Assumption::friction_velocity || assumption == Assumption::friction_displacement;
+}
+
+/// Is it about friction: its law, or its symmetry?
+[[nodiscard]] constexpr bool is_of_friction(Assumption assumption) {
+  return is_of_law(assumption) || assumption == Assumption::symmetry;
+}
+
 /// "constants", "one_mode", ...: names of the result.
 [[nodiscard]] std::string_view name_of(Assumption assumption);
 /// "the constants are as stated", ...

@@ -67,15 +67,11 @@ bool misses(Estimate& estimate, const Ledger& ledger) {
 /// Is it friction over speed or displacement that departs, or what may depart in its place: a drift that follows
 /// the speed, or what is named only beside friction, which explains the same departure?
 bool stands_for_friction(const LedgerEntry& entry, const Ledger& ledger) {
-  using enum Assumption;
   if (entry.is_like_speed) return true;
-  const auto names = [](const std::vector<Assumption>& departure, Assumption one) {
-    return std::ranges::find(departure, one) != departure.end();
-  };
   bool found = false;
   for (const std::vector<Assumption>& departure : ledger.departures) {
     if (!names(departure, entry.assumption)) continue;
-    if (!names(departure, friction_velocity) && !names(departure, friction_displacement)) return false;
+    if (std::ranges::none_of(departure, is_of_law)) return false;
     found = true;
   }
   return found;
@@ -133,11 +129,9 @@ void keep_physical(Estimate& estimate) {
 /// answers for them. Its library has wrong constants and a spring that is not linear among the laws.
 std::vector<const LedgerEntry*> held_departures(const Estimate& ranges, const Ledger& ledger) {
   std::vector<const LedgerEntry*> found;
-  using enum Assumption;
   for (const LedgerEntry& entry : ledger.entries) {
-    const bool is_friction = entry.assumption == friction_velocity || entry.assumption == friction_displacement;
-    const bool is_law = !is_friction && !rests_on(ranges).contains(entry.assumption);
-    if (entry.standing == Standing::violated && entry.zeta_change && entry.F0_change && !is_law &&
+    const bool is_in_library = !is_of_law(entry.assumption) && !rests_on(ranges).contains(entry.assumption);
+    if (entry.standing == Standing::violated && entry.zeta_change && entry.F0_change && !is_in_library &&
         stands_for_friction(entry, ledger))
       found.push_back(&entry);
   }

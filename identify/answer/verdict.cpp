@@ -34,10 +34,6 @@ std::vector<std::string> names_of(const Ledger& ledger, Standing standing) {
   return names;
 }
 
-bool departs_in_friction(const Ledger& ledger) {
-  return ledger.is_violated(Assumption::friction_velocity) || ledger.is_violated(Assumption::friction_displacement);
-}
-
 /// Why none of the estimates is used: every departure, and what would help with each.
 std::string why_contradicted(const Ledger& ledger) {
   std::vector<std::string> held;
@@ -115,7 +111,7 @@ std::string departures_text(const Ledger& ledger) {
                            : ledger.force_excess) +
             ")";
     const std::string& wanted = ledger.entry(Assumption::constants).wanted;
-    const bool of_constants = std::ranges::count(departure, Assumption::constants) > 0;
+    const bool of_constants = names(departure, Assumption::constants);
     text += of_constants && !wanted.empty() ? ": they fit " + wanted + "." : ".";
   }
   return text;
@@ -241,7 +237,7 @@ std::string why_preferred(const Identification& all) {
     text += ", and of " + std::to_string(rivals) + " such estimates its intervals are the narrowest";
   const std::vector<std::string> untested = names_of(all.ledger, Standing::untested);
   if (!all.ledger.data.empty() && !untested.empty()) text += "; untested: " + core::joined(untested, ", ");
-  if (all.estimates[*all.answer].laws && departs_in_friction(all.ledger))
+  if (all.estimates[*all.answer].laws && all.ledger.violates_law())
     text += "; it is a range over laws, and what would narrow it: " + what_would_help(all.ledger);
   return text;
 }

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <ranges>
 #include <variant>
 
@@ -209,10 +208,9 @@ class Writer {
     const LedgerEntry& constants = ledger.entry(Assumption::constants);
     const bool grows = assumption_of(inertia) == Assumption::one_mode && inertia.coefficient > 0.0;
     if (!grows || own.standing != Standing::holds || constants.standing != Standing::violated) return;
-    const auto has_constants = [](const std::vector<Assumption>& named) {
-      return std::ranges::find(named, Assumption::constants) != named.end();
-    };
-    const auto charged = std::ranges::find_if(ledger.departures, has_constants);
+    const auto charged = std::ranges::find_if(ledger.departures, [](const std::vector<Assumption>& named) {
+      return names(named, Assumption::constants);
+    });
     const auto is_lower = [&](const FoundDeparture& other) {
       return std::ranges::any_of(other.explanations, [&](const RelaxationTest& test) {
         return assumption_of(test) == Assumption::constants &&
@@ -279,9 +277,7 @@ class Writer {
   /// friction that departs over speed or displacement this says little about anything else: its terms are no law,
   /// and follow it only in part. A range over laws may follow it.
   void charge_unexplained(Ledger& ledger) const {
-    using enum Assumption;
-    const auto departs = [&](Assumption one) { return ledger.entry(one).standing == Standing::violated; };
-    const bool is_friction = departs(friction_velocity) || departs(friction_displacement);
+    const bool is_friction = ledger.violates_law();
     std::vector<RelaxationTest> rejecting = tests_.tests;
     std::erase_if(rejecting, [](const RelaxationTest& test) { return test.p_value >= family_level; });
     sort_with_ties(
@@ -297,7 +293,7 @@ class Writer {
       }
       set(test, entry);
       ledger.is_unexplained = true;
-      if (is_friction && entry.assumption != friction_velocity && entry.assumption != friction_displacement) {
+      if (is_friction && !is_of_law(entry.assumption)) {
         entry.standing = Standing::untested;
         entry.reason = "its test still rejects, beside friction that the terms of the ledger follow only in part";
         continue;
@@ -357,7 +353,7 @@ class Writer {
   RelativeChanges scale_;
   std::array<double, assumption_count> blind_ = [] {
     std::array<double, assumption_count> none{};
-    none.fill(std::numeric_limits<double>::quiet_NaN());
+    none.fill(unknown);
     return none;
   }();
 };
@@ -389,7 +385,7 @@ Ledger tested_ledger(const Record& record, const KnownConstants& constants, cons
   // If friction over speed or displacement may be what departs, and it matters, no relaxed model has one zeta and
   // one F0. With friction that differs between the directions, they are the means of both.
   const bool is_friction = std::ranges::any_of(ledger.departures, [](const std::vector<Assumption>& named) {
-    return std::ranges::any_of(named, [](Assumption a) { return is_of_friction(a) && a != Assumption::symmetry; });
+    return std::ranges::any_of(named, is_of_law);
   });
   const bool is_fitted = !is_friction && !ledger.is_unexplained && !ledger.misfit;
   if (!is_fitted || !(constants.stiffness > 0.0 && constants.mass > 0.0)) return ledger;

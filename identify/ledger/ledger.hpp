@@ -20,6 +20,7 @@
 ///
 /// Cost: that of the joint model; a history of 20,000 samples takes 0.2 s.
 
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <string>
@@ -133,7 +134,16 @@ struct Ledger {
   [[nodiscard]] bool is_violated(Assumption assumption) const {
     return entry(assumption).standing == Standing::violated;
   }
+  /// Is an assumption about the law of friction violated?
+  [[nodiscard]] bool violates_law() const {
+    return is_violated(Assumption::friction_velocity) || is_violated(Assumption::friction_displacement);
+  }
 };
+
+/// Does a departure name this assumption?
+[[nodiscard]] inline bool names(const std::vector<Assumption>& departure, Assumption assumption) {
+  return std::ranges::find(departure, assumption) != departure.end();
+}
 
 [[nodiscard]] Ledger ledger_of(const Record& record, const KnownConstants& constants,
                                const LedgerOptions& options = {});

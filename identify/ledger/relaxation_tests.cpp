@@ -296,9 +296,8 @@ FoundDeparture departure_shown(const JointModel& model, const Taken& taken,
     if (!is_hidden(i) && rests[i].misfit < rests[best].misfit - equal_likelihood) best = i;
   FoundDeparture departure{{list[best]}};
   const Assumption charged = model.relaxations[list[best].index].assumption;
-  const bool of_friction = charged == Assumption::friction_velocity || charged == Assumption::friction_displacement;
   for (std::size_t i = 0; i < list.size(); ++i) {
-    if (is_hidden(i) && !of_friction) continue;
+    if (is_hidden(i) && !is_of_law(charged)) continue;
     const bool as_well = rests[i].misfit <= rests[best].misfit + equal_likelihood &&
                          (rests[i].p_value >= family_level || rests[best].p_value < family_level);
     // Those with nearly the same column differ by the finest detail of the model, and by chance.

@@ -54,17 +54,13 @@ double quantile_of(const JointModel& model, double freedom) {
   return quantile95(std::max(1.0, std::min(model.is_stated ? known_freedom : freedom, model.scale_freedom)));
 }
 
-}  // namespace
-
-bool is_of_friction(Assumption assumption) {
-  return assumption == Assumption::friction_velocity || assumption == Assumption::friction_displacement ||
-         assumption == Assumption::symmetry;
-}
-
+/// Is it a term of friction that a test of its own rejects at 25 %?
 bool is_nearly_seen(const JointModel& model, const RelaxationTest& test) {
   constexpr double level = 0.25;
   return is_of_friction(model.relaxations[test.index].assumption) && test.p_alone < level;
 }
+
+}  // namespace
 
 Estimate joint_estimate(const JointModel& model, const Taken& relaxed, std::string basis) {
   Estimate estimate;
@@ -227,6 +223,15 @@ void reach(const Interval& interval, const std::string& test, Interval& range, s
   if (interval[1] > range[1] && !is_tie(interval[1], range[1])) range[1] = interval[1], ends[1] = test;
 }
 
+/// Sets the ends of c and x_f by those of zeta and F0.
+void set_others(const KnownConstants& constants, UnseenRange& range) {
+  for (std::size_t end = 0; end < 2; ++end) {
+    const ParameterSet both = parameters(range.ends.zeta[end], range.ends.F0[end] / constants.stiffness, constants);
+    range.ends.c[end] = both.c;
+    range.ends.x_f[end] = both.x_f;
+  }
+}
+
 }  // namespace
 
 std::optional<UnseenRange> unseen_friction(const JointModel& model, const RelaxationTests& tests,
@@ -254,14 +259,6 @@ std::optional<UnseenRange> unseen_friction(const JointModel& model, const Relaxa
   }
   set_others(here.constants, range);
   return range;
-}
-
-void set_others(const KnownConstants& constants, UnseenRange& range) {
-  for (std::size_t end = 0; end < 2; ++end) {
-    const ParameterSet both = parameters(range.ends.zeta[end], range.ends.F0[end] / constants.stiffness, constants);
-    range.ends.c[end] = both.c;
-    range.ends.x_f[end] = both.x_f;
-  }
 }
 
 void note_nearly_seen(const JointModel& model, const RelaxationTests& tests, Ledger& ledger) {

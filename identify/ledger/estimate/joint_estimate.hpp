@@ -23,11 +23,6 @@
 
 namespace dualdamp::identify {
 
-[[nodiscard]] bool is_of_friction(Assumption assumption);
-
-/// Is it a term of friction that a test of its own rejects at 25 %?
-[[nodiscard]] bool is_nearly_seen(const JointModel& model, const RelaxationTest& test);
-
 /// Names the tests whose departures are nearly seen in the entries of assumptions that are not violated.
 void note_nearly_seen(const JointModel& model, const RelaxationTests& tests, Ledger& ledger);
 
@@ -44,8 +39,5 @@ void note_nearly_seen(const JointModel& model, const RelaxationTests& tests, Led
 /// The range of an estimate of the joint model. Nothing if it has no interval.
 [[nodiscard]] std::optional<UnseenRange> unseen_friction(const JointModel& model, const RelaxationTests& tests,
                                                          const Estimate& estimate);
-
-/// Sets the ends of c and x_f by those of zeta and F0.
-void set_others(const KnownConstants& constants, UnseenRange& range);
 
 }  // namespace dualdamp::identify

@@ -18,16 +18,14 @@ void join_at_one_frequency(const KnownConstants& constants, Ledger& ledger) {
   using Assumption::one_mode;
   const bool is_alike = ledger.recorded.states && !ledger.recorded.frequencies && !ledger.tests_histories;
   if (!is_alike || !ledger.is_violated(Assumption::constants) || !ledger.is_violated(one_mode)) return;
-  const auto has = [](Assumption assumption) {
-    return [assumption](const std::vector<Assumption>& named) {
-      return std::ranges::find(named, assumption) != named.end();
-    };
+  const auto departure_of = [&](Assumption assumption) {
+    return std::ranges::find_if(ledger.departures, [&](const auto& named) { return names(named, assumption); });
   };
-  const auto first = std::ranges::find_if(ledger.departures, has(one_mode));
-  const auto second = std::ranges::find_if(ledger.departures, has(Assumption::constants));
+  const auto first = departure_of(one_mode);
+  const auto second = departure_of(Assumption::constants);
   if (first == ledger.departures.end() || second == ledger.departures.end() || first == second) return;
   for (const Assumption assumption : *second)
-    if (!has(assumption)(*first)) first->push_back(assumption);
+    if (!names(*first, assumption)) first->push_back(assumption);
   ledger.departures.erase(second);
   LedgerEntry& own = ledger.entry(Assumption::constants);
   own.reason = beside(own.wanted, "one_mode");

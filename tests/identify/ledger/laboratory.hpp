@@ -58,10 +58,4 @@ struct Measured {
 /// `alter` makes the rig depart. The same seed gives the same rig and noise.
 [[nodiscard]] Measured measured(Kind kind, std::uint64_t seed, void (*alter)(Rig&) = nullptr, const Off& off = {});
 
-/// Whether an assumption is about the friction law.
-inline bool is_of_friction(Assumption assumption) {
-  return assumption == Assumption::friction_velocity || assumption == Assumption::friction_displacement ||
-         assumption == Assumption::symmetry;
-}
-
 }  // namespace dualdamp::identify::testing
