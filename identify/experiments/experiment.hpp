@@ -128,6 +128,11 @@ class Experiment {
 
 using Experiments = std::vector<std::unique_ptr<Experiment>>;
 
+/// What drives the motion of a record: its own drive, or else that of the rig.
+[[nodiscard]] inline const sim::Excitation& drive_of(const Experiment& experiment, const Rig& rig) {
+  return experiment.drive ? *experiment.drive : rig.known.excitation;
+}
+
 /// A parameter of a single record. `is_alone`: there is one record only, so the name needs no number.
 [[nodiscard]] FitParameter parameter_of_record(const Experiment& experiment, std::size_t index,
                                                RecordParameter which, bool is_alone);

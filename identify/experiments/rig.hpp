@@ -40,6 +40,16 @@ inline constexpr std::size_t record_parameter_count = 8;
 /// The parameter with this name; nothing if no record has such a parameter.
 [[nodiscard]] std::optional<RecordParameter> find_record_parameter(std::string_view name);
 
+/// The zero of a sensor among the parameters of a record.
+struct SensorZero {
+  RecordParameter which;
+  std::string_view signal;  ///< that it shifts
+};
+inline constexpr std::array<SensorZero, 4> sensor_zeros = {{{RecordParameter::offset, "x"},
+                                                            {RecordParameter::offset_v, "v"},
+                                                            {RecordParameter::offset_a, "a"},
+                                                            {RecordParameter::offset_force, "force"}}};
+
 /// A value of each parameter of a single record [SI]; zero until it is set.
 class RecordValues {
  public:
@@ -102,6 +112,10 @@ struct FitParameter {
   std::string share_of = {};              ///< name of a list of the law whose values of this kind add to 1
   std::optional<ForceAtSpeed> at_speed = {};
 
+  /// Whether it is this parameter of this record.
+  [[nodiscard]] bool is_of_record(std::size_t record, RecordParameter which) const {
+    return owner == Owner::record && index == record && record_parameter == which;
+  }
   /// Whether its range has an end beside zero.
   [[nodiscard]] bool is_bounded() const { return std::isfinite(range.high) || range.low > 0.0; }
 };

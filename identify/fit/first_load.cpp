@@ -24,8 +24,7 @@ bool may_be_loaded(const FitTask& task, const Eigen::VectorXd& values, std::size
   if (experiment.kind == ExperimentKind::steady_states || experiment.knows_load) return false;
   if (task.problem.known()[index][RecordParameter::travel] != 0.0) return false;
   const bool is_sought = std::ranges::any_of(task.parameters, [index](const FitParameter& parameter) {
-    return parameter.owner == Owner::record && parameter.index == index &&
-           parameter.record_parameter == RecordParameter::travel;
+    return parameter.is_of_record(index, RecordParameter::travel);
   });
   if (is_sought) return false;
   const std::optional<Rig> rig = with_values(task.rig, task.parameters, values);

@@ -164,7 +164,7 @@ void say_why_sought(const Request& request, Fit& result) {
   for (std::size_t e = 0; e < request.experiments.size(); ++e)
     for (const auto& [which, why] : request.experiments[e]->remarks)
       if (std::ranges::any_of(request.parameters, [e, which](const FitParameter& parameter) {
-            return parameter.owner == Owner::record && parameter.index == e && parameter.record_parameter == which;
+            return parameter.is_of_record(e, which);
           }))
         result.warnings.push_back(request.experiments[e]->label + ": " + why);
 }
@@ -181,7 +181,7 @@ void add_objections(const Request& request, Fit& result) {
 void warn_of_short(const Request& request, Fit& result) {
   for (const auto& experiment : request.experiments) {
     if (experiment->kind != ExperimentKind::history) continue;
-    const sim::Excitation& drive = experiment->drive ? *experiment->drive : result.rig.known.excitation;
+    const sim::Excitation& drive = drive_of(*experiment, result.rig);
     const sim::Oscillator& o = result.rig.known.oscillator;
     const bool is_driven = drive.is_harmonic() && drive.frequency > 0.0;
     const double omega = is_driven ? drive.frequency : std::sqrt(o.stiffness / o.mass);
@@ -336,6 +336,12 @@ struct RelativeSquare {
 };
 
 }  // namespace
+
+const FittedParameter* find_of_record(const Fit& fit, std::size_t record, RecordParameter which) {
+  const auto found = std::ranges::find_if(
+      fit.parameters, [&](const FittedParameter& fitted) { return fitted.parameter.is_of_record(record, which); });
+  return found == fit.parameters.end() ? nullptr : &*found;
+}
 
 double relative_error(const Fit& fit) {
   RelativeSquare all;

@@ -106,6 +106,14 @@ struct Fit {
 [[nodiscard]] Fit fit_rig(const Rig& rig, std::vector<FitParameter> parameters, const Experiments& experiments,
                           const FitOptions& options = {});
 
+/// The measured signal of a fitted one.
+[[nodiscard]] inline const Signal& signal_of(const Experiments& experiments, const FittedSignal& fitted) {
+  return experiments[fitted.rows.experiment]->signals[fitted.rows.signal];
+}
+
+/// A parameter of a record among those that were fitted; null if it was not sought.
+[[nodiscard]] const FittedParameter* find_of_record(const Fit& fit, std::size_t record, RecordParameter which);
+
 /// rms of the residuals over the rms of the signal, all signals together.
 [[nodiscard]] double relative_error(const Fit& fit);
 

@@ -1,7 +1,6 @@
 #include "identify/fit/record_zeros.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <optional>
 
@@ -12,28 +11,13 @@ namespace dualdamp::identify {
 
 namespace {
 
-constexpr std::array zeros_of_sensors = {RecordParameter::offset, RecordParameter::offset_v,
-                                         RecordParameter::offset_a, RecordParameter::offset_force};
-
-/// The signal whose zero this is.
-std::string signal_of(RecordParameter which) {
-  return which == RecordParameter::offset_v       ? "v"
-         : which == RecordParameter::offset_a     ? "a"
-         : which == RecordParameter::offset_force ? "force"
-                                                  : "x";
-}
-
-bool has_zero(const Experiment& experiment, RecordParameter which) {
-  return std::ranges::find(experiment.signals, signal_of(which), &Signal::name) != experiment.signals.end() &&
-         std::ranges::find(experiment.record_others, which) != experiment.record_others.end();
+bool has_zero(const Experiment& experiment, const SensorZero& zero) {
+  return std::ranges::find(experiment.signals, zero.signal, &Signal::name) != experiment.signals.end() &&
+         std::ranges::find(experiment.record_others, zero.which) != experiment.record_others.end();
 }
 
 const FittedParameter* find_zero(const Fit& fit, const RecordZero& zero) {
-  for (const FittedParameter& fitted : fit.parameters)
-    if (fitted.parameter.owner == Owner::record && fitted.parameter.index == zero.experiment &&
-        fitted.parameter.record_parameter == zero.which)
-      return &fitted;
-  return nullptr;
+  return find_of_record(fit, zero.experiment, zero.which);
 }
 
 std::string text_of(const Rig& rig, const Experiment& experiment, const FittedParameter& zero, bool is_alone) {
@@ -44,8 +28,8 @@ std::string text_of(const Rig& rig, const Experiment& experiment, const FittedPa
   constexpr int digits = 4;
   const RecordParameter which = zero.parameter.record_parameter;
   std::string text = is_alone ? "" : experiment.label + ": ";
-  text += "the zero of " + signal_of(which) + " is fitted to this record, " +
-          with_unit(zero.value, digits, zero.parameter.unit);
+  text += "the zero of " + std::string(std::ranges::find(sensor_zeros, which, &SensorZero::which)->signal) +
+          " is fitted to this record, " + with_unit(zero.value, digits, zero.parameter.unit);
   if (!std::isnan(zero.std)) text += " with a standard error of " + with_unit(zero.std, 2, zero.parameter.unit);
   const double force = rig.known.oscillator.stiffness * zero.value;
   if (which == RecordParameter::offset && std::isfinite(force) && force != 0.0)
@@ -74,12 +58,11 @@ std::vector<RecordZero> zeros_sought_in(const std::vector<FitParameter>& paramet
                                         const Experiments& experiments) {
   std::vector<RecordZero> zeros;
   for (std::size_t e = 0; e < experiments.size(); ++e)
-    for (const RecordParameter which : zeros_of_sensors)
-      if (has_zero(*experiments[e], which) &&
-          std::ranges::any_of(parameters, [which](const FitParameter& parameter) {
-            return parameter.owner == Owner::record && parameter.record_parameter == which;
+    for (const SensorZero& zero : sensor_zeros)
+      if (has_zero(*experiments[e], zero) && std::ranges::any_of(parameters, [&](const FitParameter& parameter) {
+            return parameter.owner == Owner::record && parameter.record_parameter == zero.which;
           }))
-        zeros.push_back({e, which});
+        zeros.push_back({e, zero.which});
   return zeros;
 }
 
@@ -87,10 +70,10 @@ std::vector<RecordZero> zeros_that_are_off(const Rig& rig, const Experiments& ex
                                            const std::vector<RecordZero>& sought, const FitOptions& options) {
   std::vector<RecordZero> all = sought;
   for (std::size_t e = 0; e < experiments.size(); ++e)
-    for (const RecordParameter which : zeros_of_sensors)
-      if (has_zero(*experiments[e], which) && find_zero(held, {e, which}) == nullptr &&
-          std::ranges::find(all, RecordZero{e, which}) == all.end())
-        all.push_back({e, which});
+    for (const SensorZero& zero : sensor_zeros)
+      if (has_zero(*experiments[e], zero) && find_zero(held, {e, zero.which}) == nullptr &&
+          std::ranges::find(all, RecordZero{e, zero.which}) == all.end())
+        all.push_back({e, zero.which});
   if (all.size() == sought.size()) return {};
   const Fit shifted = fit_rig(rig, parameters_of_records(rig, experiments, all), experiments, options);
   constexpr double half = 0.5;

@@ -134,10 +134,6 @@ std::string stated_noise_warning(const FittedSignal& fitted, const Signal& signa
                                                                      : "small, or the law is not that of the rig");
 }
 
-const Signal& signal_of(const Experiments& experiments, const FittedSignal& fitted) {
-  return experiments[fitted.rows.experiment]->signals[fitted.rows.signal];
-}
-
 std::string residuals_of(const Experiments& experiments, const FittedSignal& fitted) {
   return experiments[fitted.rows.experiment]->label + ": the residuals of " + signal_of(experiments, fitted).name;
 }
@@ -145,13 +141,13 @@ std::string residuals_of(const Experiments& experiments, const FittedSignal& fit
 /// Whether samples of a sensor drive the motion.
 bool has_recorded_drive(const Experiment& experiment, const Fit& fit) {
   if (experiment.kind != ExperimentKind::history) return false;
-  return (experiment.drive ? *experiment.drive : fit.rig.known.excitation).samples != nullptr;
+  return drive_of(experiment, fit.rig).samples != nullptr;
 }
 
 /// Whether nothing drives a history.
 bool is_undriven(const Experiment& experiment, const Fit& fit) {
-  const sim::Excitation& drive = experiment.drive ? *experiment.drive : fit.rig.known.excitation;
-  return experiment.kind == ExperimentKind::history && drive.type == sim::ExcitationType::none;
+  return experiment.kind == ExperimentKind::history &&
+         drive_of(experiment, fit.rig).type == sim::ExcitationType::none;
 }
 
 /// Where noise that the residuals hold and their signal does not may come from, and what helps.
@@ -185,18 +181,12 @@ constexpr double most_mean_errors = 4.0;
 /// The zero of a signal of a history, or of the force of a loop. Nothing if it is sought.
 std::optional<RecordParameter> open_zero(const Experiments& experiments, const FittedSignal& fitted,
                                          const Fit& fit) {
-  const std::string& name = signal_of(experiments, fitted).name;
   const ExperimentKind kind = experiments[fitted.rows.experiment]->kind;
   if (kind != ExperimentKind::history && kind != ExperimentKind::loop) return std::nullopt;
-  const RecordParameter zero = name == "v"       ? RecordParameter::offset_v
-                               : name == "a"     ? RecordParameter::offset_a
-                               : name == "force" ? RecordParameter::offset_force
-                                                 : RecordParameter::offset;
-  const bool is_sought = std::ranges::any_of(fit.parameters, [&](const FittedParameter& found) {
-    return found.parameter.owner == Owner::record && found.parameter.index == fitted.rows.experiment &&
-           found.parameter.record_parameter == zero;
-  });
-  return is_sought ? std::nullopt : std::optional(zero);
+  const auto zero = std::ranges::find(sensor_zeros, signal_of(experiments, fitted).name, &SensorZero::signal);
+  const bool is_sought =
+      zero != sensor_zeros.end() && find_of_record(fit, fitted.rows.experiment, zero->which) != nullptr;
+  return zero == sensor_zeros.end() || is_sought ? std::nullopt : std::optional(zero->which);
 }
 
 /// The zero of a signal of a history or a loop that its residuals speak of; nothing if they do not, or if it is

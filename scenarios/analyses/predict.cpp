@@ -83,7 +83,8 @@ std::vector<identify::FitParameter> fitted_zeros(const Json& analysis, std::vect
   std::vector<identify::FitParameter> zeros;
   for (const Json& name : analysis.value("zeros", Json::array())) {
     const std::optional<identify::RecordParameter> found = identify::find_record_parameter(name.get<std::string>());
-    if (!found || !identify::name_of(*found).starts_with("offset"))
+    if (!found || std::ranges::find(identify::sensor_zeros, *found, &identify::SensorZero::which) ==
+                      identify::sensor_zeros.end())
       faults.push_back({"zeros", "'" + name.get<std::string>() +
                                      "' in 'analysis.zeros' is no zero: offset, offset_v, offset_a "
                                      "and offset_force are those of x, v, a and force"});

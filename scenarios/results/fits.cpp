@@ -14,10 +14,6 @@ Json pair_json(const identify::Interval& pair) {
   return Json::array({finite_or_null(pair[0]), finite_or_null(pair[1])});
 }
 
-const identify::Signal& signal_of(const identify::FittedSignal& fitted, const identify::Experiments& experiments) {
-  return experiments[fitted.rows.experiment]->signals[fitted.rows.signal];
-}
-
 Json rows_json(const Eigen::MatrixXd& matrix) {
   Json rows = Json::array();
   for (const auto& row : matrix.rowwise()) rows.push_back(std::vector<double>(row.begin(), row.end()));
@@ -55,7 +51,7 @@ Table parameter_table(const identify::Fit& fit) {
 }  // namespace
 
 std::string residual_unit(const identify::Fit& fit, const identify::Experiments& experiments) {
-  return unit_in(fit, signal_of(fit.signals.front(), experiments).unit);
+  return unit_in(fit, signal_of(experiments, fit.signals.front()).unit);
 }
 
 void add_fit(const identify::Fit& fit, const identify::Experiments& experiments, Answer& answer) {
@@ -86,8 +82,8 @@ void add_fit(const identify::Fit& fit, const identify::Experiments& experiments,
   result["signals"] = Json::array();
   for (const identify::FittedSignal& signal : fit.signals)
     result["signals"].push_back({{"record", experiments[signal.rows.experiment]->label},
-                                 {"name", signal_of(signal, experiments).name},
-                                 {"unit", unit_in(fit, signal_of(signal, experiments).unit)},
+                                 {"name", signal_of(experiments, signal).name},
+                                 {"unit", unit_in(fit, signal_of(experiments, signal).unit)},
                                  {"readings", signal.rows.size()},
                                  {"independent", signal.independent},
                                  {"freedom", signal.freedom},
@@ -106,7 +102,7 @@ void add_fit(const identify::Fit& fit, const identify::Experiments& experiments,
 void add_curves(const identify::Fit& fit, const identify::Experiments& experiments, const std::string& prefix,
                 Answer& answer) {
   for (const identify::FittedSignal& fitted : fit.signals) {
-    const identify::Signal& signal = signal_of(fitted, experiments);
+    const identify::Signal& signal = signal_of(experiments, fitted);
     Table table{.name = prefix + "_" + std::to_string(fitted.rows.experiment) + "_" + signal.name,
                 .is_long = true,
                 .is_complete = true};

@@ -208,7 +208,7 @@ std::string rig_text(const identify::Fit& fit, const RigText& text) {
 std::string scenario_text(const identify::Fit& fit, const identify::Experiments& experiments, std::size_t index,
                           const RigText& text) {
   const identify::Experiment& experiment = *experiments[index];
-  Json scenario = rig_json(fit, text, experiment.drive ? *experiment.drive : fit.rig.known.excitation);
+  Json scenario = rig_json(fit, text, drive_of(experiment, fit.rig));
   const bool is_friction_alone = fill_in_constants(scenario["system"]);
   const identify::RecordValues& of_record = fit.of_records[index];
   std::string remark;
@@ -252,7 +252,7 @@ void add_scenario_files(const identify::Fit& fit, const identify::Experiments& e
     const std::string number = experiments.size() == 1 ? "" : "_" + std::to_string(e);
     RigText text = texts[e];
     if (is_recorded(*experiments[e], text)) {
-      const sim::Excitation& drive = experiments[e]->drive ? *experiments[e]->drive : fit.rig.known.excitation;
+      const sim::Excitation& drive = drive_of(*experiments[e], fit.rig);
       const std::string name = drive_name(experiments.size(), e);
       answer.tables.push_back(drive_table(name, drive, fit.rig.known.oscillator.coordinate));
       text.excitation = section_of(name + ".csv", drive);
