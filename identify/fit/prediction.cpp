@@ -58,11 +58,10 @@ double uncertainty_of(const Fit& held, const Rig& rig, const std::vector<FitPara
 
 /// The error of the first sampled signal, in octaves of frequency.
 std::vector<PredictionBand> bands_of(const Fit& held, const Experiments& experiments) {
-  const auto sampled = std::ranges::find_if(held.signals, [&](const FittedSignal& signal) {
-    return experiments[signal.rows.experiment]->signals[signal.rows.signal].is_sampled;
-  });
+  const auto sampled = std::ranges::find_if(
+      held.signals, [&](const FittedSignal& signal) { return signal_of(experiments, signal).is_sampled; });
   if (sampled == held.signals.end()) return {};
-  const Signal& signal = experiments[sampled->rows.experiment]->signals[sampled->rows.signal];
+  const Signal& signal = signal_of(experiments, *sampled);
   const Eigen::Index count = sampled->rows.size();
   constexpr Eigen::Index least = 64;
   if (count < least) return {};
@@ -149,12 +148,8 @@ struct Load {
 
 Load load_of(const Fit& fit, std::size_t record) {
   Load load{.travel = fit.of_records[record][RecordParameter::travel]};
-  for (const FittedParameter& fitted : fit.parameters) {
-    const FitParameter& parameter = fitted.parameter;
-    if (parameter.owner != Owner::record || parameter.index != record ||
-        parameter.record_parameter != RecordParameter::travel)
-      continue;
-    load.sought = parameter;
+  if (const FittedParameter* fitted = find_of_record(fit, record, RecordParameter::travel)) {
+    load.sought = fitted->parameter;
     load.sought->stated = load.travel;
   }
   return load;
@@ -204,71 +199,90 @@ std::vector<FitParameter> at_values_of(const Rig& rig, const std::vector<FitPara
   return list;
 }
 
-/// `shared`: those of `uncertainty_of`.
-void describe_held(const Rig& rig, const std::vector<FitParameter>& shared, const SharedUncertainty& known,
-                   const Experiments& experiments, Prediction& found) {
-  found.error = relative_error(found.fit);
-  found.noise_units = found.fit.noise_units;
-  found.bands = bands_of(found.fit, experiments);
-  found.uncertainty = uncertainty_of(found.fit, rig, shared, known, experiments);
-}
+/// Predicts records with one rig, for one set of zeros or another among their own parameters.
+class RecordPredictor {
+ public:
+  /// `options` are those of each fit. The other arguments must outlive this.
+  RecordPredictor(const Rig& rig, const std::vector<FitParameter>& parameters, const SharedUncertainty& known,
+                  const Experiments& experiments, const FitOptions& options)
+      : rig_(rig),
+        shared_(at_values_of(rig, parameters)),
+        known_(known),
+        experiments_(experiments),
+        options_(options) {}
 
-/// The prediction with these zeros of the records among their own parameters.
-Prediction predicted_with(const std::vector<RecordZero>& zeros, const Rig& rig,
-                          const std::vector<FitParameter>& parameters, const SharedUncertainty& known,
-                          const Experiments& experiments, const FitOptions& options, const Refusal& refuses) {
-  Prediction found;
-  FitOptions quick = options;
-  quick.profile = false;
-  found.fit = fit_rig(rig, parameters_of_records(rig, experiments, zeros), experiments, quick);
-  if (!found.fit.outcome.ok()) {
-    found.outcome = found.fit.outcome;
-    found.text = found.outcome.reason;
-    return found;
-  }
-  found.error = relative_error(found.fit);
-  if (std::isnan(found.error)) {
-    found.text = "the record holds no motion to predict";
-    return found;
-  }
-  if (std::string refusal = refuses ? refuses(found.fit) : std::string(); !refusal.empty()) {
-    found.outcome = {core::OutcomeKind::not_identifiable, std::move(refusal)};
-    found.text = found.outcome.reason;
-    return found;
-  }
-  const std::vector<FitParameter> shared = at_values_of(rig, parameters);
-  describe_held(rig, shared, known, experiments, found);
-  std::vector<FitParameter> all = shared;
-  std::ranges::move(parameters_of_records(rig, experiments, zeros), std::back_inserter(all));
-  Fit attainable = fit_rig(rig, all, experiments, quick);
-  if (!attainable.outcome.ok()) {
-    found.text = "the record alone does not determine the rig: " + attainable.outcome.reason;
-    return found;
-  }
-  if (loads_differ(found.fit, attainable, experiments.size())) {
-    const Loads loads = loads_of_both(found.fit, attainable, experiments);
-    quick.seeks_loads = false;
-    quick.known = loads.known;
-    std::vector<FitParameter> of_records = parameters_of_records(rig, experiments, zeros);
-    std::ranges::copy(loads.sought, std::back_inserter(of_records));
-    std::ranges::copy(loads.sought, std::back_inserter(all));
-    Fit held = fit_rig(rig, of_records, experiments, quick);
-    Fit alone = fit_rig(rig, all, experiments, quick);
-    if (held.outcome.ok() && alone.outcome.ok()) {
-      found.fit = std::move(held);
-      attainable = std::move(alone);
-      describe_held(rig, shared, known, experiments, found);
+  [[nodiscard]] Prediction with(const std::vector<RecordZero>& zeros, const Refusal& refuses) const {
+    Prediction found;
+    const std::vector<FitParameter> of_records = parameters_of_records(rig_, experiments_, zeros);
+    found.fit = fit_rig(rig_, of_records, experiments_, options_);
+    if (!found.fit.outcome.ok()) {
+      found.outcome = found.fit.outcome;
+      found.text = found.outcome.reason;
+      return found;
     }
+    found.error = relative_error(found.fit);
+    if (std::isnan(found.error)) {
+      found.text = "the record holds no motion to predict";
+      return found;
+    }
+    if (std::string refusal = refuses ? refuses(found.fit) : std::string(); !refusal.empty()) {
+      found.outcome = {core::OutcomeKind::not_identifiable, std::move(refusal)};
+      found.text = found.outcome.reason;
+      return found;
+    }
+    describe(found);
+    Fit attainable = fit_rig(rig_, beside_shared(of_records), experiments_, options_);
+    if (!attainable.outcome.ok()) {
+      found.text = "the record alone does not determine the rig: " + attainable.outcome.reason;
+      return found;
+    }
+    if (loads_differ(found.fit, attainable, experiments_.size()))
+      fit_with_same_loads(of_records, found, attainable);
+    // If the search ended at a worse place than the prediction, the prediction itself is the best fit.
+    const Fit& best = relative_error(attainable) < found.error ? attainable : found.fit;
+    found.attainable = relative_error(best);
+    found.warnings = contradictions_of_stated(experiments_, best);
+    found.attainable_noise_units = best.noise_units;
+    found.compromise = compromise_of({rig_, shared_, known_}, experiments_, found.fit, attainable);
+    judge(found, best);
+    return found;
   }
-  // If the search ended at a worse place than the prediction, the prediction itself is the best fit.
-  const Fit& best = relative_error(attainable) < found.error ? attainable : found.fit;
-  found.attainable = relative_error(best);
-  found.warnings = contradictions_of_stated(experiments, best);
-  found.attainable_noise_units = best.noise_units;
-  found.compromise = compromise_of({rig, shared, known}, experiments, found.fit, attainable);
-  judge(found, best);
-  return found;
-}
+
+ private:
+  [[nodiscard]] std::vector<FitParameter> beside_shared(const std::vector<FitParameter>& of_records) const {
+    std::vector<FitParameter> all = shared_;
+    std::ranges::copy(of_records, std::back_inserter(all));
+    return all;
+  }
+
+  void describe(Prediction& found) const {
+    found.error = relative_error(found.fit);
+    found.noise_units = found.fit.noise_units;
+    found.bands = bands_of(found.fit, experiments_);
+    found.uncertainty = uncertainty_of(found.fit, rig_, shared_, known_, experiments_);
+  }
+
+  /// Fits the prediction and the rig again, now with the same loads of contacts; both stay if one cannot be fitted.
+  void fit_with_same_loads(std::vector<FitParameter> of_records, Prediction& found, Fit& attainable) const {
+    const Loads loads = loads_of_both(found.fit, attainable, experiments_);
+    std::ranges::copy(loads.sought, std::back_inserter(of_records));
+    FitOptions options = options_;
+    options.seeks_loads = false;
+    options.known = loads.known;
+    Fit held = fit_rig(rig_, of_records, experiments_, options);
+    Fit alone = fit_rig(rig_, beside_shared(of_records), experiments_, options);
+    if (!held.outcome.ok() || !alone.outcome.ok()) return;
+    found.fit = std::move(held);
+    attainable = std::move(alone);
+    describe(found);
+  }
+
+  const Rig& rig_;
+  std::vector<FitParameter> shared_;  ///< that belong to no record, each stated as the rig has it
+  const SharedUncertainty& known_;
+  const Experiments& experiments_;
+  const FitOptions& options_;
+};
 
 /// Whether a prediction leaves more than noise.
 bool leaves_more(const Prediction& found) {
@@ -284,12 +298,13 @@ Prediction predict_records(const Rig& rig, const std::vector<FitParameter>& para
   FitOptions quick = options;
   quick.profile = false;
   std::vector<RecordZero> zeros = zeros_sought_in(parameters, experiments);
-  Prediction found = predicted_with(zeros, rig, parameters, known, experiments, options, refuses);
+  const RecordPredictor predictor(rig, parameters, known, experiments, quick);
+  Prediction found = predictor.with(zeros, refuses);
   if (leaves_more(found)) {
     const std::vector<RecordZero> off = zeros_that_are_off(rig, experiments, found.fit, zeros, quick);
     if (!off.empty()) {
       std::ranges::copy(off, std::back_inserter(zeros));
-      Prediction shifted = predicted_with(zeros, rig, parameters, known, experiments, options, refuses);
+      Prediction shifted = predictor.with(zeros, refuses);
       if (shifted.outcome.ok() && shifted.error < found.error) found = std::move(shifted);
     }
   }
