@@ -24,8 +24,6 @@ double area(const Estimate& estimate) {
   return std::isfinite(size) ? size : core::infinity;
 }
 
-bool is_negative(const Estimate& estimate) { return estimate.value.c < 0.0 || estimate.value.F0 < 0.0; }
-
 bool disagree(const Estimate& a, const Estimate& b) {
   if (!b.usable || !a.interval95 || !b.interval95) return false;
   return !overlap(a.interval95->c, b.interval95->c) || !overlap(a.interval95->F0, b.interval95->F0);
@@ -34,6 +32,8 @@ bool disagree(const Estimate& a, const Estimate& b) {
 bool has_few_readings(const Ledger& ledger) { return ledger.data.empty() && !ledger.recorded.histories; }
 
 namespace {
+
+bool is_negative(const Estimate& estimate) { return estimate.value.c < 0.0 || estimate.value.F0 < 0.0; }
 
 /// Do c and F0 of all estimates at these places agree with those of one of them, to the least change that matters?
 bool agree(const std::vector<Estimate>& estimates, const std::vector<std::size_t>& places, std::size_t with) {
@@ -96,9 +96,7 @@ std::optional<std::size_t> preferred(const std::vector<Estimate>& estimates, con
   }
   // Ranges over laws count only if nothing narrower can be used.
   const bool others = std::ranges::any_of(estimates, [](const Estimate& e) { return e.usable && !e.laws; });
-  const auto size = [others](const Estimate& e) {
-    return others && e.laws ? core::infinity : area(e);
-  };
+  const auto size = [others](const Estimate& e) { return others && e.laws ? core::infinity : area(e); };
   if (estimates.empty()) return std::nullopt;
   const std::size_t narrowest = smallest(estimates, size);
   if (std::isfinite(size(estimates[narrowest])))

@@ -21,8 +21,6 @@ namespace dualdamp::identify {
 /// The area of the intervals of c and F0; infinite where there are none, or the estimate is not usable.
 [[nodiscard]] double area(const Estimate& estimate);
 
-[[nodiscard]] bool is_negative(const Estimate& estimate);
-
 /// Does a usable estimate `b` contradict `a`? Their intervals of c or of F0 do not overlap.
 [[nodiscard]] bool disagree(const Estimate& a, const Estimate& b);
 

@@ -29,21 +29,10 @@ double middle_of(const std::vector<double>& extremes) {
   return middles.empty() ? 0.0 : upper_median(std::move(middles));
 }
 
-void linearise(DecayRecord& decay, double share) {
-  const double middle = middle_of(decay.extremes);
-  const std::vector<double> times = decay.times;
-  for (std::size_t i = 1; i < times.size(); ++i) {
-    const double amplitude =
-        0.5 * (std::abs(decay.extremes[i - 1] - middle) + std::abs(decay.extremes[i] - middle));
-    decay.times[i] = decay.times[i - 1] + (times[i] - times[i - 1]) / relative_period(amplitude, share);
-  }
-  for (double& extreme : decay.extremes) extreme = middle + linear_extreme(extreme - middle, share);
-}
-
-}  // namespace
-
+/// xi(A). `angle`: A [rad]; `share`: G/k.
 double linear_extreme(double angle, double share) { return (1.0 - share) * angle + share * sine_integral(angle); }
 
+/// T(A)/T(0).
 double relative_period(double angle, double share) {
   constexpr int nodes = 64;  // of the midpoint rule, which converges fast for this periodic integrand
   constexpr double pi = std::numbers::pi;
@@ -59,6 +48,19 @@ double relative_period(double angle, double share) {
   }
   return sum / nodes;
 }
+
+void linearise(DecayRecord& decay, double share) {
+  const double middle = middle_of(decay.extremes);
+  const std::vector<double> times = decay.times;
+  for (std::size_t i = 1; i < times.size(); ++i) {
+    const double amplitude =
+        0.5 * (std::abs(decay.extremes[i - 1] - middle) + std::abs(decay.extremes[i] - middle));
+    decay.times[i] = decay.times[i - 1] + (times[i] - times[i - 1]) / relative_period(amplitude, share);
+  }
+  for (double& extreme : decay.extremes) extreme = middle + linear_extreme(extreme - middle, share);
+}
+
+}  // namespace
 
 void linearise_pendulum(Record& record, double stiffness, double gravity_stiffness,
                         std::vector<std::string>& warnings) {

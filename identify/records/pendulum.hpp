@@ -24,8 +24,4 @@ namespace dualdamp::identify {
 void linearise_pendulum(Record& record, double stiffness, double gravity_stiffness,
                         std::vector<std::string>& warnings);
 
-/// xi(A), and T(A)/T(0). `angle`: A [rad]; `share`: G/k.
-[[nodiscard]] double linear_extreme(double angle, double share);
-[[nodiscard]] double relative_period(double angle, double share);
-
 }  // namespace dualdamp::identify

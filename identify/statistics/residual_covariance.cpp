@@ -2,9 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace dualdamp::identify {
 
+namespace {
+
+/// Autocorrelation at lags 0, 1, ... up to twice the lag up to which it is significant; {1} if `is_sampled` is
+/// false.
 std::vector<double> autocorrelation(const Eigen::VectorXd& residuals, bool is_sampled) {
   std::vector<double> rho{1.0};
   const double variance = residuals.squaredNorm();
@@ -21,6 +26,13 @@ std::vector<double> autocorrelation(const Eigen::VectorXd& residuals, bool is_sa
   }
   return rho;
 }
+
+/// Bartlett's weight of a lag among `count`.
+double bartlett(std::size_t lag, std::size_t count) {
+  return 1.0 - static_cast<double>(lag) / static_cast<double>(count);
+}
+
+}  // namespace
 
 double independent_samples(const Eigen::VectorXd& residuals, bool is_sampled) {
   const std::vector<double> rho = autocorrelation(residuals, is_sampled);

@@ -8,18 +8,8 @@
 /// covariance at once, with the products of residuals and rows in place of c_l.
 
 #include <Eigen/Core>
-#include <vector>
 
 namespace dualdamp::identify {
-
-/// Autocorrelation at lags 0, 1, ... up to twice the lag up to which it is significant; {1} if `is_sampled` is
-/// false.
-[[nodiscard]] std::vector<double> autocorrelation(const Eigen::VectorXd& residuals, bool is_sampled);
-
-/// Bartlett's weight of a lag among `count`.
-[[nodiscard]] inline double bartlett(std::size_t lag, std::size_t count) {
-  return 1.0 - static_cast<double>(lag) / static_cast<double>(count);
-}
 
 /// Number of samples that count as independent: N/(1 + 2 sum of the autocorrelation with Bartlett's weights).
 [[nodiscard]] double independent_samples(const Eigen::VectorXd& residuals, bool is_sampled);

@@ -173,11 +173,12 @@ Estimate of_states(const Record& record, const KnownConstants& constants, Estima
   return estimate;
 }
 
-}  // namespace
-
+/// Why the record has neither two pairs with phases nor histories; empty when it has.
 std::string lacks_energy(const Record& record) {
   return record.histories.empty() || lacks_phases(record).empty() ? lacks_phases(record) : "";
 }
+
+}  // namespace
 
 /// States are preferred to histories, because they are averaged over many periods.
 Estimate energy_balance(const Record& record, const KnownConstants& constants, const FilterOptions& options) {

@@ -50,9 +50,6 @@ bool balance(const std::vector<EnergyTerms>& accounts, const KnownConstants& con
 [[nodiscard]] Estimate energy_balance(const Record& record, const KnownConstants& constants,
                                       const FilterOptions& options = {});
 
-/// Why the record has neither two pairs with phases nor histories; empty when it has.
-[[nodiscard]] std::string lacks_energy(const Record& record);
-
 extern const MethodEntry energy_balance_method;
 
 }  // namespace dualdamp::identify

@@ -58,13 +58,6 @@ std::optional<Line> line_of(const Moments& m, double lambda) {
   return Line{slope, m.mean_x - slope * m.mean_Y};
 }
 
-double slope_variance(const Moments& m, const Line& line, double lambda, double scatter) {
-  const double S = m.S_xY / line.slope;
-  if (!std::isfinite(lambda)) return scatter / S;
-  const double width = lambda + line.slope * line.slope;
-  return scatter / S * (1.0 + (m.count - 1.0) * scatter * lambda / (width * width * S));
-}
-
 std::optional<Scatter> scatter_of(double sum_of_squares, double freedom, double slope,
                                   const KnownDeviations& options, double unit) {
   const double sigma_x = std::max(options.sigma_x, 0.0) / unit;
@@ -126,6 +119,14 @@ Eigen::VectorXd residuals_of(const std::vector<Datum>& pairs, const Blocks& bloc
 std::vector<Datum> turned(std::vector<Datum> pairs) {
   for (Datum& datum : pairs) std::swap(datum.Y, datum.x);
   return pairs;
+}
+
+/// Variance of the slope when x - a - b Y has the variance `scatter`.
+double slope_variance(const Moments& m, const Line& line, double lambda, double scatter) {
+  const double S = m.S_xY / line.slope;
+  if (!std::isfinite(lambda)) return scatter / S;
+  const double width = lambda + line.slope * line.slope;
+  return scatter / S * (1.0 + (m.count - 1.0) * scatter * lambda / (width * width * S));
 }
 
 }  // namespace

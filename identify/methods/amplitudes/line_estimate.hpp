@@ -40,9 +40,6 @@ struct Moments {
 /// Nothing when the inputs, or the outputs, are all equal.
 [[nodiscard]] std::optional<Line> line_of(const Moments& moments, double lambda);
 
-/// Variance of the slope when x - a - b Y has the variance `scatter`.
-[[nodiscard]] double slope_variance(const Moments& moments, const Line& line, double lambda, double scatter);
-
 /// Variance of x - a - b Y and the half width of a 95 % interval in standard errors.
 struct Scatter {
   double variance = 0.0;

@@ -222,8 +222,7 @@ bool enough(const std::vector<Pair>& states, Estimate& estimate) {
   return false;
 }
 
-}  // namespace
-
+/// Why the record has no phases at three frequencies; empty when it has.
 std::string lacks_receptance(const Record& record) {
   if (std::string lack = lacks_phases(record); !lack.empty()) return lack;
   constexpr std::size_t least = 3;
@@ -234,6 +233,8 @@ std::string lacks_receptance(const Record& record) {
       frequencies.push_back(pair.omega);
   return frequencies.size() >= least ? "" : "the pairs with phases are at fewer than three frequencies";
 }
+
+}  // namespace
 
 Estimate receptance(const Record& record, const KnownConstants& constants) {
   Estimate estimate;

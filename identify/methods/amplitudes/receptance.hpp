@@ -24,9 +24,6 @@ namespace dualdamp::identify {
 
 [[nodiscard]] Estimate receptance(const Record& record, const KnownConstants& constants);
 
-/// Why the record has no phases at three frequencies; empty when it has.
-[[nodiscard]] std::string lacks_receptance(const Record& record);
-
 extern const MethodEntry receptance_method;
 
 }  // namespace dualdamp::identify
