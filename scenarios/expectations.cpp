@@ -4,6 +4,7 @@
 
 #include "core/numbers.hpp"
 #include "scenarios/check_expectations.hpp"
+#include "scenarios/format/values.hpp"
 
 namespace dualdamp::scenarios {
 
@@ -21,33 +22,11 @@ std::optional<Json> find(const Table& table, const std::string& path) {
   return std::nullopt;
 }
 
-/// The value at `sticks[0].start`; nothing when there is no such value.
-std::optional<Json> find(const Json& result, const std::string& path) {
-  const Json* value = &result;
-  std::size_t at = 0;
-  while (at < path.size()) {
-    if (path[at] == '[') {
-      const std::size_t end = path.find(']', at);
-      const std::size_t index = std::stoul(path.substr(at + 1, end - at - 1));
-      if (!value->is_array() || index >= value->size()) return std::nullopt;
-      value = &value->at(index);
-      at = end + 1;
-    } else {
-      if (path[at] == '.') ++at;
-      const std::size_t end = std::min(path.find_first_of(".[", at), path.size());
-      const std::string key = path.substr(at, end - at);
-      if (!value->is_object() || !value->contains(key)) return std::nullopt;
-      value = &value->at(key);
-      at = end;
-    }
-  }
-  return *value;
-}
-
 std::optional<Json> find(const Json& result, const std::vector<Table>& tables, const std::string& path) {
   for (const Table& table : tables)
     if (!table.key.empty() && path.starts_with(table.key + "[")) return find(table, path);
-  return find(result, path);
+  const Json* value = find_value(result, path);
+  return value == nullptr ? std::nullopt : std::optional(*value);
 }
 
 std::string shown(const Json& value) {

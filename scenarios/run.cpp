@@ -12,6 +12,7 @@
 #include "friction_models/law_fault.hpp"
 #include "friction_models/registry.hpp"
 #include "scenarios/expectations.hpp"
+#include "scenarios/format/values.hpp"
 #include "scenarios/results/completeness.hpp"
 #include "scenarios/results/shown_table.hpp"
 #include "scenarios/results/shown_units.hpp"
@@ -32,10 +33,8 @@ bool is_document(const Json& value) {
 std::string unit_beside(const ResultField& field, const Json& result) {
   const std::size_t dot = field.path.find_last_of('.');
   if (!field.unit.empty() || dot == std::string::npos || field.path.find("[]") != std::string::npos) return {};
-  std::string stem = "/" + field.path.substr(0, dot);
-  std::ranges::replace(stem, '.', '/');
-  const Json::json_pointer place(stem + "/unit");
-  return result.contains(place) && result.at(place).is_string() ? result.at(place).get<std::string>() : "";
+  const Json* unit = find_value(result, field.path.substr(0, dot) + ".unit");
+  return unit != nullptr && unit->is_string() ? unit->get<std::string>() : "";
 }
 
 /// The numbers of the result that are not in a list of records, in the order of the tables of the format.
@@ -58,18 +57,15 @@ void summarise(const Scenario& scenario, const Json& result, Table& table) {
   for (const ResultField& field : scenario.result_fields) {
     if (field.is_for_programs) continue;
     const std::string stem = field.path.substr(0, field.path.find("[]"));
-    std::string pointer = "/" + stem;
-    std::ranges::replace(pointer, '.', '/');
-    const Json::json_pointer place(pointer);
-    if (!result.contains(place)) continue;
-    const Json& value = result.at(place);
+    const Json* value = find_value(result, stem);
+    if (value == nullptr) continue;
     if (stem == field.path) {
-      const std::string beside = value.is_number_float() ? unit_beside(field, result) : "";
-      add(stem, value, beside.empty() ? field.unit : beside);
+      const std::string beside = value->is_number_float() ? unit_beside(field, result) : "";
+      add(stem, *value, beside.empty() ? field.unit : beside);
     }
     if (field.path == stem + "[]")
-      for (std::size_t i = 0; i < value.size(); ++i)
-        add(stem + "[" + std::to_string(i) + "]", value.at(i), field.unit);
+      for (std::size_t i = 0; i < value->size(); ++i)
+        add(stem + "[" + std::to_string(i) + "]", value->at(i), field.unit);
   }
 }
 

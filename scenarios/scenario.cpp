@@ -148,7 +148,6 @@ std::vector<std::string> loss_factor_warnings(const sim::Model& model) {
   return result;
 }
 
-/// Warnings of the laws.
 std::vector<std::string> law_warnings(const Json& section, core::Coordinate coordinate) {
   std::vector<std::string> result;
   for (const Json& item : section.is_array() ? section : Json::array({section})) {
@@ -219,7 +218,6 @@ std::vector<Expectation> expectations(const Json& values, const Document& docume
 }
 
 void throw_sorted(std::vector<core::Diagnostic> problems, const std::string& file) {
-  // In the order of the file; problems from elsewhere (--set, data) follow.
   std::ranges::stable_sort(problems, {}, [&](const core::Diagnostic& problem) {
     return std::tuple(problem.place.file != file, problem.place.file, problem.place.line, problem.place.column);
   });

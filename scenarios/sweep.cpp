@@ -143,16 +143,11 @@ class Sweep {
   /// The number that was read at a path; nothing if there is none.
   static std::optional<double> number_at(const Reading& reading, const std::string& path) {
     if (!reading.places.contains(path)) return std::nullopt;
-    std::string pointer = "/" + path;
-    for (char& c : pointer)
-      if (c == '.' || c == '[') c = '/';
-    std::erase(pointer, ']');
-    const Json::json_pointer place(pointer);
-    if (!reading.values.contains(place)) return std::nullopt;
-    const Json& value = reading.values.at(place);
-    const bool is_frequency = value.is_string() && value.get<std::string>().ends_with(" rad/s");
-    if (!value.is_number() && !is_frequency) return std::nullopt;
-    return number(value);
+    const Json* value = find_value(reading.values, path);
+    if (value == nullptr) return std::nullopt;
+    const bool is_frequency = value->is_string() && value->get<std::string>().ends_with(" rad/s");
+    if (!value->is_number() && !is_frequency) return std::nullopt;
+    return number(*value);
   }
 
   void check_size(std::size_t points) const {

@@ -7,6 +7,7 @@
 
 #include "core/numbers.hpp"
 #include "scenarios/format/json.hpp"
+#include "scenarios/format/values.hpp"
 #include "scenarios/results/table.hpp"
 
 namespace dualdamp::scenarios {
@@ -44,18 +45,11 @@ std::string without_numbers(std::string_view text) {
   return result;
 }
 
-/// The value at a path of keys; null if there is none.
+/// The value at a path; null if there is none.
 const Json& value_at(const Json& json, const std::string& path) {
   static const Json nothing;
-  const Json* value = &json;
-  for (std::size_t at = 0; at <= path.size();) {
-    const std::size_t end = std::min(path.find('.', at), path.size());
-    const std::string key = path.substr(at, end - at);
-    if (!value->is_object() || !value->contains(key)) return nothing;
-    value = &value->at(key);
-    at = end + 1;
-  }
-  return *value;
+  const Json* value = find_value(json, path);
+  return value == nullptr ? nothing : *value;
 }
 
 /// The path of the unit that may stand beside the value at `path`.

@@ -10,6 +10,7 @@
 #include "core/numbers.hpp"
 #include "core/provenance.hpp"
 #include "scenarios/format/json_text.hpp"
+#include "scenarios/format/values.hpp"
 #include "scenarios/results/files.hpp"
 #include "scenarios/results/shown_units.hpp"
 #include "scenarios/results/table.hpp"
@@ -111,6 +112,17 @@ std::map<std::string, std::string> sums_of(const fs::path& directory, const Json
   return sums;
 }
 
+/// The facts that identify a run, as its tables state them above their header.
+std::map<std::string, std::string> identity_of(const Json& document) {
+  std::map<std::string, std::string> identity;
+  for (const char* key : {"source", "scenario_sha256", "started"})
+    if (document.contains("provenance") && document["provenance"].is_object())
+      if (const auto found = document["provenance"].find(key);
+          found != document["provenance"].end() && found->is_string())
+        identity[key] = found->get<std::string>();
+  return identity;
+}
+
 std::vector<fs::path> tables_of(const fs::path& directory, const Json& document,
                                 const std::map<std::string, std::string>& sums) {
   const std::map<std::string, std::string> identity = identity_of(document);
@@ -171,16 +183,6 @@ std::string shown(const fs::path& path) {
   auto text = Json::parse(whole).get<std::string>();
   std::ranges::replace_if(text, [](char c) { return c == '\n' || c == '\r'; }, ' ');
   return text;
-}
-
-std::map<std::string, std::string> identity_of(const Json& document) {
-  std::map<std::string, std::string> identity;
-  for (const char* key : {"source", "scenario_sha256", "started"})
-    if (document.contains("provenance") && document["provenance"].is_object())
-      if (const auto found = document["provenance"].find(key);
-          found != document["provenance"].end() && found->is_string())
-        identity[key] = found->get<std::string>();
-  return identity;
 }
 
 std::optional<EarlierResult> earlier_result(const std::string& directory) {
@@ -266,12 +268,9 @@ StoredTable StoredRun::table(std::string_view name) const {
 
 StoredTable StoredRun::list(std::string_view path) const {
   StoredTable table;
-  std::string pointer = "/" + std::string(path);
-  std::ranges::replace(pointer, '.', '/');
-  const Json::json_pointer place(pointer);
-  const Json& result = document_.at("result");
-  if (!result.is_object() || !result.contains(place) || !result.at(place).is_array()) return table;
-  const Json& rows = result.at(place);
+  const Json* const found = scenarios::find_value(document_.at("result"), path);
+  if (found == nullptr || !found->is_array()) return table;
+  const Json& rows = *found;
   for (const Json& row : rows)
     for (const auto& [key, value] : row.items())
       if (table.find(key) == nullptr) table.columns.push_back({.name = key});

@@ -82,7 +82,4 @@ struct EarlierResult {
 /// The units that the user wrote, by the path of the quantity.
 [[nodiscard]] std::map<std::string, std::string> written_units(const StoredRun& run);
 
-/// The facts that identify a run, as its tables state them above their header.
-[[nodiscard]] std::map<std::string, std::string> identity_of(const StoredRun::Json& document);
-
 }  // namespace dualdamp::cli

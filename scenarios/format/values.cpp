@@ -1,5 +1,6 @@
 #include "scenarios/format/values.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -37,6 +38,26 @@ std::string decimal_unit(const Json& from, const Json& to) {
 }
 
 }  // namespace
+
+const Json* find_value(const Json& json, std::string_view path) {
+  const Json* value = &json;
+  while (!path.empty()) {
+    const bool is_index = path.front() == '[';
+    if (is_index || path.front() == '.') path.remove_prefix(1);
+    const std::size_t end = std::min(path.find_first_of(is_index ? "]" : ".["), path.size());
+    const std::string key(path.substr(0, end));
+    if (is_index) {
+      const std::size_t index = std::stoul(key);
+      if (!value->is_array() || index >= value->size()) return nullptr;
+      value = &value->at(index);
+    } else {
+      if (!value->is_object() || !value->contains(key)) return nullptr;
+      value = &value->at(key);
+    }
+    path.remove_prefix(std::min(end + (is_index ? 1 : 0), path.size()));
+  }
+  return value;
+}
 
 double number(const Json& value) {
   return value.is_string() ? core::parse_quantity(value.get<std::string>(), "rad/s").value.value()

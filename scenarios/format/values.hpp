@@ -1,5 +1,6 @@
 #pragma once
-/// Numbers of a checked scenario as the reader returns them: SI, frequencies with their unit.
+/// Values of a checked scenario or of a result, and its numbers as the reader returns them: SI, frequencies with
+/// their unit.
 
 #include <cstddef>
 #include <map>
@@ -10,6 +11,9 @@
 #include "scenarios/format/json.hpp"
 
 namespace dualdamp::scenarios {
+
+/// The value at a path such as `sticks[0].start`; null pointer: there is none. An index in the path is a number.
+[[nodiscard]] const Json* find_value(const Json& json, std::string_view path);
 
 [[nodiscard]] double number(const Json& value);
 
