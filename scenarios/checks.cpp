@@ -1,8 +1,10 @@
 #include "scenarios/checks.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <set>
+#include <utility>
 
 #include "core/diagnostics.hpp"
 #include "core/numbers.hpp"
@@ -18,6 +20,14 @@ namespace {
 
 bool contains(const std::vector<std::string>& names, const std::string& name) {
   return std::ranges::find(names, name) != names.end();
+}
+
+/// The analyses with this ability, for a message.
+std::string names_of(const AnalysisList& analyses, bool Analysis::* ability) {
+  std::vector<std::string> names;
+  for (const Analysis* analysis : analyses)
+    if (analysis->*ability) names.emplace_back(analysis->name);
+  return core::joined(names);
 }
 
 void check_sections(CheckedFile& file) {
@@ -223,13 +233,10 @@ void check_loss_factor(CheckedFile& file, const Analysis& analysis, const Analys
   const std::string path = "system.loss_factor";
   if (file.number_at("system", "loss_factor").value_or(0.0) == 0.0) return;
   if (!analysis.steady_vibrations) {
-    std::vector<std::string> names;
-    for (const Analysis* other : analyses)
-      if (other->steady_vibrations) names.emplace_back(other->name);
     file.complain(path,
                   "'" + path + "' does not work with " + file.subject() +
                       ": structural damping is not causal: it has a steady vibration but no motion in time",
-                  core::joined(names));
+                  names_of(analyses, &Analysis::steady_vibrations));
     return;
   }
   if (file.is_given("excitation.harmonics"))
@@ -264,20 +271,20 @@ void check_load_modulation(CheckedFile& file) {
 void check_verification(CheckedFile& file, const Analysis& analysis, const AnalysisList& analyses) {
   const Json& values = file.values();
   if (analysis.verifiable || !values.contains("numerics") || !values.at("numerics").value("verify", false)) return;
-  std::vector<std::string> names;
-  for (const Analysis* other : analyses)
-    if (other->verifiable) names.emplace_back(other->name);
   file.complain("numerics.verify",
                 "'numerics.verify' does not work with " + file.subject() +
                     ": no other engine can compute its result again, point by point",
-                core::joined(names));
+                names_of(analyses, &Analysis::verifiable));
 }
+
+/// Section and key of each number that may state an uncertainty.
+constexpr std::array uncertain_numbers = {std::pair{"system", "mass"}, std::pair{"system", "stiffness"},
+                                          std::pair{"excitation", "frequency"}};
 
 /// An uncertainty as large as the value is refused: a constant that may be zero or negative is not known, and no
 /// interval can contain its effect.
 void check_size_of_uncertainties(CheckedFile& file) {
-  for (const auto& [section, key] :
-       {std::pair{"system", "mass"}, {"system", "stiffness"}, {"excitation", "frequency"}}) {
+  for (const auto& [section, key] : uncertain_numbers) {
     const std::optional<double> uncertainty = file.number_at(section, uncertainty_key(key));
     const std::optional<double> value = file.number_at(section, key);
     if (!uncertainty || !value || *value == 0.0 || *uncertainty < std::abs(*value)) continue;
@@ -292,16 +299,12 @@ void check_size_of_uncertainties(CheckedFile& file) {
 /// An uncertainty that affects no number of the result is refused.
 void check_uncertainties(CheckedFile& file, const Analysis& analysis, const AnalysisList& analyses) {
   if (analysis.uses_uncertainties) return check_size_of_uncertainties(file);
-  std::vector<std::string> names;
-  for (const Analysis* other : analyses)
-    if (other->uses_uncertainties) names.emplace_back(other->name);
-  for (const auto& [section, key] :
-       {std::pair{"system", "mass"}, {"system", "stiffness"}, {"excitation", "frequency"}})
+  for (const auto& [section, key] : uncertain_numbers)
     if (file.has(section, uncertainty_key(key)))
       file.complain(std::string(section) + "." + uncertainty_key(key),
                     std::string("'") + section + "." + key + "' states an uncertainty, and " + file.subject() +
                         " does not use it",
-                    "with analysis.type " + core::joined(names));
+                    "with analysis.type " + names_of(analyses, &Analysis::uses_uncertainties));
 }
 
 /// Number of items of the result's lists, as far as it is known before the run.
