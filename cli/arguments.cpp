@@ -76,7 +76,7 @@ class Parser {
       if (status == 0) return {Leave{out.str(), 0, false}};
       return {Leave{usage_error(app_, error), usage, json}};
     }
-    return {chosen(), plugins_, isolation_.empty() ? 0.0 : std::stod(isolation_), json};
+    return {chosen_, plugins_, isolation_.empty() ? 0.0 : std::stod(isolation_), json};
   }
 
  private:
@@ -98,43 +98,52 @@ class Parser {
             "--isolate-plugins{600}", isolation_,
             "Execute the command in a child process with a time limit; --isolate-plugins=60: seconds (default: "
             "600)")
+        ->option_text("[=SECONDS]")
         ->check(CLI::Range(0.1, 1e6))
         ->check([](const std::string& text) {  // CLI::Range accepts "nan"
           return core::parse_number(text).value ? std::string() : "'" + text + "' is no number of seconds";
         });
   }
 
+  /// A command of the line; when it is read, `options` have what it states.
+  template <typename Options>
+  CLI::App& add_command(CLI::App& parent, const char* name, const char* text, const Options& options) {
+    CLI::App& command = *parent.add_subcommand(name, text);
+    command.final_callback([this, &options] { chosen_ = options; });
+    return command;
+  }
+
   void add_run() {
-    run_command_ = app_.add_subcommand("run", "Run scenario files");
-    run_command_->add_option("SCENARIO", run_.files, "Scenario files")->required()->type_name("");
-    add_output_options(*run_command_, run_);
-    run_command_->add_option("--set", run_.set, "Set a value before the file is checked: --set system.mass='2 kg'")
+    CLI::App& run_command = add_command(app_, "run", "Run scenario files", run_);
+    run_command.add_option("SCENARIO", run_.files, "Scenario files")->required()->type_name("");
+    add_output_options(run_command, run_);
+    run_command.add_option("--set", run_.set, "Set a value before the file is checked: --set system.mass='2 kg'")
         ->allow_extra_args(false)
         ->type_name("PATH=VALUE");
-    run_command_
-        ->add_option("--jobs", run_.jobs,
-                     "Number of threads (default: all cores); with several files, how many run at the same time "
-                     "(default: one)")
+    run_command
+        .add_option("--jobs", run_.jobs,
+                    "Number of threads (default: all cores); with several files, how many run at the same time "
+                    "(default: one)")
         ->check(whole_number(max_jobs))
         ->type_name("N");
-    run_command_->add_flag("--dry-run", run_.dry_run, "Check the files and print what would be run");
+    run_command.add_flag("--dry-run", run_.dry_run, "Check the files and print what would be run");
     CLI::Option* resume =
-        run_command_->add_flag("--resume", run_.resume, "Continue an interrupted stress test or sweep");
-    run_command_
-        ->add_flag("--overwrite", run_.overwrite,
-                   "Discard the cases of an earlier stress test or sweep in the same directory")
+        run_command.add_flag("--resume", run_.resume, "Continue an interrupted stress test or sweep");
+    run_command
+        .add_flag("--overwrite", run_.overwrite,
+                  "Discard the cases of an earlier stress test or sweep in the same directory")
         ->excludes(resume);
-    run_command_->add_flag("--verify", run_.verify,
-                           "Compute each result again in another way and compare; the same as numerics.verify");
-    add_plot(*run_command_, run_.plot);
-    add_shown_units(*run_command_, run_);
-    add_plugins(*run_command_);
+    run_command.add_flag("--verify", run_.verify,
+                         "Compute each result again in another way and compare; the same as numerics.verify");
+    add_plot(run_command, run_.plot);
+    add_shown_units(run_command, run_);
+    add_plugins(run_command);
   }
 
   void add_stress() {
-    stress_command_ =
-        app_.add_subcommand("stress", "Export a stress test for other programs, and score their answers");
-    stress_command_->require_subcommand(1);
+    CLI::App& stress_command =
+        *app_.add_subcommand("stress", "Export a stress test for other programs, and score their answers");
+    stress_command.require_subcommand(1);
     const auto add_common = [&](CLI::App& command, StressOptions& options) {
       command.add_option("SCENARIO", options.file, "A scenario with the analysis stress_test")
           ->required()
@@ -148,38 +157,38 @@ class Parser {
           ->type_name("N");
       add_plugins(command);
     };
-    export_command_ =
-        stress_command_->add_subcommand("export", "Write the records of all cases, and the key to them");
-    add_common(*export_command_, export_);
-    export_command_->add_option("--out", export_.out, "Directory for the files; created if missing")
+    CLI::App& export_command =
+        add_command(stress_command, "export", "Write the records of all cases, and the key to them", export_);
+    add_common(export_command, export_);
+    export_command.add_option("--out", export_.out, "Directory for the files; created if missing")
         ->required()
         ->type_name("DIR");
-    export_command_
-        ->add_option("--seed", export_.seed,
-                     "Seed of the noise, 0 to 9007199254740991 (default: a hidden one, at random)")
+    export_command
+        .add_option("--seed", export_.seed,
+                    "Seed of the noise, 0 to 9007199254740991 (default: a hidden one, at random)")
         ->type_name("N");
-    export_command_->add_flag("--overwrite", export_.overwrite, "Remove an earlier export in the directory");
-    score_command_ =
-        stress_command_->add_subcommand("score", "Score answers to exported records beside the methods");
-    add_common(*score_command_, score_);
-    score_command_->add_option("--key", score_.key, "key.json of the export")->required()->type_name("FILE");
-    score_command_
-        ->add_option("--answers", score_.answers,
-                     "Answers of a program, a CSV file (docs/benchmark.md); may be repeated")
+    export_command.add_flag("--overwrite", export_.overwrite, "Remove an earlier export in the directory");
+    CLI::App& score_command =
+        add_command(stress_command, "score", "Score answers to exported records beside the methods", score_);
+    add_common(score_command, score_);
+    score_command.add_option("--key", score_.key, "key.json of the export")->required()->type_name("FILE");
+    score_command
+        .add_option("--answers", score_.answers,
+                    "Answers of a program, a CSV file (docs/benchmark.md); may be repeated")
         ->allow_extra_args(false)
         ->type_name("NAME=FILE");
-    add_output_options(*score_command_, score_);
+    add_output_options(score_command, score_);
   }
 
   void add_check() {
-    check_command_ = app_.add_subcommand("check", "Check scenario files without running them");
-    check_command_->add_option("SCENARIO", check_.files, "Scenario files")->required()->type_name("");
-    add_plugins(*check_command_);
+    CLI::App& check_command = add_command(app_, "check", "Check scenario files without running them", check_);
+    check_command.add_option("SCENARIO", check_.files, "Scenario files")->required()->type_name("");
+    add_plugins(check_command);
   }
 
   void add_identify() {
-    identify_command_ = app_.add_subcommand("identify", "Identify friction from measured data, without a scenario");
-    CLI::App& command = *identify_command_;
+    CLI::App& command =
+        add_command(app_, "identify", "Identify friction from measured data, without a scenario", identify_);
     const auto add = quantities_of(command);
     command
         .add_option("DATA", identify_.data, "Data file: CSV, MATLAB .mat or universal file (docs/data-files.md)")
@@ -212,8 +221,8 @@ class Parser {
   }
 
   void add_next() {
-    next_command_ = app_.add_subcommand("next", "Say which measurement would narrow the ranges over friction laws");
-    CLI::App& command = *next_command_;
+    CLI::App& command =
+        add_command(app_, "next", "Say which measurement would narrow the ranges over friction laws", next_);
     command
         .add_option("DATA", next_.data,
                     "Data file with steady states (docs/data-files.md), or a scenario of the analysis identify or "
@@ -255,8 +264,8 @@ class Parser {
   }
 
   void add_fit() {
-    fit_command_ = app_.add_subcommand("fit", "Fit a friction law and constants of the rig to measured records");
-    CLI::App& command = *fit_command_;
+    CLI::App& command =
+        add_command(app_, "fit", "Fit a friction law and constants of the rig to measured records", fit_);
     command
         .add_option("LAW", fit_.law, "A law of 'dualdamp laws'; several laws, separated by commas, are compared")
         ->required()
@@ -286,8 +295,7 @@ class Parser {
   }
 
   void add_predict() {
-    predict_command_ = app_.add_subcommand("predict", "Predict other records with a fitted rig");
-    CLI::App& command = *predict_command_;
+    CLI::App& command = add_command(app_, "predict", "Predict other records with a fitted rig", predict_);
     command.add_option("RESULT", predict_.result, "result.json of a fit, or its directory")
         ->required()
         ->type_name("");
@@ -296,58 +304,62 @@ class Parser {
   }
 
   void add_report() {
-    report_command_ = app_.add_subcommand("report", "Write report.html of a result directory again");
-    report_command_->add_option("DIR", report_.directories, "Directories with a result.json")
+    CLI::App& report_command =
+        add_command(app_, "report", "Write report.html of a result directory again", report_);
+    report_command.add_option("DIR", report_.directories, "Directories with a result.json")
         ->required()
         ->type_name("");
-    add_plot(*report_command_, report_.plot);
-    add_shown_units(*report_command_, report_);
-    new_command_ = app_.add_subcommand("new", "Print a commented scenario as a first file");
-    new_command_->add_option("ANALYSIS", new_.analysis, "Its analysis, such as xy_curve; see dualdamp analyses")
+    add_plot(report_command, report_.plot);
+    add_shown_units(report_command, report_);
+    CLI::App& new_command = add_command(app_, "new", "Print a commented scenario as a first file", new_);
+    new_command.add_option("ANALYSIS", new_.analysis, "Its analysis, such as xy_curve; see dualdamp analyses")
         ->required()
         ->type_name("");
-    compare_command_ = app_.add_subcommand("compare", "Draw the curves of several results in one chart");
-    compare_command_->add_option("DIR", compare_.directories, "Two or more directories with a result.json")
+    CLI::App& compare_command =
+        add_command(app_, "compare", "Draw the curves of several results in one chart", compare_);
+    compare_command.add_option("DIR", compare_.directories, "Two or more directories with a result.json")
         ->required()
         ->expected(2, most_compared)
         ->type_name("");
-    add_shown_units(*compare_command_, compare_);
-    compare_command_->add_option("--out", compare_.out, "Directory for compare.html, compare.csv and compare.svg")
+    add_shown_units(compare_command, compare_);
+    compare_command.add_option("--out", compare_.out, "Directory for compare.html, compare.csv and compare.svg")
         ->type_name("DIR")
         ->capture_default_str()
         ->check([](const std::string& text) { return text.empty() ? "DIR is empty" : std::string(); });
   }
 
   void add_lists() {
-    laws_command_ = app_.add_subcommand("laws", "List the friction laws, or explain one");
-    CLI::Option* name = laws_command_->add_option("LAW", laws_.name, "A law")->type_name("");
+    CLI::App& laws_command = add_command(app_, "laws", "List the friction laws, or explain one", laws_);
+    CLI::Option* name = laws_command.add_option("LAW", laws_.name, "A law")->type_name("");
     CLI::Option* check =
-        laws_command_->add_flag("--check", laws_.check, "Test whether the law keeps its contract")->needs(name);
-    laws_command_->add_option("--set", laws_.set, "A parameter of the law that is tested: --set kinetic='2 N'")
+        laws_command.add_flag("--check", laws_.check, "Test whether the law keeps its contract")->needs(name);
+    laws_command.add_option("--set", laws_.set, "A parameter of the law that is tested: --set kinetic='2 N'")
         ->allow_extra_args(false)
         ->type_name("NAME=VALUE")
         ->needs(check);
-    laws_command_->add_option("--stroke", laws_.stroke, "Longest stroke of the test; it should reach all modes")
+    laws_command.add_option("--stroke", laws_.stroke, "Longest stroke of the test; it should reach all modes")
         ->type_name("QUANTITY")
         ->capture_default_str()
         ->needs(check);
-    laws_command_->add_option("--stroke-time", laws_.stroke_time, "Time of such a stroke")
+    laws_command.add_option("--stroke-time", laws_.stroke_time, "Time of such a stroke")
         ->type_name("QUANTITY")
         ->capture_default_str()
         ->needs(check);
-    add_plugins(*laws_command_);
-    methods_command_ = app_.add_subcommand("methods", "List the identification methods, or explain one");
-    methods_command_->add_option("METHOD", methods_.name, "A method")->type_name("");
-    analyses_command_ = app_.add_subcommand("analyses", "List the analyses, or explain one");
-    analyses_command_->add_option("ANALYSIS", analyses_.name, "An analysis")->type_name("");
-    schema_command_ = app_.add_subcommand("schema", "Print the JSON Schema of scenario files");
-    schema_command_->add_flag("--markdown", schema_.markdown, "Print the reference page instead");
-    add_plugins(*schema_command_);
+    add_plugins(laws_command);
+    CLI::App& methods_command =
+        add_command(app_, "methods", "List the identification methods, or explain one", methods_);
+    methods_command.add_option("METHOD", methods_.name, "A method")->type_name("");
+    CLI::App& analyses_command = add_command(app_, "analyses", "List the analyses, or explain one", analyses_);
+    analyses_command.add_option("ANALYSIS", analyses_.name, "An analysis")->type_name("");
+    CLI::App& schema_command = add_command(app_, "schema", "Print the JSON Schema of scenario files", schema_);
+    schema_command.add_flag("--markdown", schema_.markdown, "Print the reference page instead");
+    add_plugins(schema_command);
   }
 
   void add_shell() {
-    completion_command_ = app_.add_subcommand("completion", "Print the completion of commands for a shell");
-    completion_command_->add_option("bash|zsh|fish", completion_.shell, "The shell")
+    CLI::App& completion_command =
+        add_command(app_, "completion", "Print the completion of commands for a shell", completion_);
+    completion_command.add_option("bash|zsh|fish", completion_.shell, "The shell")
         ->required()
         ->type_name("")
         ->check([](const std::string& shell) {
@@ -355,50 +367,12 @@ class Parser {
           return is_known ? std::string()
                           : "there is no completion for '" + shell + "'; there are: bash, zsh, fish";
         });
-    add_plugins(*completion_command_);
-    manual_command_ = app_.add_subcommand("manual", "Print the manual page: dualdamp manual | man -l -");
-  }
-
-  [[nodiscard]] Command chosen() const {
-    if (run_command_->parsed()) return run_;
-    if (export_command_->parsed()) return export_;
-    if (score_command_->parsed()) return score_;
-    if (check_command_->parsed()) return check_;
-    if (identify_command_->parsed()) return identify_;
-    if (next_command_->parsed()) return next_;
-    if (fit_command_->parsed()) return fit_;
-    if (predict_command_->parsed()) return predict_;
-    if (report_command_->parsed()) return report_;
-    if (compare_command_->parsed()) return compare_;
-    if (new_command_->parsed()) return new_;
-    if (laws_command_->parsed()) return laws_;
-    if (methods_command_->parsed()) return methods_;
-    if (analyses_command_->parsed()) return analyses_;
-    if (completion_command_->parsed()) return completion_;
-    if (manual_command_->parsed()) return ManualCommand{};
-    return schema_;
+    add_plugins(completion_command);
+    add_command(app_, "manual", "Print the manual page: dualdamp manual | man -l -", manual_);
   }
 
   CLI::App app_{"How far can a friction estimate be trusted when the friction is not what the estimator assumes?",
                 "dualdamp"};
-  CLI::App* run_command_ = nullptr;
-  CLI::App* stress_command_ = nullptr;
-  CLI::App* export_command_ = nullptr;
-  CLI::App* score_command_ = nullptr;
-  CLI::App* check_command_ = nullptr;
-  CLI::App* identify_command_ = nullptr;
-  CLI::App* next_command_ = nullptr;
-  CLI::App* fit_command_ = nullptr;
-  CLI::App* predict_command_ = nullptr;
-  CLI::App* report_command_ = nullptr;
-  CLI::App* compare_command_ = nullptr;
-  CLI::App* new_command_ = nullptr;
-  CLI::App* laws_command_ = nullptr;
-  CLI::App* methods_command_ = nullptr;
-  CLI::App* analyses_command_ = nullptr;
-  CLI::App* schema_command_ = nullptr;
-  CLI::App* completion_command_ = nullptr;
-  CLI::App* manual_command_ = nullptr;
   std::vector<std::string> plugins_ = plugins_of_environment();
   std::string isolation_;  ///< seconds, as text: CLI11 accepts only integers as the value of a flag
   RunCommand run_;
@@ -417,6 +391,8 @@ class Parser {
   AnalysesCommand analyses_;
   SchemaCommand schema_;
   CompletionCommand completion_;
+  ManualCommand manual_;
+  Command chosen_;
 };
 
 }  // namespace
