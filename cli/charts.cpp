@@ -3,13 +3,17 @@
 #include <algorithm>
 #include <filesystem>
 #include <ostream>
+#include <system_error>
 
+#include "cli/guarded.hpp"
 #include "cli/report/asked_units.hpp"
 #include "cli/report/comparison.hpp"
 #include "cli/report/main_chart.hpp"
+#include "cli/report/report.hpp"
 #include "cli/report/result_directory.hpp"
 #include "cli/report/svg.hpp"
 #include "core/diagnostics.hpp"
+#include "core/input_file.hpp"
 #include "scenarios/results/files.hpp"
 
 namespace dualdamp::cli {
@@ -35,6 +39,25 @@ void add_plot(CommandOutput& output, const std::string& directory, const std::st
     for (const core::Diagnostic& problem : error.diagnostics()) output.errors += core::format(problem) + "\n";
     output.status = std::max(output.status, core::ExitStatus::usage);
   }
+}
+
+CommandOutput report_on(const std::string& directory, const std::string& units, const std::string& plot) {
+  // A missing directory has no result; it is not created.
+  if (std::error_code error; !fs::is_directory(directory, error)) {
+    if (error && !core::is_fault_of_name(error.value()))
+      throw std::system_error(error, directory + ": cannot be opened");
+    const bool says_more = error && error != std::errc::no_such_file_or_directory;
+    return refused(core::ExitStatus::invalid_input,
+                   directory + ": there is no such directory" + (says_more ? " (" + error.message() + ")" : ""));
+  }
+  CommandOutput done;
+  if (const std::string idle = warning_of_asked_units({directory}, units); !idle.empty())
+    done.messages += directory + ": " + idle;
+  for (const std::string& warning : write_keeping(directory, {report_page(directory, units)}))
+    done.messages += warning + "\n";
+  done.messages += "wrote " + (fs::path(directory) / "report.html").string() + "\n";
+  if (!plot.empty()) done.messages += plot_result(directory, plot, units);
+  return done;
 }
 
 std::string compare_results(const std::vector<std::string>& directories, const std::string& out,

@@ -1,5 +1,5 @@
 #pragma once
-/// The commands that draw results: `--plot` and `compare`.
+/// The commands that draw results: `report`, `--plot` and `compare`.
 
 #include <string>
 #include <vector>
@@ -15,6 +15,11 @@ namespace dualdamp::cli {
 
 /// The same after a run. If the result has no chart, a message is added to the output.
 void add_plot(CommandOutput& output, const std::string& directory, const std::string& file);
+
+/// Writes the page of a result directory again and, if `plot` names a file, its main chart. Refuses a directory
+/// that does not exist. Errors: as `plot_result`; `std::system_error`.
+[[nodiscard]] CommandOutput report_on(const std::string& directory, const std::string& units,
+                                      const std::string& plot);
 
 /// Writes a comparison of several result directories to `out`. Returns a message. Errors: as `comparison`, and
 /// `scenarios::OutputError`.

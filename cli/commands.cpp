@@ -27,16 +27,12 @@
 #include "cli/new_scenario.hpp"
 #include "cli/option_text.hpp"
 #include "cli/print.hpp"
-#include "cli/report/asked_units.hpp"
-#include "cli/report/report.hpp"
-#include "cli/report/result_directory.hpp"
 #include "cli/shell/completion.hpp"
 #include "cli/shell/manual.hpp"
 #include "cli/startup.hpp"
 #include "cli/stress.hpp"
 #include "cli/workers.hpp"
 #include "core/cancellation.hpp"
-#include "core/input_file.hpp"
 #include "core/numbers.hpp"
 #include "friction_models/plugin.hpp"
 #include "scenarios/output.hpp"
@@ -315,24 +311,7 @@ int execute(const ReportCommand& command) {
     return say(refused(ExitStatus::usage, "--plot takes the chart of one directory, not of several"), {});
   ExitStatus worst = ExitStatus::done;
   for (const std::string& directory : command.directories) {
-    const CommandOutput output = guarded([&] {
-      // A missing directory has no result; it is not created.
-      if (std::error_code error; !fs::is_directory(directory, error)) {
-        if (error && !core::is_fault_of_name(error.value()))
-          throw std::system_error(error, directory + ": cannot be opened");
-        const bool says_more = error && error != std::errc::no_such_file_or_directory;
-        return refused(ExitStatus::invalid_input, directory + ": there is no such directory" +
-                                                      (says_more ? " (" + error.message() + ")" : ""));
-      }
-      CommandOutput done;
-      if (const std::string idle = warning_of_asked_units({directory}, command.shown_units); !idle.empty())
-        done.messages += directory + ": " + idle;
-      for (const std::string& warning : write_keeping(directory, {report_page(directory, command.shown_units)}))
-        done.messages += warning + "\n";
-      done.messages += "wrote " + (fs::path(directory) / "report.html").string() + "\n";
-      if (!command.plot.empty()) done.messages += plot_result(directory, command.plot, command.shown_units);
-      return done;
-    });
+    const CommandOutput output = guarded([&] { return report_on(directory, command.shown_units, command.plot); });
     print(output, {});
     worst = std::max(worst, output.status);
   }

@@ -33,17 +33,23 @@ void set_measured_keys(const MeasuredOptions& command, scenarios::LoadOptions& o
   set_file_keys(command, options);
 }
 
-bool is_scenario(const std::string& file) { return file.ends_with(".yaml") || file.ends_with(".yml"); }
-
-}  // namespace
-
-scenarios::Scenario scenario_of(const IdentifyCommand& command) {
+/// A scenario about a data file and its rig.
+scenarios::LoadOptions about_data(const MeasuredOptions& command) {
   scenarios::LoadOptions options;
   options.data_anywhere = true;
   options.words = option_of_setting;
   options.set = {{"analysis.data=" + in_quotes(command.data), "DATA"}};
   if (!command.frequency.empty()) options.set.push_back({"excitation.type=base_harmonic", "--frequency"});
   set_measured_keys(command, options);
+  return options;
+}
+
+bool is_scenario(const std::string& file) { return file.ends_with(".yaml") || file.ends_with(".yml"); }
+
+}  // namespace
+
+scenarios::Scenario scenario_of(const IdentifyCommand& command) {
+  scenarios::LoadOptions options = about_data(command);
   set_keys({{"system.gravity_stiffness", command.gravity_stiffness, "--gravity-stiffness"},
             {"system.coordinate", command.coordinate, "--coordinate"}},
            options);
@@ -57,17 +63,12 @@ scenarios::Scenario scenario_of(const IdentifyCommand& command) {
 }
 
 scenarios::Scenario scenario_of(const NextCommand& command) {
+  if (!is_scenario(command.data)) return scenario_about(command.data, "design", about_data(command));
   scenarios::LoadOptions options;
-  const bool from_scenario = is_scenario(command.data);
-  options.data_anywhere = !from_scenario;
-  options.words = from_scenario ? key_or_option_of_setting : option_of_setting;
-  if (from_scenario) options.instead = "design";
-  if (!from_scenario) options.set.push_back({"analysis.data=" + in_quotes(command.data), "DATA"});
-  if (!from_scenario && !command.frequency.empty())
-    options.set.push_back({"excitation.type=base_harmonic", "--frequency"});
+  options.words = key_or_option_of_setting;
+  options.instead = "design";
   set_measured_keys(command, options);
-  if (from_scenario) return scenarios::load_scenario(command.data, options);
-  return scenario_about(command.data, "design", options);
+  return scenarios::load_scenario(command.data, options);
 }
 
 }  // namespace dualdamp::cli
