@@ -5,6 +5,7 @@
 #include "bench/analyses.hpp"
 #include "cli/print.hpp"
 #include "core/diagnostics.hpp"
+#include "core/nearest.hpp"
 #include "friction_models/registry.hpp"
 #include "identify/methods.hpp"
 
@@ -24,9 +25,12 @@ std::string name_of(const Entry& entry) {
 
 template <typename Entries>
 Listing unknown(const std::string& what, const std::string& name, const Entries& entries) {
-  std::string names;
-  for (const auto& entry : entries) names += (names.empty() ? "" : ", ") + name_of(entry);
-  return {"there is no " + what + " '" + name + "'; there are: " + names, false};
+  std::vector<std::string> names;
+  for (const auto& entry : entries) names.push_back(name_of(entry));
+  const std::string meant = core::nearest(name, names);
+  return {"there is no " + what + " '" + name + "'; " +
+              (meant.empty() ? "there are: " + core::joined(names) : "did you mean '" + meant + "'?"),
+          false};
 }
 
 std::string engine_name(friction::EngineKind kind) {
@@ -120,7 +124,7 @@ Listing list_laws(const std::string& name) {
   const friction::LawEntry* law = friction::find_law(name);
   if (law == nullptr) {
     Listing listing = unknown("law", name, friction::laws());
-    listing.text += "; or that of a plugin, with --plugin LIB";
+    if (!listing.text.ends_with('?')) listing.text += "; or that of a plugin, with --plugin LIB";
     return listing;
   }
   Rows rows = {{"parameter", "unit", "default", "values", "meaning"}};

@@ -31,6 +31,8 @@ void add_shown_units(CLI::App& command, ShownUnitOptions& options) {
           "Units of charts, pages and printed tables, separated by commas: --show-in mm,Hz; files stay in SI");
   // The name up to 0.1, one letter from --unit, the unit of a column: still read, but named nowhere.
   add("--units", "The same as --show-in")->group("")->excludes(show_in);
+  // In place of the help's own text, which would name what the option excludes.
+  show_in->option_text("UNITS");
 }
 
 void add_gains(CLI::App& command, std::vector<std::string>& gains) {

@@ -63,6 +63,16 @@ class Manners(Case):
                 self.assertRegex(shown, rf"intercept a \[{unit}\] +G\n")
                 self.assertIn(f'"m":{{"unit":"{unit}"', (self.folder / unit / "report.html").read_text().replace(" ", ""))
 
+    def test_lists_suggest_the_name_that_was_meant(self):
+        for line, message in {"laws coulom": "there is no law 'coulom'; did you mean 'coulomb'?\n", "laws gravity": "; or that of a plugin, with --plugin LIB\n",
+                              "methods output_eror": "there is no method 'output_eror'; did you mean 'output_error'?\n",
+                              "new xy_curv": "there is no analysis 'xy_curv'; did you mean 'xy_curve'?\n"}.items():
+            with self.subTest(line):
+                self.assertIn(message, self.run_program(*line.split(), status=2).stderr)
+
+    def test_the_help_has_no_words_of_the_library_that_parses_the_line(self):
+        self.assertNotRegex(self.run_program("run", "--help").stdout, r"Excludes:\s+[^-\s]|FLOAT")
+
     def test_an_unknown_law_may_be_that_of_a_plugin(self):
         self.write("plugin.yaml", (ROOT / "scenarios/examples/xy_curve.yaml").read_text().replace("law: coulomb", "law: bliman_sorine"))
         self.assertIn("; or the law of a plugin, with --plugin LIB\n", self.run_program("check", "plugin.yaml", status=3).stderr)
