@@ -1,5 +1,6 @@
 #include "identify/readers/signal_checks.hpp"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -23,11 +24,16 @@ double resolution_of(std::span<const double> signal, double range) {
   return smallest;
 }
 
-/// The height that a signal would still gain beyond the place where it reaches a plateau of `length` samples.
-/// `depths`: how far the samples before the plateau are below it, from the nearest on. A parabola through them
-/// gives the slope v at the plateau and the curvature c: v^2/(2 c), and v length/4 if it leaves as it came.
-double lost_height(const std::vector<double>& depths, std::size_t length) {
-  if (depths.size() < 3) return 0.0;
+/// The height that a signal would still gain beyond a plateau, and how well the samples beside it tell this.
+struct Gain {
+  double height = 0.0;
+  double error = 0.0;  ///< of one that follows from the slope, for noise of one
+};
+
+/// The gain beyond the place where a signal reaches a plateau of `length` samples. `depths`: how far the samples
+/// before the plateau are below it, from the nearest on. A parabola through them gives the slope v at the plateau
+/// and the curvature c: v^2/(2 c), and v length/4 if it leaves as it came.
+Gain gain_by_parabola(std::span<const double> depths, std::size_t length) {
   Eigen::MatrixXd columns(static_cast<Eigen::Index>(depths.size()), 3);
   for (Eigen::Index i = 0; i < columns.rows(); ++i) {
     const auto d = static_cast<double>(i + 1);
@@ -35,11 +41,29 @@ double lost_height(const std::vector<double>& depths, std::size_t length) {
   }
   const Eigen::VectorXd found =
       pivoted_least_squares(columns, Eigen::Map<const Eigen::VectorXd>(depths.data(), columns.rows()));
+  const Eigen::Matrix3d normal = columns.transpose() * columns;
+  const double by_slope = 0.25 * static_cast<double>(length);
+  Gain gain{0.0, by_slope * std::sqrt(normal.inverse()(1, 1))};
   const double slope = found[1];
   const double curvature = 2.0 * found[2];
-  if (!(slope > 0.0)) return 0.0;
-  const double height = 0.25 * slope * static_cast<double>(length);
-  return curvature > 0.0 ? std::min(height, 0.5 * slope * slope / curvature) : height;
+  if (!(slope > 0.0)) return gain;
+  gain.height = by_slope * slope;
+  if (curvature > 0.0) gain.height = std::min(gain.height, 0.5 * slope * slope / curvature);
+  return gain;
+}
+
+/// The least gain by parabolas through all `depths` and through the nearest ones alone, as few as tell it to
+/// `error` under this noise. A mass under a fast drive may turn around within the length of a long stick, and no
+/// parabola follows that; the last samples before the stick show that it arrives without speed.
+double lost_height(const std::vector<double>& depths, std::size_t length, double noise, double error) {
+  constexpr std::size_t fewest = 3;
+  if (depths.size() < fewest) return 0.0;
+  double height = gain_by_parabola(depths, length).height;
+  for (std::size_t count = fewest; count < depths.size(); count += count / 2) {
+    const Gain near = gain_by_parabola(std::span(depths).first(count), length);
+    if (noise * near.error <= error) height = std::min(height, near.height);
+  }
+  return height;
 }
 
 /// What counts as a plateau at the end of the range, and as clipped.
@@ -47,6 +71,7 @@ struct PlateauRule {
   double band = 0.0;         ///< width of the values that count as equal
   std::size_t fewest = 1;    ///< samples of a plateau
   double least = 0.0;        ///< height that the signal would gain beyond it
+  double noise = 0.0;        ///< of the samples
   bool ends_within = false;  ///< the record neither begins nor ends with it
 };
 
@@ -86,9 +111,14 @@ class Top {
 
   /// The smaller one of both sides. A record may begin or end on a plateau.
   [[nodiscard]] double height(std::size_t first, std::size_t end) const {
+    constexpr double known = 0.125;
+    const std::size_t length = end - first;
+    const auto beside = [&](std::size_t from, bool forwards) {
+      return lost_height(depths(from, forwards, length), length, rule_.noise, known * rule_.least);
+    };
     double least = range_;
-    if (first > 0) least = std::min(least, lost_height(depths(first, false, end - first), end - first));
-    if (end < signal_.size()) least = std::min(least, lost_height(depths(end - 1, true, end - first), end - first));
+    if (first > 0) least = std::min(least, beside(first, false));
+    if (end < signal_.size()) least = std::min(least, beside(end - 1, true));
     return least;
   }
 
@@ -190,8 +220,11 @@ Clipping clipping_of(std::span<const double> signal) {
   const auto [low, high] = std::ranges::minmax(signal);
   const double range = high - low;
   constexpr double steps = 3.0;
+  const double resolution = resolution_of(signal, range);
+  constexpr double rounding = 0.29;  // deviation of a rounded value, in steps
   const PlateauRule rule{.fewest = 3,
-                         .least = std::max(least_height * range, steps * resolution_of(signal, range)),
+                         .least = std::max(least_height * range, steps * resolution),
+                         .noise = std::max(robust_noise_level(signal), rounding * resolution),
                          .ends_within = true};
   const Clipping all = both_ends(signal, range, rule);
   return all.places < 2 ? Clipping{} : all;
@@ -208,7 +241,9 @@ Clipping noisy_clipping_of(std::span<const double> signal) {
   const double range = high - low;
   const double band = std::max(deviations * robust_noise_level(signal), steps * resolution_of(signal, range));
   if (!(band <= widest * range)) return {};
-  return both_ends(signal, range, {.band = band, .fewest = 4, .least = least_height * range + bands * band});
+  return both_ends(
+      signal, range,
+      {.band = band, .fewest = 4, .least = least_height * range + bands * band, .noise = band / deviations});
 }
 
 bool is_still_at(const Clipping& clipping, std::span<const double> v) {

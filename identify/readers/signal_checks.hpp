@@ -18,9 +18,10 @@ struct Clipping {
 };
 
 /// `samples` is 0 if the signal is not clipped. A swing is clipped if it stays at the largest or the smallest value
-/// of the signal and would have gone further. A parabola through the samples beside the plateau, on both sides,
-/// says how much: more than three times the resolution and 1 % of the range. A mass that sticks arrives without
-/// speed. There must be two such places. A mass that is held before its release does not count as one.
+/// of the signal and would have gone further. Parabolas through the samples beside the plateau, on both sides, say
+/// how much: more than three times the resolution and 1 % of the range. The least of them counts, through as few
+/// samples as their noise allows. A mass that sticks arrives without speed. There must be two such places. A mass
+/// that is held before its release does not count as one.
 [[nodiscard]] Clipping clipping_of(std::span<const double> signal);
 
 /// The same where noise, that of the converter say, is added behind the place that clips. A plateau is a run of at

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/random.hpp"
+#include "tests/identify/ledger/rig.hpp"
 
 using namespace dualdamp;
 using identify::Clipping;
@@ -170,6 +171,30 @@ TEST_CASE("signal checks: a plateau that begins where the drive stops or turns i
       drive.push_back(std::cos(2.0 * std::numbers::pi * static_cast<double>(i) / per_swing + phase));
     CHECK(identify::without_sticks(found, x, with_noise(drive, 1e-3), 2).places == found.places);
   }
+}
+
+TEST_CASE("signal checks: a mass that turns around shortly before a long stick is not clipped") {
+  // Two tones move the base. The mass moves for a tenth of a period between sticks of two thirds of one.
+  identify::testing::Rig rig;
+  rig.zeta = 0.0381;
+  rig.F0 = 7.0775;
+  rig.on_base = true;
+  const double w = rig.omega();
+  const auto drive = [&](double t) {
+    return 6.0 * std::sin(0.85823 * w * t + 1.5701) + 4.0 * std::sin(1.81055 * w * t + 3.2007);
+  };
+  const double period = 2.0 * std::numbers::pi / w;
+  const std::vector<double> x = identify::testing::motion_of(rig, drive, 10.0 * period, 92.0 / period).x;
+  const auto [low, high] = std::ranges::minmax(x);
+  for (const double noise : {1e-5, 8e-5, 4e-4}) {
+    CAPTURE(noise);
+    CHECK(noisy_clipping_of(with_noise(x, noise * (high - low))).places == 0);
+  }
+  // Its readings in steps of a converter, and cut off.
+  std::vector<double> rounded = x;
+  for (double& value : rounded) value = 1e-6 * std::round(value / 1e-6);
+  CHECK(clipping_of(rounded).places == 0);
+  CHECK(clipping_of(clipped(x, 0.5 * low, 0.5 * high)).places > 1);
 }
 
 TEST_CASE("a number of the logger among the samples is found by its distance and its repetition") {
