@@ -11,6 +11,7 @@
 #include "identify/records/derived_records.hpp"
 #include "identify/records/plausibility.hpp"
 #include "identify/records/repeats.hpp"
+#include "identify/records/short_blow.hpp"
 #include "identify/records/sine_fit.hpp"
 #include "identify/records/spikes.hpp"
 #include "scenarios/format/excitations.hpp"
@@ -303,6 +304,8 @@ void read_data(CheckedFile& file) {
     identify::MeasuredRecord data = read_by_units(file, *path, name, file.values().at("analysis"));
     file.note_units(data.units);
     const Json& analysis = file.values().at("analysis");
+    // Before the spikes: a blow of one sample looks like one.
+    std::ranges::move(identify::leave_out_short_blows(data.record.histories), std::back_inserter(data.warnings));
     for (std::string& sentence : identify::treat_spikes(data.record.histories, analysis.value("robust", false)))
       data.warnings.push_back(std::move(sentence));
     const double frequency = stated_frequency(file);

@@ -1,0 +1,158 @@
+#include "identify/records/short_blow.hpp"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <numbers>
+
+#include "identify/ledger/ledger.hpp"
+#include "identify/records/derived_records.hpp"
+#include "tests/identify/ledger/rig.hpp"
+#include "tests/identify/records.hpp"
+
+using namespace dualdamp;
+using namespace dualdamp::identify;
+using namespace dualdamp::identify::testing;
+
+namespace {
+
+/// A half sine from `start` on.
+double half_sine(double t, double start, double duration) {
+  const double part = (t - start) / duration;
+  return part > 0.0 && part < 1.0 ? std::sin(std::numbers::pi * part) : 0.0;
+}
+
+/// The rig at rest, struck to a speed of 0.5 m/s within so many samples. Noise of x and force of `noise`.
+History struck(const testing::Rig& rig, double samples, double noise, std::uint64_t seed,
+               double rate_in_period = 32.0) {
+  const double period = 2.0 * std::numbers::pi / rig.omega();
+  History history;
+  history.sample_rate = rate_in_period / period;
+  Normal normal(seed);
+  const double step = 1.0 / history.sample_rate;
+  const double duration = samples * step;
+  const double start = (10.0 + 0.37 * static_cast<double>(seed % 5)) * step;
+  const double peak = 0.5 * rig.m * 0.5 * std::numbers::pi / duration;
+  const Drive blow = [=](double t) { return peak * half_sine(t, start, duration); };
+  const Motion motion = motion_of(rig, blow, 8.0 * period, history.sample_rate);
+  const double range = std::ranges::max(motion.x);
+  for (std::size_t i = 0; i < motion.x.size(); ++i) {
+    history.x.push_back(motion.x[i] + noise * range * normal());
+    history.force.push_back(motion.drive[i] + 0.3 * noise * peak * normal());
+  }
+  return history;
+}
+
+testing::Rig light() {
+  testing::Rig rig;
+  rig.zeta = 0.04;
+  rig.F0 = 0.6;
+  return rig;
+}
+
+int contradicted(const Ledger& ledger) { return ledger.departures.empty() ? 0 : 1; }
+
+}  // namespace
+
+TEST_CASE("A blow of few samples is found, and other forces are not") {
+  for (const double samples : {1.3, 2.5, 4.6, 9.0})
+    for (const double noise : {0.0, 1e-3, 5e-3}) {
+      CAPTURE(samples, noise);
+      const History history = struck(light(), samples, noise, 3);
+      const std::optional<ShortBlow> blow = short_blow(history.force, history.x);
+      REQUIRE(blow);
+      CHECK(blow->first >= 11);
+      CHECK(blow->first <= 12);
+      CHECK(static_cast<double>(blow->last - blow->first) <= samples);
+      CHECK(static_cast<double>(blow->end) > 11.0 + samples);
+      // The sensor may have a zero, and push the other way.
+      std::vector<double> other = history.force;
+      for (double& value : other) value = 3.0 - value;
+      CHECK(short_blow(other, history.x).has_value());
+    }
+  // A longer blow is short for an exact motion.
+  const auto is_short = [](double samples, double noise) {
+    const History history = struck(light(), samples, noise, 3, 160.0);
+    return short_blow(history.force, history.x).has_value();
+  };
+  CHECK(is_short(21.0, 1e-3));
+  CHECK_FALSE(is_short(21.0, 5e-2));
+  CHECK_FALSE(is_short(75.0, 1e-4));
+}
+
+TEST_CASE("A force that is more than one blow is none") {
+  std::vector<double> x;
+  for (int i = 0; i < 200; ++i) x.push_back(std::sin(0.2 * i));
+  const std::vector<double> quiet(x.size(), 0.0);
+  CHECK_FALSE(short_blow(quiet, x));
+  std::vector<double> force = quiet;
+  force[50] = force[51] = 1.0;
+  CHECK(short_blow(force, x));
+  std::vector<double> twice = force;
+  twice[120] = 0.7;
+  CHECK_FALSE(short_blow(twice, x));
+  std::vector<double> step = force;
+  for (std::size_t i = 50; i < step.size(); ++i) step[i] = 1.0;
+  CHECK_FALSE(short_blow(step, x));
+  std::vector<double> at_first = quiet;
+  at_first[0] = at_first[1] = 1.0;
+  CHECK_FALSE(short_blow(at_first, x));
+  std::vector<double> late = quiet;
+  late[150] = 1.0;
+  CHECK_FALSE(short_blow(late, x));
+  // What goes on beside the blow drives the mass.
+  for (const double size : {0.02, 0.3}) {
+    std::vector<double> driven = force;
+    for (std::size_t i = 0; i < driven.size(); ++i) driven[i] += size * std::sin(0.2 * static_cast<double>(i));
+    CHECK_FALSE(short_blow(driven, x));
+  }
+  std::vector<double> damped = x;  // nothing is left to be read
+  for (std::size_t i = 52; i < damped.size(); ++i) damped[i] *= 0.1;
+  CHECK_FALSE(short_blow(force, damped));
+}
+
+TEST_CASE("A short blow contradicts neither sensors nor friction") {
+  int with_force = 0;
+  int without = 0;
+  int holds = 0;
+  int count = 0;
+  const testing::Rig rig = light();
+  for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+    const KnownConstants constants{.mass = rig.m, .stiffness = rig.k};
+    Record record;
+    record.histories.push_back(struck(rig, 1.2 + 0.5 * static_cast<double>(seed), 2e-3, seed));
+    with_force += contradicted(ledger_of(record, constants));
+    const std::vector<std::string> warnings = leave_out_short_blows(record.histories);
+    REQUIRE(warnings.size() == 2);
+    CHECK(warnings[0].find("too few to know its impulse") != std::string::npos);
+    CHECK(record.histories[0].force.empty());
+    CHECK(complete(record).size() <= 2);
+    REQUIRE(record.decay);
+    const Ledger ledger = ledger_of(record, constants);
+    without += contradicted(ledger);
+    if (!ledger.joint) continue;
+    ++count;
+    REQUIRE(ledger.joint->interval95);
+    const auto is_within = [](const Interval& interval, double value) {
+      return interval[0] <= value && value <= interval[1];
+    };
+    holds += is_within(ledger.joint->interval95->zeta, rig.zeta) && is_within(ledger.joint->interval95->F0, rig.F0);
+  }
+  CHECK(with_force >= 8);
+  CHECK(without <= 2);
+  CHECK(count >= 10);
+  CHECK(holds >= count - 2);
+}
+
+TEST_CASE("A history without a short blow is left as it is") {
+  std::vector<History> histories;
+  histories.push_back(struck(light(), 70.0, 1e-3, 1, 160.0));
+  histories.push_back(struck(light(), 4.0, 1e-3, 2));
+  histories[1].y = histories[1].x;
+  const std::vector<History> before = histories;
+  CHECK(leave_out_short_blows(histories).empty());
+  for (std::size_t i = 0; i < 2; ++i) {
+    CHECK(histories[i].force == before[i].force);
+    CHECK(histories[i].x == before[i].x);
+  }
+}
