@@ -5,9 +5,11 @@
 #include <cmath>
 #include <string>
 #include <variant>
+#include <vector>
 
 #include "core/random.hpp"
 #include "identify/answer/answer.hpp"
+#include "identify/ledger/history_rows.hpp"
 #include "identify/ledger/ledger.hpp"
 #include "identify/methods/histories/friction_force.hpp"
 #include "identify/methods/histories/output_error.hpp"
@@ -27,6 +29,21 @@ bool lists(const JointModel& model, const std::string& test) {
 }
 
 }  // namespace
+
+TEST_CASE(
+    "Many histories give way to their steady states, because the work grows with the third power of their number") {
+  const History one = {.sample_rate = 100.0, .x = std::vector<double>(1000), .y = std::vector<double>(1000)};
+  Record record;
+  record.pairs.emplace();
+  const auto fault_of = [&](std::size_t count) {
+    record.histories.assign(count, one);
+    return fault_of_histories(record);
+  };
+  CHECK(fault_of(4).empty());
+  CHECK_THAT(fault_of(30), Catch::Contains("steady states"));
+  record.pairs.reset();
+  CHECK(fault_of(30).empty());
+}
 
 TEST_CASE("The stated noise of x makes the intervals of a history, unless its samples scatter clearly more") {
   const auto width = [](double stated, std::size_t warnings) {
