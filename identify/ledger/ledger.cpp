@@ -375,7 +375,13 @@ Ledger tested_ledger(const Record& record, const KnownConstants& constants, cons
   ledger.left_out = model.left_out;
   ledger.warnings = model.warnings;
   const StatedShares shares(constants, options.uncertainties);
-  RelaxationTests tests = test_relaxations(model, {options.least_change, shares.mass(), shares.stiffness()});
+  const ConstantUncertainties& u = options.uncertainties;
+  RelaxationTests tests =
+      test_relaxations(model, {.least_change = options.least_change,
+                               .mass = shares.mass(),
+                               .stiffness = shares.stiffness(),
+                               .gains = std::max({u.gain_x, u.gain_y, u.gain_v, u.gain_a, u.gain_force}) > 0.0,
+                               .allowed = allowed_error(u, constants)});
   share_out(model, shares, tests);
   Writer writer(model, tests, constants, shares, options);
   writer.write(ledger);

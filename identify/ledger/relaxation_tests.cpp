@@ -340,9 +340,8 @@ void name_alike(const JointModel& model, const Taken& taken, const std::vector<s
   }
 }
 
-}  // namespace
-
-RelaxationTests test_relaxations(const JointModel& model, const TestOptions& options) {
+/// Departures one after another, each charged to what explains it best.
+RelaxationTests one_after_another(const JointModel& model, const TestOptions& options) {
   const double least_change = options.least_change;
   RelaxationTests result;
   Taken taken;
@@ -384,6 +383,68 @@ RelaxationTests test_relaxations(const JointModel& model, const TestOptions& opt
   }
   name_alike(model, taken, projection.alike, least_change, result.departures);
   return result;
+}
+
+/// Relaxations of what is stated with an uncertainty: the constant with the larger one, and gains.
+Taken stated_as_uncertain(const JointModel& model, const TestOptions& options) {
+  const Freed constant = options.mass >= options.stiffness ? Freed::mass : Freed::stiffness;
+  const bool has_constant = std::max(options.mass, options.stiffness) > 0.0;
+  Taken result;
+  std::ranges::copy_if(project(model, {}).indices, std::back_inserter(result), [&](std::size_t index) {
+    const Freed freed = model.relaxations[index].freed;
+    return (freed == constant && has_constant) || (freed == Freed::gain && options.gains);
+  });
+  return result;
+}
+
+/// The departures if errors of several stated numbers explain the record together, none beyond what is allowed.
+std::optional<RelaxationTests> stated_errors_together(const JointModel& model, double p_value,
+                                                      const TestOptions& options) {
+  const Taken uncertain = stated_as_uncertain(model, options);
+  if (!model.refit || uncertain.size() < 2) return std::nullopt;
+  RelaxationTests result{.relaxed = model};
+  Taken taken;
+  for (const std::size_t index : uncertain) {
+    RelaxationTest test{.index = index, .p_value = p_value};
+    taken.push_back(index);
+    const JointModel& here = *result.relaxed;
+    const Eigen::MatrixXd columns = free_columns(here.base, here.relaxed, taken);
+    test.coefficient = pivoted_least_squares(columns, here.residuals)[columns.cols() - 1];
+    JointModel next = model.refit(taken);
+    set_change(change_between(here, next, taken), test);
+    const KnownConstants now = test.constants = next.constants;
+    result.relaxed = std::move(next);
+    const double ratio = now.stiffness / model.constants.stiffness * model.constants.mass / now.mass;
+    const double error = model.relaxations[index].freed == Freed::gain ? test.coefficient : std::log(ratio);
+    if (!(std::abs(error) < options.allowed)) return std::nullopt;
+    result.departures.push_back({{test}});
+  }
+  const Projection rest = project(*result.relaxed, taken);
+  result.tests = tests_beside(*result.relaxed, rest, options.least_change);
+  result.freedom = rest.freedom;
+  result.misfit = misfit_of(*result.relaxed, taken, options.least_change);
+  const auto rejects = [](const RelaxationTest& test) { return test.p_value < family_level; };
+  if (result.misfit || result.tests.empty() || std::ranges::any_of(result.tests, rejects)) return std::nullopt;
+  name_alike(model, taken, rest.alike, options.least_change, result.departures);
+  return result;
+}
+
+}  // namespace
+
+RelaxationTests test_relaxations(const JointModel& model, const TestOptions& options) {
+  RelaxationTests result = one_after_another(model, options);
+  const auto is_of_stated = [&](const RelaxationTest& test) {
+    const Freed freed = model.relaxations[test.index].freed;
+    return freed != Freed::effect && freed != Freed::delay;
+  };
+  const bool charges_more = std::ranges::any_of(result.departures, [&](const FoundDeparture& departure) {
+    return std::ranges::none_of(departure.explanations, is_of_stated);
+  });
+  if (!charges_more) return result;
+  const double p_value = result.departures.front().explanations.front().p_value;
+  std::optional<RelaxationTests> together = stated_errors_together(model, p_value, options);
+  if (together) together->alone = result.alone;
+  return together ? *together : result;
 }
 
 }  // namespace dualdamp::identify

@@ -15,6 +15,10 @@
 /// the same but for rounding, that of the constant with the larger stated uncertainty comes first, then the first
 /// of the model's list.
 ///
+/// If this charges anything but constants and gains, and a constant and gains are stated with their uncertainties,
+/// errors of all of them are tried together: each of them alone may explain too little, and a further mode more. If
+/// errors that the uncertainties allow leave nothing that a test rejects, they are the departures.
+///
 /// Far from the fit no single test may reject, because the misfit is in the residuals of all. Where the model
 /// misses the record as a whole (misfit.hpp), every relaxation is fitted, and the best is taken if it explains far
 /// more. What then is still missed is stated: no relaxation explains it.
@@ -68,6 +72,8 @@ struct TestOptions {
   double least_change = 0.02;  ///< relative change of zeta or F0 that matters
   double mass = 0.0;           ///< stated uncertainty, relative; 0: none
   double stiffness = 0.0;
+  bool gains = false;    ///< uncertainties of gains are stated
+  double allowed = 0.0;  ///< largest relative error of k/m or of a gain that the stated uncertainties allow
 };
 
 [[nodiscard]] RelaxationTests test_relaxations(const JointModel& model, const TestOptions& options = {});

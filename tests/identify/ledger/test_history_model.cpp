@@ -32,7 +32,7 @@ bool lists(const JointModel& model, const std::string& test) {
 
 TEST_CASE(
     "Many histories give way to their steady states, because the work grows with the third power of their number") {
-  const History one = {.sample_rate = 100.0, .x = std::vector<double>(1000), .y = std::vector<double>(1000)};
+  const History one = {.sample_rate = 100.0, .y = std::vector<double>(1000), .x = std::vector<double>(1000)};
   Record record;
   record.pairs.emplace();
   const auto fault_of = [&](std::size_t count) {
