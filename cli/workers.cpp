@@ -25,10 +25,13 @@ void share_among(std::size_t threads, std::size_t count, const std::function<voi
   {
     std::vector<std::jthread> others;
     others.reserve(threads);
-    try {
-      while (others.size() + 1 < threads) others.emplace_back(take);
-    } catch (const std::system_error&) {
-      // The threads that there are take the items of the others.
+    bool has_more = true;
+    while (has_more && others.size() + 1 < threads) {
+      try {
+        others.emplace_back(take);
+      } catch (const std::system_error&) {
+        has_more = false;  // the threads that there are take the items of the others
+      }
     }
     take();
   }
