@@ -22,11 +22,15 @@ std::string fault_of_input(const Record& record, const KnownConstants& constants
 std::string_view describe(RecordKind kind) {
   switch (kind) {
     case RecordKind::pairs:
-      return "x-Y pairs";
+      return "x-Y pairs at one frequency";
     case RecordKind::states:
-      return "x-Y pairs with phases or frequencies";
+      return "x-Y pairs";
+    case RecordKind::phases:
+      return "x-Y pairs with phases";
     case RecordKind::decay:
       return "extremes of a free vibration";
+    case RecordKind::readings:
+      return "x-Y pairs or extremes of a free vibration";
     case RecordKind::history:
       return "time histories";
   }

@@ -15,14 +15,19 @@ namespace dualdamp::identify {
 
 /// What a method reads.
 enum class RecordKind {
-  pairs,    ///< amplitude pairs at one frequency
-  states,   ///< amplitude pairs with phases, or at several frequencies
-  decay,    ///< extremes of a free vibration
-  history,  ///< sampled signals
+  pairs,     ///< amplitude pairs at one frequency
+  states,    ///< amplitude pairs at any frequencies, with phases or without
+  phases,    ///< amplitude pairs with phases, at any frequencies
+  decay,     ///< extremes of a free vibration
+  readings,  ///< `states` or `decay`
+  history,   ///< sampled signals
 };
 
 /// "x-Y pairs", "extremes of a free vibration", ...
 [[nodiscard]] std::string_view describe(RecordKind kind);
+[[nodiscard]] constexpr bool reads_pairs(RecordKind kind) {
+  return kind != RecordKind::decay && kind != RecordKind::history;
+}
 
 /// The options that a method declares, and how it is run.
 struct MethodCall {

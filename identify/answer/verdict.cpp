@@ -90,13 +90,10 @@ std::string numbers_of(const Estimate& estimate, core::Coordinate coordinate) {
          ", F0 = " + with_interval(estimate.value.F0, estimate.interval95, &ParameterIntervals::F0, unit("N"));
 }
 
-/// ", explained as well by mass free, which would hardly change zeta and F0": what violates nothing of the
-/// departure of an entry; all explanations of a departure have its p.
-std::string harmless_beside(const LedgerEntry& violated, const Ledger& ledger) {
+/// ", explained as well by mass free, which would hardly change zeta and F0".
+std::string harmless_text_beside(const LedgerEntry& violated, const Ledger& ledger) {
   std::vector<std::string> tests;
-  for (const LedgerEntry& entry : ledger.entries)
-    if (entry.standing == Standing::holds && entry.p_value == violated.p_value && *entry.p_value < family_level)
-      tests.push_back(entry.test);
+  for (const LedgerEntry* entry : harmless_beside(violated, ledger)) tests.push_back(entry->test);
   if (tests.empty()) return {};
   return ", explained as well by " + core::joined(tests, " or ") + ", which would hardly change zeta and F0";
 }
@@ -107,7 +104,7 @@ std::string departures_text(const Ledger& ledger) {
   for (const std::vector<Assumption>& departure : ledger.departures) {
     const LedgerEntry& first = ledger.entry(departure.front());
     text += " These data contradict that " + statements_of(departure, ", or that ") + " (" +
-            (first.p_value ? first.test + ", " + p_text(*first.p_value) + harmless_beside(first, ledger)
+            (first.p_value ? first.test + ", " + p_text(*first.p_value) + harmless_text_beside(first, ledger)
                            : ledger.force_excess) +
             ")";
     const std::string& wanted = ledger.entry(Assumption::constants).wanted;

@@ -127,6 +127,29 @@ bool drifts_or_has_speed(const std::vector<Assumption>& departure) {
   });
 }
 
+/// "fit a law that has such a term; or, for constants: measure them anew": for every assumption whose failure may
+/// be the departure, best explanation first.
+std::string what_would_help(const std::vector<Assumption>& departure, const Ledger& ledger) {
+  const bool is_like_speed = ledger.entry(stationarity).is_like_speed && drifts_or_has_speed(departure);
+  std::vector<std::string> helps = {
+      is_like_speed ? "measure a decay from another amplitude as well: a drift goes with time, friction over "
+                      "speed with the amplitude"
+                    : what_would_help(departure.front(), ledger.recorded)};
+  std::string text = helps.front();
+  const auto add = [&](Assumption assumption) {
+    if (is_like_speed && drifts_or_has_speed({assumption})) return;
+    std::string help = what_would_help(assumption, ledger.recorded);
+    if (std::ranges::find(helps, help) != helps.end()) return;
+    text += "; or, for " + std::string(name_of(assumption)) + ": " + help;
+    helps.push_back(std::move(help));
+  };
+  std::ranges::for_each(departure, add);
+  const LedgerEntry& first = ledger.entry(departure.front());
+  if (first.p_value)
+    for (const LedgerEntry* entry : harmless_beside(first, ledger)) add(entry->assumption);
+  return text;
+}
+
 /// Departures that a swing that is cut off can pretend.
 bool looks_clipped(const std::vector<Assumption>& departure) {
   return std::ranges::any_of(departure, [](Assumption assumption) {
@@ -169,20 +192,22 @@ std::string would_show(Assumption assumption, const Recorded& recorded) {
   return lacking.empty() ? "" : "; " + core::joined(lacking, " or ") + " would show it";
 }
 
+std::vector<const LedgerEntry*> harmless_beside(const LedgerEntry& violated, const Ledger& ledger) {
+  std::vector<const LedgerEntry*> beside;
+  for (const LedgerEntry& entry : ledger.entries)
+    if (entry.standing == Standing::holds && entry.p_value == violated.p_value && *entry.p_value < family_level)
+      beside.push_back(&entry);
+  return beside;
+}
+
 std::string what_would_help(const Ledger& ledger) {
   std::vector<std::string> helps;
   if (ledger.recorded.clipped && std::ranges::any_of(ledger.departures, looks_clipped))
     helps.emplace_back(
         "first leave out the part of the record that is clipped: clipping looks like friction or drift");
-  const bool is_like_speed = ledger.entry(stationarity).is_like_speed;
-  for (const std::vector<Assumption>& departure : ledger.departures) {
-    std::string help =
-        is_like_speed && drifts_or_has_speed(departure)
-            ? "measure a decay from another amplitude as well: a drift goes with time, friction over "
-              "speed with the amplitude"
-            : what_would_help(departure.front(), ledger.recorded);
-    if (std::ranges::find(helps, help) == helps.end()) helps.push_back(std::move(help));
-  }
+  for (const std::vector<Assumption>& departure : ledger.departures)
+    if (std::string help = what_would_help(departure, ledger); std::ranges::find(helps, help) == helps.end())
+      helps.push_back(std::move(help));
   return core::joined(helps, "; and ");
 }
 

@@ -3,6 +3,7 @@
 /// it has already.
 
 #include <string>
+#include <vector>
 
 #include "identify/ledger/ledger.hpp"
 
@@ -10,7 +11,11 @@ namespace dualdamp::identify {
 
 [[nodiscard]] Recorded recorded_in(const Record& record);
 
-/// For every departure that was found.
+/// Entries that violate nothing, but explain the departure of a violated entry as well: all explanations of a
+/// departure have its p.
+[[nodiscard]] std::vector<const LedgerEntry*> harmless_beside(const LedgerEntry& violated, const Ledger& ledger);
+
+/// For every departure that was found, and for everything that may be its cause.
 [[nodiscard]] std::string what_would_help(const Ledger& ledger);
 
 /// "; phases or a history would show it": what the record lacks to test an assumption; empty if it lacks nothing.

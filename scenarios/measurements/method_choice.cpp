@@ -68,10 +68,8 @@ void resolve_methods(CheckedFile& file, const std::vector<identify::Record>& rec
       const identify::MethodEntry& method = *identify::find_method(name);
       std::string lack = lack_of(method);
       if (lack.empty()) continue;
-      const bool of_pairs =
-          method.needs == identify::RecordKind::pairs || method.needs == identify::RecordKind::states;
       if (method.needs == identify::RecordKind::decay) lack += why_no_decay(records);
-      if (of_pairs) lack += why_no_pairs(records);
+      if (identify::reads_pairs(method.needs)) lack += why_no_pairs(records);
       file.complain("analysis.methods[" + std::to_string(i) + "]", "method '" + name + "' cannot be used: " + lack,
                     core::joined(fitting));
     }

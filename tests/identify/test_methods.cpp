@@ -20,6 +20,8 @@ TEST_CASE("The list of methods is sorted, complete and can be searched") {
   REQUIRE(list.size() >= 3);
   CHECK(std::is_sorted(list.begin(), list.end(),
                        [](const MethodEntry& a, const MethodEntry& b) { return a.name < b.name; }));
+  Record two_sweeps = pairs(table_1);
+  for (Pair& pair : two_sweeps.pairs->pairs) pair.sweep = pair.number % 2 == 0 ? "even" : "odd";
   for (const MethodEntry& method : list) {
     CAPTURE(method.name);
     CHECK(find_method(method.name) == &method);
@@ -32,6 +34,11 @@ TEST_CASE("The list of methods is sorted, complete and can be searched") {
     CHECK_FALSE(e.outcome.ok());
     CHECK(e.reason == method.lacks(Record{}));
     CHECK_FALSE(method.sources.empty());
+    if (!reads_pairs(method.needs)) continue;
+    // Amplitudes at one frequency, two sweeps, without phases: only the methods that need phases lack something.
+    CHECK((method.lacks(two_sweeps) == "the record holds no x-Y pairs with phases") ==
+          (method.needs == RecordKind::phases));
+    CHECK(method.lacks(two_sweeps).empty() == (method.needs != RecordKind::phases));
   }
   CHECK(find_method("free_decay")->needs == RecordKind::decay);
   CHECK(find_method("resonance_two_point")->needs == RecordKind::pairs);

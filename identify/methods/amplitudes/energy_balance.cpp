@@ -197,7 +197,7 @@ constinit const MethodEntry energy_balance_method{
         "quadratic term F-test, the bias where the mean square speed was not measured",
     .equation = "pi k Y X_1 sin(phi) = 4 F0 x + c integral v^2 dt over a period",
     .sources = "tomlinson1979, liang2006balancing",
-    .needs = RecordKind::states,
+    .needs = RecordKind::phases,
     .lacks = lacks_energy,
     .call = call_of<energy_balance>,
     .rests_on = AssumptionSet::all_but(Assumption::spring, Assumption::one_mode, Assumption::symmetry),

@@ -282,7 +282,7 @@ constinit const MethodEntry receptance_method{
         "bias of harmonic balance at the estimate, the limacon where the input was constant",
     .equation = "Im(k Y/X exp(i phi)) = c w + 4 F0/(pi X); Re = k - m w^2",
     .sources = "tomlinson1980",
-    .needs = RecordKind::states,
+    .needs = RecordKind::phases,
     .lacks = lacks_receptance,
     .call = call_of<receptance>,
     .rests_on = AssumptionSet::all_but(Assumption::spring, Assumption::one_mode, Assumption::symmetry),

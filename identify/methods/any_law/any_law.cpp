@@ -231,7 +231,7 @@ constinit const MethodEntry any_law_method{
     .equation =
         "hull and average over laws of the profile likelihood over severity, readings by the engines in time",
     .sources = "brynjarsdottir2014, pasquier2015, birge1932",
-    .needs = RecordKind::states,
+    .needs = RecordKind::readings,
     .lacks = lacks_readings,
     .call = call_of<any_law>,
     .rests_on = AssumptionSet::all_but(constants, spring, friction_velocity, friction_displacement),

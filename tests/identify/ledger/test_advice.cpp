@@ -38,6 +38,27 @@ TEST_CASE("Advice names nothing that the record has already") {
   CHECK(would_show(symmetry, {.states = true}) == "; a history or signed extremes would show it");
 }
 
+TEST_CASE("Advice names a remedy for everything that explains a departure as well, harmful or not") {
+  using enum Assumption;
+  const auto advice = [](const Ledger& tested) {
+    return concluded({estimate("energy_balance", 0.1, 4.0, 0.05)}, tested).reason;
+  };
+  const std::string measure =
+      "; or, for constants: leave out the stated stiffness or mass where the record determines "
+      "it, or measure them anew";
+  Ledger both = ledger({friction_velocity, constants});
+  CHECK(mentions(advice(both), "fit a law that has such a term" + measure));
+  // One remedy for two assumptions is named once.
+  CHECK_FALSE(mentions(advice(ledger({friction_velocity, friction_displacement})), "; or, for"));
+
+  Ledger harmless = ledger({friction_velocity});
+  CHECK_FALSE(mentions(advice(harmless), "; or, for"));
+  harmless.entry(constants).p_value = harmless.entry(friction_velocity).p_value;
+  CHECK(mentions(advice(harmless), "fit a law that has such a term" + measure));
+  harmless.entry(constants).p_value = 0.5;
+  CHECK_FALSE(mentions(advice(harmless), "; or, for"));
+}
+
 TEST_CASE(
     "Advice for a clipped record begins with the part to leave out, where clipping can pretend the departure") {
   using enum Assumption;
