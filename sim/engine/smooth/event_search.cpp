@@ -185,10 +185,18 @@ std::optional<EventSearch::Hit> EventSearch::find(const SmoothStep& step) {
   std::optional<Hit> first;
   for (std::size_t w = 0; w < watches_.size(); ++w) {
     const double part = first_negative(w, step);
-    if (part < 0.0 || (first && part >= first->part)) continue;
+    if (part < 0.0 || (first && (part >= first->part || cross_together(*first, part, step)))) continue;
     first = Hit{w, part};
   }
   return first;
+}
+
+/// Whether a guard that is found to cross a little later crosses at the same instant: a step that ends at `part`
+/// ends on both. A slider that stops with the mass is such a case: what its spring still gives up is rounding.
+/// Guards act in the order of the list then, the turn of the mass first, and rounding does not choose.
+bool EventSearch::cross_together(const Hit& later, double part, const SmoothStep& step) const {
+  return (later.part - part) * step.length <= resolution * step.longest &&
+         std::abs(value(later.guard, step, part)) <= zero(later.guard, 0.0);
 }
 
 bool EventSearch::has_faded() const {

@@ -8,7 +8,8 @@
 ///   every law is affine the exact engine does.
 /// Rounding. A velocity within 1e-13 of zero has not changed its sign: bristles that ring down to rounding make no
 ///   events. What counts as zero at the begin of an interval also depends on how
-///   well the step before knew the time of the mode change there.
+///   well the step before knew the time of the mode change there. Guards that cross at one instant, to rounding,
+///   act in the order of the list.
 ///
 /// It knows guards and steps only: it takes no step, and changes neither modes nor the state.
 ///
@@ -106,6 +107,7 @@ class EventSearch {
   [[nodiscard]] bool is_clearly_positive(std::size_t guard, const SmoothStep& step, double value) const;
   [[nodiscard]] double value_along_flow(std::size_t guard, const SmoothStep& step, double length, int steps) const;
   [[nodiscard]] bool goes_negative(std::size_t guard, const SmoothStep& step, double value, double level) const;
+  [[nodiscard]] bool cross_together(const Hit& later, double part, const SmoothStep& step) const;
   [[nodiscard]] double first_negative(std::size_t guard, const SmoothStep& step);
   [[nodiscard]] double dip(std::size_t guard, const SmoothStep& step, Triple around);
   [[nodiscard]] bool falls_at_edge(std::size_t guard, const SmoothStep& step, std::size_t edge,

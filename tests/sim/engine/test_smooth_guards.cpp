@@ -258,7 +258,7 @@ TEST_CASE("smooth engine: a slider is judged by its present speed, not by that o
                                                {"contact_stiffness", 875.9381759286968},
                                                {"contact_damping", 9.4794992477594e-13}})};
   model.initial = {.position = -3.3972312529691396e-05, .velocity = 6.686877781790962e-05};
-  for (const double tolerance : {1e-11, 1e-12, 1e-13}) {
+  for (const double tolerance : {1e-9, 3e-10, 1e-10, 3e-11, 1e-11, 3e-12, 1e-12, 1e-13, 3e-14}) {
     model.solver = {sim::SolverKind::implicit_steps, tolerance};
     const sim::History history = sim::simulate(model, {.duration = 30.0});
     CAPTURE(tolerance);
@@ -268,7 +268,7 @@ TEST_CASE("smooth engine: a slider is judged by its present speed, not by that o
       if (event.kind == sim::EventKind::reversal) ++reversals;
     }
     CHECK(reversals == 3);
-    // A slider stops with the mass: before a release from its limit there is a reversal at the same instant.
+    // A slider stops with the mass, and the turn of the mass acts first however the two crossings are rounded.
     REQUIRE(history.events.size() == 10);
     for (const std::size_t i : {1U, 4U, 7U}) {
       CHECK(history.events[i].kind == sim::EventKind::reversal);
