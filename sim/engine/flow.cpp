@@ -169,6 +169,11 @@ void Flow::evaluate(std::span<const double> X, double t, std::span<double> rates
     remember(i, now, t);
     force += respond(i, X, now, rates.subspan(first_[i], count_[i]));
   }
+  move(X, t, force, rates);
+}
+
+/// The rates of the mass on which friction acts with this force.
+void Flow::move(std::span<const double> X, double t, double force, std::span<double> rates) const {
   if (direction_ == Direction::none) {
     rates[0] = rates[1] = 0.0;
     return;
@@ -260,14 +265,21 @@ void Flow::differentiate_law(std::size_t i, std::size_t column, std::span<const 
 }
 
 void Flow::jacobian(std::span<const double> X, double t, std::span<double> columns) const {
-  differentiate(X, t, false, columns);
+  differentiate(X, t, false, {}, columns);
+}
+
+void Flow::linearize(std::span<const double> X, double t, std::span<double> rates,
+                     std::span<double> columns) const {
+  differentiate(X, t, false, rates, columns);
 }
 
 void Flow::close_jacobian(std::span<const double> X, double t, std::span<double> columns) const {
-  differentiate(X, t, true, columns);
+  differentiate(X, t, true, {}, columns);
 }
 
-void Flow::differentiate(std::span<const double> X, double t, bool closely, std::span<double> columns) const {
+/// Empty `rates` are not wanted.
+void Flow::differentiate(std::span<const double> X, double t, bool closely, std::span<double> rates,
+                         std::span<double> columns) const {
   const Oscillator& o = model_.oscillator;
   std::ranges::fill(columns, 0.0);
   if (direction_ != Direction::none) {
@@ -276,14 +288,18 @@ void Flow::differentiate(std::span<const double> X, double t, bool closely, std:
     columns[size_] = 1.0;
     columns[size_ + 1] = -o.damping / o.mass;
   }
+  double force = 0.0;
   for (std::size_t i = 0; i < first_.size(); ++i) {
     base_rates_.assign(count_[i], 0.0);
     displaced_rates_.assign(count_[i], 0.0);
     const double base = respond(i, X, instant(i, X, t), base_rates_);
+    force += base;
+    if (!rates.empty()) std::ranges::copy(base_rates_, rates.subspan(first_[i], count_[i]).begin());
     for (const std::size_t column : {std::size_t{0}, std::size_t{1}})
       differentiate_law(i, column, X, t, base, closely, columns);
     for (std::size_t k = 0; k < count_[i]; ++k) differentiate_law(i, first_[i] + k, X, t, base, closely, columns);
   }
+  if (!rates.empty()) move(X, t, force, rates);
 }
 
 /// Sum of the laws' forces.

@@ -46,6 +46,8 @@ class Flow final : public VectorField {
   [[nodiscard]] std::size_t size() const override { return size_; }
   void evaluate(std::span<const double> X, double t, std::span<double> rates) const override;
   void jacobian(std::span<const double> X, double t, std::span<double> columns) const override;
+  void linearize(std::span<const double> X, double t, std::span<double> rates,
+                 std::span<double> columns) const override;
   void close_jacobian(std::span<const double> X, double t, std::span<double> columns) const override;
 
   /// Number of evaluations of laws so far.
@@ -90,7 +92,9 @@ class Flow final : public VectorField {
               std::vector<double>& of_rates_and_force) const;
   void differentiate_law(std::size_t i, std::size_t column, std::span<const double> X, double t, double base,
                          bool closely, std::span<double> columns) const;
-  void differentiate(std::span<const double> X, double t, bool closely, std::span<double> columns) const;
+  void move(std::span<const double> X, double t, double force, std::span<double> rates) const;
+  void differentiate(std::span<const double> X, double t, bool closely, std::span<double> rates,
+                     std::span<double> columns) const;
 
   Model model_;
   const Drive& drive_;

@@ -25,9 +25,6 @@ constexpr std::size_t middle = radau_stages / 2;
 constexpr std::size_t speed = 1;
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
-/// The larger one; NaN if one of them is NaN.
-double larger(double a, double b) { return a >= b || std::isnan(a) ? a : b; }
-
 /// sum_j weights_j values_j
 double combine(const Row& weights, const Row& values) {
   double sum = 0.0;
@@ -48,8 +45,10 @@ class RadauStepper final : public Stepper {
         real_factors_(n),
         pair_factors_(make_pair_factors(n, std::make_index_sequence<pairs>{})) {
     if constexpr (N == any_size) {
-      for (State* state : {&start_, &end_, &state_, &slope_, &middle_state_, &probed_, &real_}) state->resize(n);
-      for (Stages* stages : {&polynomial_, &z_, &defect_, &correction_}) stages->resize(n);
+      for (State* state : {&start_, &end_, &state_, &slope_, &middle_state_, &middle_rates_, &probed_, &real_})
+        state->resize(n);
+      for (Stages* stages : {&polynomial_, &z_, &defect_, &correction_, &last_correction_, &last_move_})
+        stages->resize(n);
       pair_.resize(n);
     }
   }
@@ -59,11 +58,10 @@ class RadauStepper final : public Stepper {
                           std::span<double> error) override {
     const bool predicted = predict(t, h);
     if (!(predicted && solve(field, x, t, h, allowed))) {
-      std::ranges::fill(z_, Row{});
-      if (!solve(field, x, t, h, allowed)) {
-        begin_straight(field, x, t, h);
-        if (!solve(field, x, t, h, allowed)) return false;
-      }
+      if (predicted && skips_other_starts(t)) return false;
+      const bool solved = solve_from_other_starts(field, x, t, h, allowed);
+      if (predicted) note_other_starts(solved);
+      if (!solved) return false;
     }
     if (!estimate(field, x, t, h, error)) return false;
     for (std::size_t k = 0; k < n_(); ++k) end[k] = x[k] + z_[k].back();
@@ -101,6 +99,30 @@ class RadauStepper final : public Stepper {
   template <std::size_t... k>
   static std::array<LuFactors<Complex, N>, pairs> make_pair_factors(std::size_t n, std::index_sequence<k...>) {
     return {((void)k, LuFactors<Complex, N>(n))...};
+  }
+
+  /// A step that is too long for its prediction is mostly too long for the other starts as well; only creeps that
+  /// friction holds are solved from these. So after each time that they failed too they are left out for up to
+  /// seven failures, but not for a second one from the same time.
+  bool skips_other_starts(double t) {
+    if (skips_ == 0 || t == skipped_t_) return false;
+    --skips_;
+    skipped_t_ = t;
+    return true;
+  }
+
+  void note_other_starts(bool solved) {
+    constexpr int most_skips = 7;
+    patience_ = solved ? 0 : std::min(2 * patience_ + 1, most_skips);
+    skips_ = patience_;
+  }
+
+  bool solve_from_other_starts(const VectorField& field, std::span<const double> x, double t, double h,
+                               std::span<const double> allowed) {
+    std::ranges::fill(z_, Row{});
+    if (solve(field, x, t, h, allowed)) return true;
+    begin_straight(field, x, t, h);
+    return solve(field, x, t, h, allowed);
   }
 
   /// Predicts z from the last step's polynomial, also beyond its end; false if this step is not close enough to it.
@@ -173,11 +195,11 @@ class RadauStepper final : public Stepper {
                std::span<const double> allowed) {
     constexpr int most_iterations = 20;
     double before = 0.0;
+    double earlier = 0.0;  // contraction
     for (int iteration = 0; iteration < most_iterations; ++iteration) {
-      correct(field, x, t, h);
-      for (std::size_t k = 0; k < n_(); ++k)
-        for (std::size_t i = 0; i < radau_stages; ++i) z_[k][i] += correction_[k][i];
+      correct(field, x, t, h, iteration == 0);
       const double size = correction_size(x, allowed);
+      move(allowed, iteration == 0);
       if (!std::isfinite(size)) return Pace::lost;
       if (iteration == 0 && size <= 1.0) return Pace::converged;
       if (iteration > 0) {
@@ -186,11 +208,48 @@ class RadauStepper final : public Stepper {
         // At this rate it will not converge in time. A quick iteration may go on: its rate is below 0.1.
         if (contraction > 0.1 && size * std::pow(contraction, most_iterations - 1 - iteration) > 1.0)
           return Pace::slow;
-        if (size * std::min(1.0, contraction / (1.0 - contraction)) <= 1.0) return Pace::converged;
+        // A correction that acceleration made small may be followed by one that it does not.
+        const double surely = std::max(contraction, earlier);
+        if (size * std::min(1.0, surely / (1.0 - surely)) <= 1.0) return Pace::converged;
+        earlier = contraction;
       }
       before = size;
     }
     return Pace::slow;
+  }
+
+  /// Adds the correction to z. From the second iteration on, of all combinations of the last two iterates that one
+  /// whose correction is smallest (Anderson's acceleration, walker2011): where the Jacobian changes by tens of per
+  /// cent within the step, most of the error that an iteration leaves is along the last correction.
+  void move(std::span<const double> allowed, bool is_first) {
+    const double share = is_first ? 0.0 : share_of_last(allowed);
+    for (std::size_t k = 0; k < n_(); ++k) {
+      for (std::size_t i = 0; i < radau_stages; ++i) {
+        const double correction = correction_[k][i];
+        double moved = correction;
+        if (share != 0.0) moved -= share * (last_move_[k][i] + correction - last_correction_[k][i]);
+        last_correction_[k][i] = correction;
+        last_move_[k][i] = moved;
+        z_[k][i] += moved;
+      }
+    }
+  }
+
+  /// The share of the last iterate in that combination. 0 if more than as much again would have to be added.
+  [[nodiscard]] double share_of_last(std::span<const double> allowed) const {
+    double product = 0.0;
+    double square = 0.0;
+    for (std::size_t k = 0; k < n_(); ++k) {
+      const double unit = 1.0 / allowed[k];
+      for (std::size_t i = 0; i < radau_stages; ++i) {
+        const double correction = unit * correction_[k][i];
+        const double change = unit * (correction_[k][i] - last_correction_[k][i]);
+        product += change * correction;
+        square += change * change;
+      }
+    }
+    const double share = product / square;
+    return std::abs(share) < 1.0 ? share : 0.0;
   }
 
   /// Whether the middle of the step is far from the state at which the Jacobian was taken, relative to that state.
@@ -206,7 +265,7 @@ class RadauStepper final : public Stepper {
   /// whose factors are kept.
   bool factorise(const VectorField& field, std::span<const double> x, double t, double h, double closeness) {
     for (std::size_t k = 0; k < n_(); ++k) middle_state_[k] = x[k] + z_[k][middle];
-    field.jacobian(middle_state_, t + radau_.nodes[middle] * h, jacobian_);
+    field.linearize(middle_state_, t + radau_.nodes[middle] * h, middle_rates_, jacobian_);
     const auto close = [&](double a, double b) { return std::abs(a - b) <= closeness * std::abs(b); };
     if (h == factored_h_ && std::ranges::equal(jacobian_, factored_jacobian_, close)) return false;
     factored_h_ = h;
@@ -217,13 +276,17 @@ class RadauStepper final : public Stepper {
     return true;
   }
 
-  /// The correction of one iteration.
-  void correct(const VectorField& field, std::span<const double> x, double t, double h) {
+  /// The correction of one iteration; z is as it was for the Jacobian in the first one.
+  void correct(const VectorField& field, std::span<const double> x, double t, double h, bool is_first) {
     operations_ += real_matrices * static_cast<long>(n_() * n_());
     for (std::size_t i = 0; i < radau_stages; ++i) {
-      set_state_at_stage(x, i);
-      field.evaluate(state_, t + radau_.nodes[i] * h, slope_);
-      for (std::size_t k = 0; k < n_(); ++k) defect_[k][i] = slope_[k];
+      const bool is_known = is_first && i == middle;
+      if (!is_known) {
+        set_state_at_stage(x, i);
+        field.evaluate(state_, t + radau_.nodes[i] * h, slope_);
+      }
+      const State& slope = is_known ? middle_rates_ : slope_;
+      for (std::size_t k = 0; k < n_(); ++k) defect_[k][i] = slope[k];
     }
     const double rate = 1.0 / h;
     for (std::size_t k = 0; k < n_(); ++k)
@@ -264,19 +327,23 @@ class RadauStepper final : public Stepper {
   }
 
   /// The largest component of the correction in units of its tolerance: a thousandth of `allowed`, or round-off.
+  /// Not finite if a component is not, which std::max would pass over.
   [[nodiscard]] double correction_size(std::span<const double> x, std::span<const double> allowed) const {
     double size = 0.0;
+    double sum = 0.0;
     for (std::size_t k = 0; k < n_(); ++k) {
       double change = 0.0;
       double reach = 0.0;
       for (std::size_t i = 0; i < radau_stages; ++i) {
-        change = larger(change, std::abs(correction_[k][i]));
+        const double correction = std::abs(correction_[k][i]);
+        sum += correction;
+        change = std::max(change, correction);
         reach = std::max(reach, std::abs(z_[k][i]));
       }
       const double left = std::max(1e-3 * allowed[k], 16.0 * epsilon * (std::abs(x[k]) + reach));
-      size = larger(size, change / left);
+      size = std::max(size, change / left);
     }
-    return size;
+    return std::isfinite(sum) ? size : sum;
   }
 
   /// The defect of the polynomial at the start of the step, f(x, t) - u'(0)/h, times (gamma/h - J)^-1, which damps
@@ -296,13 +363,20 @@ class RadauStepper final : public Stepper {
   State start_{};
   State end_{};
   Stages polynomial_{};
+  // Failures of the prediction.
+  int patience_ = 0;
+  int skips_ = 0;  ///< so many failures without other starts
+  double skipped_t_ = std::numeric_limits<double>::quiet_NaN();
   // The iteration.
   Stages z_{};
   Stages defect_{};  ///< f - u'
   Stages correction_{};
+  Stages last_correction_{};
+  Stages last_move_{};  ///< what the last iteration added to z
   State state_{};
   State slope_{};
   State middle_state_{};  ///< where the Jacobian was taken
+  State middle_rates_{};
   State probed_{};
   Row speed_defect_{};  ///< at the stages before the last correction
   State real_{};

@@ -8,7 +8,9 @@
 ///
 /// The engine decides step sizes, restarts and events. The result of a stepper depends only on the arguments of
 /// `step`, and smoothly on x; earlier steps only save time. (The implicit method solves its equations to a
-/// thousandth of `allowed`, or to round-off if that is larger.)
+/// thousandth of `allowed`, or to round-off if that is larger. Where other starts of
+/// its iterations failed as well the last times, a step whose prediction fails is given up at once, until it is
+/// tried again from the same time.)
 
 #include <algorithm>
 #include <cstddef>
@@ -25,7 +27,13 @@ class VectorField {
   virtual void evaluate(std::span<const double> x, double t, std::span<double> rates) const = 0;
   /// df_i/dx_j, column by column. It affects the speed of the implicit method, not the solution.
   virtual void jacobian(std::span<const double> x, double t, std::span<double> columns) const = 0;
-  /// The same as closely as the field is known: what a perturbation of the motion follows.
+  /// Both at once: differences start from the rates.
+  virtual void linearize(std::span<const double> x, double t, std::span<double> rates,
+                         std::span<double> columns) const {
+    evaluate(x, t, rates);
+    jacobian(x, t, columns);
+  }
+  /// The Jacobian as closely as the field is known: what a perturbation of the motion follows.
   virtual void close_jacobian(std::span<const double> x, double t, std::span<double> columns) const {
     jacobian(x, t, columns);
   }

@@ -40,6 +40,11 @@ constexpr double slow_part = 0.01;
 /// A dependence that changes by less over the step matters to no state, relative to the sizes of both.
 constexpr double sharp_change = 0.01;
 
+/// A step goes this much beyond the turn that the loss of speed leads to expect, so that it finds the turn. The
+/// loss of speed leads to a turn if it is more than this part of that in the step before.
+constexpr double beyond_turn = 1.05;
+constexpr double steady_loss = 0.8;
+
 /// Steps shorter than this part of the longest one are not shortened further.
 constexpr double shortest_with_turn = 1e-9;
 
@@ -87,7 +92,7 @@ double Steps::longest(double t) const {
 
 void Steps::begin_motion() {
   kinks_.clear();
-  proposed_ = 0.0;
+  proposed_ = proposed_at_turn_ = 0.0;
   counted_to_ = 0.0;
 }
 
@@ -151,6 +156,7 @@ bool Steps::make_implicit() {
   if (is_implicit_ || model_.solver.kind != SolverKind::automatic) return false;
   is_implicit_ = true;
   stepper_ = make_implicit_stepper();
+  proposed_at_turn_ = 0.0;
   limit();
   return true;
 }
@@ -180,20 +186,39 @@ bool Steps::are_too_many(double now) {
   return ++count_ > most_in_period || standing_ > most_at_instant;
 }
 
+/// When the speed is zero if it goes on to fall as in the last step [s]. Beyond its turn a step runs on a
+/// continuation of the branch on which friction may be far steeper than on the motion: bristles grow there instead
+/// of yielding, and the step is refused for what the motion never meets. A speed that decays has no turn: its loss
+/// falls from step to step. Nor is a turn to be expected from a speed below what a step resolves.
+double Steps::time_to_turn() const {
+  if (!(std::abs(begin_[1]) > allowed_[1])) return infinity;
+  if (!(loss_of_speed_ > 0.0 && earlier_loss_ > 0.0 && loss_of_speed_ > steady_loss * earlier_loss_))
+    return infinity;
+  return std::abs(begin_[1]) / loss_of_speed_;
+}
+
 Steps::Result Steps::advance(double t, double now, double left) {
   t_ = t;
   // The dense output of a step is needed until the next one: the method changes only here.
   const bool hold_off = proposed_ == 0.0 && !is_implicit_ && begins_stiff();
   if ((hold_off || stiff_steps_.are_many()) && make_implicit()) proposed_ = 0.0;
-  if (proposed_ == 0.0) proposed_ = first();
+  if (proposed_ == 0.0) {
+    proposed_ = first();
+    // What is fast before a turn is as fast behind it.
+    if (proposed_at_turn_ > 0.0 && flow_.direction() != friction::Direction::none)
+      proposed_ = std::min(proposed_, proposed_at_turn_);
+    loss_of_speed_ = earlier_loss_ = part_of_way_ = 0.0;
+  }
   allowed_.resize(begin_.size());
   for (std::size_t k = 0; k < begin_.size(); ++k)
     allowed_[k] = model_.solver.tolerance * (std::abs(begin_[k]) + flow_.scales()[k]);
   const double most = longest(t_);
+  const double to_turn = time_to_turn();
+  if (part_of_way_ > 0.0 && to_turn < infinity) proposed_ = std::min(proposed_, part_of_way_ * to_turn);
   bool rejected = false;
   for (int i = 0; i < most_tries; ++i) {
     if (are_too_many(now)) return Result::too_many;
-    double h = std::min(proposed_, most);
+    double h = std::min({proposed_, most, beyond_turn * to_turn});
     // No tiny step is left over at the end.
     if (1.01 * h >= left) {
       h = left;
@@ -207,6 +232,11 @@ Steps::Result Steps::advance(double t, double now, double left) {
       length_ = h;
       const double next = h * std::clamp(ideal, largest_cut, rejected ? 1.0 : largest_growth);
       proposed_ = h < proposed_ ? std::max(proposed_, next) : next;
+      // See part_of_way_. Explicit steps, under friction that is steep at fixed speeds, would only be shorter.
+      if (is_implicit_ && to_turn < infinity && (rejected || part_of_way_ > 0.0))
+        part_of_way_ = h * std::min(ideal, largest_growth) / to_turn;
+      earlier_loss_ = loss_of_speed_;
+      loss_of_speed_ = friction::sign(flow_.direction()) * (begin_[1] - end_[1]) / h;
       if (!is_implicit_) stiff_steps_.add(stepper_->stiffness());
       return Result::taken;
     }
@@ -226,6 +256,7 @@ bool Steps::repeat(double length) {
 
 void Steps::go_on(bool at_slip_end) {
   begin_ = end_;
+  proposed_at_turn_ = at_slip_end ? proposed_ : 0.0;
   if (!at_slip_end) return;
   begin_[1] = 0.0;
   for (const friction::Law& law : model_.friction) {

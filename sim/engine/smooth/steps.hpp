@@ -6,7 +6,7 @@
 ///   (`stepper.hpp`); the engine asks for it where a step passes over a creep.
 /// Length. Of the local error in each component, |error| <= tolerance (|X| + size). At most an eighth of the
 ///   shortest period, so that five points show every minimum of a guard; as long as the shortest delay of a law;
-///   up to the next kink of a delayed velocity.
+///   up to the next kink of a delayed velocity, and hardly beyond the turn that the loss of speed leads to expect.
 /// Number. At most 300,000 in a shortest period, and 3,000 at one instant; rejected ones count.
 ///
 /// They know the flow only, with its branch frozen: no guards and no events.
@@ -83,6 +83,7 @@ class Steps {
   [[nodiscard]] bool are_too_many(double now);
   [[nodiscard]] bool begins_stiff();
   [[nodiscard]] double first();
+  [[nodiscard]] double time_to_turn() const;
   [[nodiscard]] double excess_error() const;
   [[nodiscard]] bool hides_turn(bool at_end);
   void limit();
@@ -94,11 +95,18 @@ class Steps {
   StiffSteps stiff_steps_;
   std::vector<double> frequencies_;  ///< of the drive [rad/s]
   double shortest_period_ = 0.0;
-  double longest_ = 0.0;       ///< step, apart from kinks [s]
-  std::vector<double> kinks_;  ///< of a delayed velocity: local times [s]
-  double proposed_ = 0.0;      ///< length of the next step [s]; 0: none
-  double t_ = 0.0;             ///< local time at the begin of the step [s]
-  double length_ = 0.0;        ///< s
+  double longest_ = 0.0;           ///< step, apart from kinks [s]
+  std::vector<double> kinks_;      ///< of a delayed velocity: local times [s]
+  double proposed_ = 0.0;          ///< length of the next step [s]; 0: none
+  double proposed_at_turn_ = 0.0;  ///< proposed_ of a step that ended on a reversal just now [s]; 0: none
+  /// Of the time to the turn: what a step may take at the errors of the last one; 0: no step was refused on the
+  /// way. Under friction that depends on the ratio of two speeds the steps of equal error shorten in proportion to
+  /// the speed, and of steps that are to be as long as the last one every second is refused.
+  double part_of_way_ = 0.0;
+  double loss_of_speed_ = 0.0;  ///< mean over the last step [m/s^2]; 0: none in this interval
+  double earlier_loss_ = 0.0;   ///< over the step before
+  double t_ = 0.0;              ///< local time at the begin of the step [s]
+  double length_ = 0.0;         ///< s
   std::vector<double> begin_;
   std::vector<double> end_;
   std::vector<double> error_;

@@ -73,7 +73,9 @@ TEST_CASE("smooth engine: the error of a creeping speed makes no acceleration of
           "[sim][smooth][derivative]") {
   // A dashpot that forgets a speed within 1e-9 s holds the mass at the begin and the end of the period. In between
   // it reverses twice. The expected values are those of the variational equations by another integrator (SciPy's
-  // Radau at 1e-10); entries below 1e-8 are at most 1e-9 there.
+  // Radau at 1e-10); entries below 1e-6 are at most 1e-9 there. That of the speed at the begin depends on where the
+  // steps lie in the creep: at a hundred tolerances from 1e-13 to 1e-9 it is 3e-8 in the median. With the error of
+  // the speed it is 4e-5.
   sim::Model model;
   model.oscillator = {
       .mass = 0.5810581426852638, .stiffness = 0.04863080134767088, .damping = 0.013114710200268493};
@@ -95,7 +97,7 @@ TEST_CASE("smooth engine: the error of a creeping speed makes no acceleration of
   CHECK(monodromy(0, 2) == Approx(-5.73689e-6).epsilon(1e-5));
   CHECK(monodromy(2, 2) == Approx(0.003578686).epsilon(1e-5));
   CHECK(std::abs(monodromy(1, 0)) < 1e-8);
-  CHECK(std::abs(monodromy(0, 1)) < 1e-8);
+  CHECK(std::abs(monodromy(0, 1)) < 1e-6);
   CHECK(std::abs(monodromy(1, 1)) < 1e-12);
 }
 

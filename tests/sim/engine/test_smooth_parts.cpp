@@ -170,6 +170,68 @@ TEST_CASE("smooth parts: steps follow a linear motion, and are repeated shorter"
   CHECK(count > Steps::most_at_instant);
 }
 
+TEST_CASE("smooth parts: a step that meets a turn ends just beyond it", "[sim][smooth]") {
+  const IntervalAlone slip(free_system(law("coulomb", {{"kinetic", 2.0}})), Direction::forward);
+  Steps steps(slip.model, slip.drive, slip.flow);
+  steps.begin_motion();
+  steps.begin_interval(0.1, 0.12, slip.memories);
+  // About -F/k: v = 0.12 cos(w t) - 1.2 sin(w t).
+  const double turn = std::atan(0.1) / 10.0;
+  double t = 0.0;
+  while (t < 0.4 * turn) {
+    REQUIRE(steps.advance(t, t, 0.4 * turn - t) == Steps::Result::taken);
+    t += steps.length();
+    steps.go_on(false);
+  }
+  REQUIRE(steps.advance(t, t, 1.0) == Steps::Result::taken);
+  CHECK(steps.end()[1] < 0.0);
+  CHECK(t + steps.length() < turn + 0.1 * steps.length());
+}
+
+TEST_CASE("smooth parts: few steps about a turn are refused where friction depends on the ratio of speeds",
+          "[sim][smooth]") {
+  sim::Model model = free_system(law("rate_state", {{"normal_force", 10.0},
+                                                    {"mu0", 0.2},
+                                                    {"a", 0.02},
+                                                    {"b", 0.015},
+                                                    {"slip_distance", 1e-3},
+                                                    {"reference_velocity", 0.01}}));
+  model.solver = {sim::SolverKind::implicit_steps, 2e-7};
+  IntervalAlone slip(model, Direction::forward);
+  Steps steps(slip.model, slip.drive, slip.flow);
+  steps.begin_motion();
+  steps.begin_interval(0.0, 1.0, slip.memories);
+  double t = 0.0;
+  const auto evaluations_until = [&](double speed) {
+    const long before = slip.flow.responses();
+    for (;;) {
+      REQUIRE(steps.advance(t, t, 1.0) == Steps::Result::taken);
+      if (steps.end()[1] < speed) return slip.flow.responses() - before;
+      t += steps.length();
+      steps.go_on(false);
+    }
+  };
+  // 30 steps; 1120 evaluations where each step may be as long as the last one.
+  CHECK(evaluations_until(0.0) < 700);
+  // The turn: where the last step ends if it is shortened to it.
+  double low = 0.0;
+  double high = steps.length();
+  for (int i = 0; i < 60; ++i) {
+    const double middle = 0.5 * (low + high);
+    REQUIRE(steps.repeat(middle));
+    (steps.end()[1] > 0.0 ? low : high) = middle;
+  }
+  t += steps.length();
+  const double x = steps.end()[0];
+  steps.go_on(true);
+  slip.flow.scatter(steps.begin(), slip.memories);
+  slip.flow.freeze(slip.memories, Direction::backward, 0.0);
+  steps.begin_interval(x, 0.0, slip.memories);
+  steps.propose(0.0);
+  // 7 steps; 215 evaluations where nothing is known at the turn.
+  CHECK(evaluations_until(-0.01) < 170);
+}
+
 TEST_CASE("smooth parts: steps end at the kinks of a delayed velocity", "[sim][smooth]") {
   constexpr double lag = 0.03;
   const IntervalAlone slip(free_system(friction::Law(LateLevel{lag})), Direction::forward);
