@@ -14,6 +14,10 @@ namespace dualdamp::identify {
 
 namespace {
 
+constexpr std::size_t longest_blow = 64;
+/// Largest relative error of the impulse of a spline through n samples of a half sine, times n^2.
+constexpr double half_sine_error = 0.8;
+
 /// Whether a force about zero is no more than noise of this level, or of its own.
 bool is_quiet(const std::vector<double>& force, double peak) {
   constexpr std::size_t fewest = 8;
@@ -36,19 +40,25 @@ double range_of(std::span<const double> x) {
 /// Whether the impulse of a blow of `length` samples is less known than the motion after it.
 bool is_short(std::size_t length, const std::vector<double>& x) {
   constexpr std::size_t always = 12;
-  constexpr std::size_t longest = 64;
-  if (length <= always || length > longest) return length <= always;
+  if (length <= always) return true;
   const auto n = static_cast<double>(length);
   const double noise = 2.0 * robust_noise_level(x) / range_of(x);
-  return 0.8 / (n * n) > noise * std::sqrt(8.0 / static_cast<double>(x.size()));
+  return half_sine_error / (n * n) > noise * std::sqrt(8.0 / static_cast<double>(x.size()));
 }
 
-}  // namespace
+/// `feet`: samples on each side of the blow that may belong to it.
+bool is_quiet_outside(const std::vector<double>& pushes, const ShortBlow& blow, std::size_t feet, double peak) {
+  const std::size_t rise = blow.first - std::min(blow.first, feet);
+  const std::vector<double> before(pushes.begin(), pushes.begin() + static_cast<std::ptrdiff_t>(rise));
+  const std::vector<double> after(pushes.begin() + static_cast<std::ptrdiff_t>(blow.end), pushes.end());
+  return is_quiet(before, peak) && is_quiet(after, peak);
+}
 
-std::optional<ShortBlow> short_blow(const std::vector<double>& force, const std::vector<double>& x) {
+/// The only blow of a force that is quiet otherwise, if it has this many samples or fewer.
+std::optional<ShortBlow> only_blow(const std::vector<double>& force, std::size_t longest) {
   constexpr std::size_t fewest = 32;
   constexpr double foot = 0.1;
-  if (force.size() < fewest || force.size() != x.size()) return std::nullopt;
+  if (force.size() < fewest) return std::nullopt;
   const double zero = upper_median(force);
   std::vector<double> pushes(force.size());
   std::ranges::transform(force, pushes.begin(), [zero](double value) { return value - zero; });
@@ -58,21 +68,62 @@ std::optional<ShortBlow> short_blow(const std::vector<double>& force, const std:
   const auto is_high = [&](double push) { return std::abs(push) > foot * peak; };
   const auto begin = std::ranges::find_if(pushes, is_high);
   const auto last = std::find_if(pushes.rbegin(), pushes.rend(), is_high).base();  // one behind it
-  const auto length = static_cast<std::size_t>(last - begin);
-  if (begin == pushes.begin() || !is_short(length, x)) return std::nullopt;
-  ShortBlow blow{.first = static_cast<std::size_t>(begin - pushes.begin())};
-  blow.last = blow.first + length - 1;
+  ShortBlow blow{.first = static_cast<std::size_t>(begin - pushes.begin()),
+                 .last = static_cast<std::size_t>(last - pushes.begin()) - 1};
+  if (blow.first == 0 || blow.samples() > longest) return std::nullopt;
   // Of a half sine a fifteenth of its length is below a tenth of its peak.
-  const std::size_t feet = 2 + length / 4;
+  const std::size_t feet = 2 + blow.samples() / 4;
   blow.end = blow.last + 1 + feet;
-  if (2 * blow.end > pushes.size()) return std::nullopt;
-  constexpr double most_of_motion = 0.5;
-  if (range_of(std::span(x).subspan(blow.end)) < most_of_motion * range_of(x)) return std::nullopt;
-  const std::size_t rise = blow.first - std::min(blow.first, feet);
-  const std::vector<double> before(pushes.begin(), pushes.begin() + static_cast<std::ptrdiff_t>(rise));
-  const std::vector<double> after(pushes.begin() + static_cast<std::ptrdiff_t>(blow.end), pushes.end());
-  if (!is_quiet(before, peak) || !is_quiet(after, peak)) return std::nullopt;
+  if (2 * blow.end > pushes.size() || !is_quiet_outside(pushes, blow, feet, peak)) return std::nullopt;
   return blow;
+}
+
+std::string blow_text(const History& history, const ShortBlow& blow) {
+  constexpr int digits = 4;
+  const double time = history.start + static_cast<double>(blow.first) / history.sample_rate;
+  return "the blow of force at t = " + core::format_number(time, digits) + " s has " +
+         std::to_string(blow.samples()) + (blow.samples() == 1 ? " sample" : " samples");
+}
+
+}  // namespace
+
+std::optional<ShortBlow> short_blow(const std::vector<double>& force, const std::vector<double>& x) {
+  if (force.size() != x.size()) return std::nullopt;
+  const std::optional<ShortBlow> blow = only_blow(force, longest_blow);
+  constexpr double most_of_motion = 0.5;
+  const bool is_followed = blow && range_of(std::span(x).subspan(blow->end)) >= most_of_motion * range_of(x);
+  return is_followed && is_short(blow->samples(), x) ? blow : std::nullopt;
+}
+
+std::optional<ShortBlow> short_blow(const History& history) {
+  if (!history.x.empty()) return short_blow(history.force, history.x);
+  if (!history.v.empty()) return short_blow(history.force, history.v);
+  std::vector<double> a = history.a;
+  const std::optional<ShortBlow> blow = only_blow(history.force, longest_blow);
+  if (!blow || a.size() != history.force.size()) return std::nullopt;
+  // The blow accelerates the mass far more than the spring does later.
+  const std::size_t rise = blow->first - std::min(blow->first, blow->end - blow->last);
+  std::fill(a.begin() + static_cast<std::ptrdiff_t>(rise), a.begin() + static_cast<std::ptrdiff_t>(blow->end),
+            a[blow->end]);
+  return short_blow(history.force, a);
+}
+
+std::string impulse_warning(const History& history, const ShortBlow& blow) {
+  const auto n = static_cast<double>(blow.samples());
+  return blow_text(history, blow) + ": its impulse may be wrong by " + core::percent(half_sine_error / (n * n), 2) +
+         ", and the estimates by as much or more";
+}
+
+std::vector<std::string> leave_out_short_blow(History& history, const ShortBlow& blow) {
+  std::vector<std::string> warnings = {
+      blow_text(history, blow) +
+      ", too few to know its impulse: force is left out, and the motion after it is read as a free vibration"};
+  history.force.clear();
+  if (std::string kept =
+          keep_free_motion(history, blow.end, std::max({history.x.size(), history.v.size(), history.a.size()}));
+      !kept.empty())
+    warnings.push_back(std::move(kept));
+  return warnings;
 }
 
 std::vector<std::string> leave_out_short_blows(std::vector<History>& histories) {
@@ -81,18 +132,8 @@ std::vector<std::string> leave_out_short_blows(std::vector<History>& histories) 
     if (!history.y.empty()) continue;
     const std::optional<ShortBlow> blow = short_blow(history.force, history.x);
     if (!blow) continue;
-    constexpr int digits = 4;
-    const double time = history.start + static_cast<double>(blow->first) / history.sample_rate;
-    const std::size_t count = blow->last - blow->first + 1;
-    std::string warning = history.sweep.empty() ? "" : "test '" + history.sweep + "': ";
-    warning +=
-        "the blow of force at t = " + core::format_number(time, digits) + " s has " + std::to_string(count) +
-        (count == 1 ? " sample" : " samples") +
-        ", too few to know its impulse: force is left out, and the motion after it is read as a free vibration";
-    history.force.clear();
-    warnings.push_back(std::move(warning));
-    if (std::string kept = keep_free_motion(history, blow->end, history.x.size()); !kept.empty())
-      warnings.push_back((history.sweep.empty() ? "" : "test '" + history.sweep + "': ") + std::move(kept));
+    for (const std::string& warning : leave_out_short_blow(history, *blow))
+      warnings.push_back((history.sweep.empty() ? "" : "test '" + history.sweep + "': ") + warning);
   }
   return warnings;
 }

@@ -28,10 +28,22 @@ struct ShortBlow {
   std::size_t first = 0;  ///< first sample of the blow
   std::size_t last = 0;   ///< its last sample
   std::size_t end = 0;    ///< first sample of the motion after it
+
+  [[nodiscard]] std::size_t samples() const { return last - first + 1; }
 };
 
 /// `x`: the motion, as many samples.
 [[nodiscard]] std::optional<ShortBlow> short_blow(const std::vector<double>& force, const std::vector<double>& x);
+
+/// By the first measured signal of x, v and a. Of a, the samples within the blow do not count: the force itself
+/// makes them large.
+[[nodiscard]] std::optional<ShortBlow> short_blow(const History& history);
+
+/// By how much the impulse of the interpolated force may be wrong, where the force cannot be left out.
+[[nodiscard]] std::string impulse_warning(const History& history, const ShortBlow& blow);
+
+/// Leaves out the force, and the samples up to the end of the blow. Returns what was done, in sentences.
+[[nodiscard]] std::vector<std::string> leave_out_short_blow(History& history, const ShortBlow& blow);
 
 /// Leaves out the force of a short blow, and the samples up to its end, of each history whose base is at rest.
 /// Returns a warning for each of them.

@@ -33,6 +33,8 @@ struct DataPlace {
 struct RecordDrive {
   sim::Excitation drive;  ///< its samples begin with the history
   Json section;           ///< `excitation` of a scenario with this drive
+  /// The history holds a free vibration after a blow of force; the blow is left out.
+  bool follows_blow = false;
 };
 
 /// A data file of an analysis that takes several.

@@ -2,6 +2,7 @@
 
 import cmath
 import math
+import random
 import struct
 
 MASS, STIFFNESS, ZETA, FRICTION = 1.042, 1568.0, 0.12, 3.7
@@ -58,6 +59,46 @@ def decay(times, rig=SLOW, start=0.1, held=0.0):
         tail = math.exp(-rig["zeta"] * omega * s) * (math.cos(damped * s) + rig["zeta"] * omega / damped * math.sin(damped * s))
         values.append(middle + (extremes[int(n)] - middle) * tail)
     return values
+
+
+def forced(force, rate, count, rig):
+    """t, x, v, a and force of a mass that begins at rest: Runge and Kutta between the rests of rigid friction."""
+    mass, stiffness, damping, friction, static = (rig[name] for name in ("mass", "stiffness", "damping", "friction", "static"))
+    steps = 40
+    h = 1 / rate / steps
+
+    def slope(t, x, v, side):
+        return v, (force(t) - stiffness * x - damping * v - side * friction) / mass
+
+    x = v = 0.0
+    side = 0  # 0: at rest
+    rows = []
+    for i in range(count * steps):
+        t = i * h
+        if side == 0 and abs(force(t) - stiffness * x) > static:
+            side = 1 if force(t) > stiffness * x else -1
+        if i % steps == 0:
+            rows.append((t, x, v, slope(t, x, v, side)[1] if side else 0.0, force(t)))
+        if side == 0:
+            continue
+        k1 = slope(t, x, v, side)
+        k2 = slope(t + h / 2, x + h / 2 * k1[0], v + h / 2 * k1[1], side)
+        k3 = slope(t + h / 2, x + h / 2 * k2[0], v + h / 2 * k2[1], side)
+        k4 = slope(t + h, x + h * k3[0], v + h * k3[1], side)
+        x += h / 6 * (k1[0] + 2 * k2[0] + 2 * k3[0] + k4[0])
+        v += h / 6 * (k1[1] + 2 * k2[1] + 2 * k3[1] + k4[1])
+        if side * v < 0.0:
+            rest = abs(force(t + h) - stiffness * x) <= static
+            side = 0 if rest else -side
+            v = 0.0 if rest else v
+    return rows
+
+
+def rough(values, share=5e-4, seed=11):
+    """With noise of this share of the largest value."""
+    draws = random.Random(seed)
+    size = max(map(abs, values)) * share
+    return [value + draws.gauss(0.0, size) for value in values]
 
 
 def table(head, rows, separator=",", form="{:.6f}", end="\n", comma=False):

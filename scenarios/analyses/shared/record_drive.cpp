@@ -11,6 +11,7 @@
 #include "core/numbers.hpp"
 #include "identify/experiments/drive_values.hpp"
 #include "identify/statistics/noise_level.hpp"
+#include "scenarios/analyses/shared/short_blows.hpp"
 #include "scenarios/format/excitations.hpp"
 #include "scenarios/format/limits.hpp"
 #include "scenarios/measurements/drives.hpp"
@@ -304,11 +305,14 @@ void take_recorded_drives(CheckedFile& file, bool is_open) {
         drives[h] = RecordDrive{{}, {{"type", "none"}}};
         file.files[i].data.record.histories[h].y.clear();
         file.files[i].data.record.histories[h].force.clear();
+      } else if (std::optional<RecordDrive> after = drive_after_blow(file, file.files[i], h, column)) {
+        drives[h] = std::move(after);
       } else if (!column.empty() && !(alone && take_as_excitation(file, item, histories[h], column))) {
         drives[h] = own_drive(file, item, places[i], histories[h], column);
       }
     }
   }
+  withdraw_idle_blow(file);
 }
 
 std::vector<std::string> undriven_warnings(const std::vector<DataItem>& items, const sim::Model& model) {

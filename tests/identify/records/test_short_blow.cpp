@@ -156,3 +156,34 @@ TEST_CASE("A history without a short blow is left as it is") {
     CHECK(histories[i].x == before[i].x);
   }
 }
+
+TEST_CASE("A velocity or an acceleration shows a short blow, and the error of its impulse is told") {
+  const History struck_x = struck(light(), 1.6, 1e-3, 3);
+  const double step = 1.0 / struck_x.sample_rate;
+  History history = struck_x;
+  history.x.clear();
+  for (std::size_t i = 0; i < struck_x.x.size(); ++i) {
+    const std::size_t last = struck_x.x.size() - 1;
+    const std::size_t before = i > 0 ? i - 1 : 0;
+    const std::size_t after = std::min(i + 1, last);
+    history.v.push_back((struck_x.x[after] - struck_x.x[before]) / (step * static_cast<double>(after - before)));
+  }
+  const std::optional<ShortBlow> by_speed = short_blow(history);
+  REQUIRE(by_speed);
+  const testing::Rig rig = light();
+  history.v.clear();
+  for (std::size_t i = 0; i < struck_x.x.size(); ++i)
+    history.a.push_back((struck_x.force[i] - rig.k * struck_x.x[i]) / rig.m);
+  // The blow makes the acceleration many times larger than the spring does later.
+  CHECK_FALSE(short_blow(history.force, history.a));
+  const std::optional<ShortBlow> by_acceleration = short_blow(history);
+  REQUIRE(by_acceleration);
+  CHECK(by_acceleration->first == by_speed->first);
+  CHECK(by_acceleration->end == by_speed->end);
+  CHECK_THAT(impulse_warning(history, *by_acceleration),
+             Catch::Contains(" s has 1 sample: its impulse may be wrong by 80 %"));
+  const std::size_t size = history.a.size();
+  CHECK(leave_out_short_blow(history, *by_acceleration).size() == 2);
+  CHECK(history.force.empty());
+  CHECK(history.a.size() == size - by_speed->end);
+}
