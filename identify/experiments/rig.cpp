@@ -222,6 +222,20 @@ void find_beside(const FitParameter& parameter, const Rig& rig, const std::vecto
   number.known = stated_number(completed, number.path);
 }
 
+/// No start may have more friction in motion than a stated level at rest.
+void keep_below_stated(FitParameter& parameter, const std::vector<FitParameter>& all,
+                       const std::vector<FitParameter>& sought) {
+  for (const FitParameter& other : all) {
+    if (other.owner != Owner::law || other.index != parameter.index || other.at_least != parameter.path) continue;
+    const bool is_sought = std::ranges::any_of(sought, [&other](const FitParameter& each) {
+      return each.owner == Owner::law && each.index == other.index && each.path == other.path;
+    });
+    if (is_sought || !(other.stated < parameter.range.high)) continue;
+    parameter.range.high = other.stated;
+    parameter.range.high_open = false;
+  }
+}
+
 }  // namespace
 
 double over_force_at(double speed, const FitParameter& parameter, const Eigen::VectorXd& values) {
@@ -319,6 +333,7 @@ void arrange(const Rig& rig, std::vector<FitParameter>& parameters) {
       find_beside(parameter, rig, parameters, parameter.at_speed->speed);
       find_beside(parameter, rig, parameters, parameter.at_speed->power);
     }
+    if (parameter.owner == Owner::law) keep_below_stated(parameter, all, parameters);
     if (parameter.at_least.empty()) continue;
     for (std::size_t j = 0; j < parameters.size(); ++j)
       if (parameters[j].owner == Owner::law && parameters[j].index == parameter.index &&

@@ -296,7 +296,15 @@ Interval Profiler::widened(Eigen::Index i, Interval interval, double limit) cons
 }
 
 Interval Profiler::interval(Eigen::Index i, const FittedParameter& fitted, double limit) const {
-  return {end(i, fitted, limit, -1.0), end(i, fitted, limit, 1.0)};
+  Interval found = {end(i, fitted, limit, -1.0), end(i, fitted, limit, 1.0)};
+  if (const std::optional<std::size_t>& least = problem_.above(i)) {
+    const double lowest = problem_.values(q_)[static_cast<Eigen::Index>(*least)];
+    ProfilePath others = at(q_, residuals_, rows_);
+    const bool is_lower = found[0] > lowest;
+    if (const auto grown = is_lower ? growth(i, lowest, limit, others) : std::nullopt; grown && *grown <= limit)
+      found[0] = lowest;
+  }
+  return found;
 }
 
 }  // namespace dualdamp::identify

@@ -28,7 +28,9 @@ class Profiler {
   static void for_each(Eigen::Index count, const std::function<void(Eigen::Index)>& work);
 
   /// Values of parameter `i` at both ends; `unknown` if the sum of squares does not grow to the limit. The interval
-  /// also ends at the end of the parameter's range. `limit`: of the square root of the growth.
+  /// also ends at the end of the parameter's range. That of a parameter that is sought above another one begins at
+  /// the other one if the sum of squares there is below the limit, whatever lies between: a mass that need not rest
+  /// has no level at which it breaks away, and rests under a high one. `limit`: of the square root of the growth.
   [[nodiscard]] Interval interval(Eigen::Index i, const FittedParameter& fitted, double limit) const;
 
   /// An interval that also holds the values of parameter `i` wherever any profile so far came with a growth below
