@@ -5,6 +5,7 @@
 
 #include "core/constants.hpp"
 #include "sim/neutral_margin.hpp"
+#include "sim/orbits/newton.hpp"
 #include "sim/orbits/orbit_account.hpp"
 #include "sim/orbits/period_map.hpp"
 #include "sim/validate.hpp"
@@ -42,6 +43,32 @@ bool correct(PeriodMap& map, const KnownOrbit& near, const Model& model, const S
   }
 }
 
+/// Newton's method from the known orbit, with the derivative of every period: where the derivative differs from the
+/// known one by so much that this one does not lead to the neighbour. False where a step does not help, or the
+/// orbit at its end does not attract: the motion tells then which orbit it approaches.
+bool close(PeriodMap& map, const KnownOrbit& near, const Model& model, const SteadyStateOptions& options,
+           SteadyState& result) {
+  constexpr int most_steps = 12;
+  const Closure closure = closure_within(options.tolerance, map.engine().accuracy());
+  ForcingPeriod period = map.from(near.start, Monodromy::with);
+  const NewtonResult closed = close_orbit(map,
+                                          {.omega = model.excitation.frequency,
+                                           .tolerance = closure.tolerance,
+                                           .rounding = closure.rounding,
+                                           .most_steps = most_steps,
+                                           .most_transients = 0},
+                                          period);
+  result.newton_steps += closed.steps;
+  if (!closed.found || !period.moves || !(period.radius() < 1.0 - neutral_margin)) return false;
+  OrbitAccount account(model, {.full = options.full_account});
+  static_cast<void>(map.from(period.begin, Monodromy::without, &account));
+  if (!map.outcome().ok()) return false;
+  result.start = period.begin;
+  result.multipliers = period.multipliers();
+  account.write(result);
+  return true;
+}
+
 }  // namespace
 
 KnownOrbit known_orbit(const Model& model, const SteadyState& state) {
@@ -66,11 +93,14 @@ SteadyState steady_state_near(const KnownOrbit& near, const Model& model, const 
   SteadyState result;
   result.period = core::two_pi / model.excitation.frequency;
   PeriodMap map(model);
-  if (near.monodromy.size() == 0 || !correct(map, near, model, options, result))
-    return steady_state(model, options);
-  ForcingPeriod known;
-  known.monodromy = near.monodromy;
-  result.multipliers = known.multipliers();
+  if (near.monodromy.size() == 0) return steady_state_alone(model, options);
+  if (correct(map, near, model, options, result)) {
+    ForcingPeriod known;
+    known.monodromy = near.monodromy;
+    result.multipliers = known.multipliers();
+  } else if (!close(map, near, model, options, result)) {
+    return steady_state_alone(model, options);
+  }
   result.certificate = map.engine().count();
   return result;
 }

@@ -1,8 +1,8 @@
 #pragma once
 /// Steady states next to a known one, of models that differ little from its model: for searches over parameters and
 /// for derivatives. Newton's method starts on the known orbit and keeps its monodromy matrix (the chord method), so
-/// a neighbour takes a few passes along its orbit. If several orbits attract, the neighbour of the known one is
-/// found.
+/// a neighbour takes a few passes along its orbit. Where that does not lead to it, each step computes the monodromy
+/// matrix anew. If several orbits attract, the neighbour of the known one is found.
 
 #include <Eigen/Core>
 
@@ -22,10 +22,14 @@ struct KnownOrbit {
 /// Whether all motions beside the orbit approach it. False where its monodromy matrix is not known.
 [[nodiscard]] bool attracts(const KnownOrbit& orbit);
 
-/// `near`: of a model with the same laws. The result has the Floquet multipliers of the known orbit, and
-/// `newton_steps` counts corrections. If the method does not converge quickly, the result is that of
-/// `steady_state`. Needs a harmonic excitation.
+/// `near`: of a model with the same laws. The result has the Floquet multipliers of the known orbit, or its own if
+/// its corrections needed them; `newton_steps` counts corrections. If no correction helps, or the orbit found does
+/// not attract, the result is that of `steady_state_alone`. Needs a harmonic excitation.
 [[nodiscard]] SteadyState steady_state_near(const KnownOrbit& near, const Model& model,
                                             const SteadyStateOptions& options = {});
+
+/// The result of `steady_state` without a look for other steady states, which costs several times the orbit itself
+/// where motions may part: `others` is empty, and no warning tells of them. For a search that has no known orbit.
+[[nodiscard]] SteadyState steady_state_alone(const Model& model, const SteadyStateOptions& options = {});
 
 }  // namespace dualdamp::sim

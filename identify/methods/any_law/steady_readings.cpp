@@ -278,7 +278,7 @@ class SteadyReadings final : public ReadingModel {
   [[nodiscard]] static sim::SteadyState found(const sim::Model& model, const std::optional<sim::KnownOrbit>& near) {
     const sim::SteadyStateOptions options{
         .tolerance = model.solver.tolerance, .max_periods = patience, .full_account = false};
-    return near ? sim::steady_state_near(*near, model, options) : sim::steady_state(model, options);
+    return near ? sim::steady_state_near(*near, model, options) : sim::steady_state_alone(model, options);
   }
 
   std::vector<Pair> states_;

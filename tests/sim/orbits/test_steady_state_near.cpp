@@ -3,6 +3,7 @@
 #include "sim/orbits/steady_state_near.hpp"
 
 #include <catch2/catch.hpp>
+#include <complex>
 #include <string>
 #include <vector>
 
@@ -52,6 +53,43 @@ TEST_CASE(
     REQUIRE(far.outcome.ok() == own.outcome.ok());
     CHECK(far.amplitude == Approx(own.amplitude).epsilon(1e-8));
   }
+}
+
+TEST_CASE("where the known derivative does not lead to a neighbour the neighbour's own does") {
+  // I - M of the neighbour is 3.5 times that of the known orbit: by the known one each correction overshoots by 2.5
+  // times what it removes.
+  sim::Model model =
+      test::standard_system(law("stribeck", {{"kinetic", 0.5}, {"static", 0.8}, {"stribeck_velocity", 0.05}}));
+  model.oscillator.damping = 0.2;
+  const sim::KnownOrbit known = sim::known_orbit(model, sim::steady_state(model));
+  model.oscillator.damping = 0.8;
+  const sim::SteadyState near = sim::steady_state_near(known, model);
+  const sim::SteadyState own = sim::steady_state(model);
+  REQUIRE(near.outcome.ok());
+  REQUIRE(own.outcome.ok());
+  CHECK(near.transient_periods == 0);
+  CHECK(near.amplitude == Approx(own.amplitude).epsilon(1e-9));
+  REQUIRE(near.multipliers.size() == own.multipliers.size());
+  for (std::size_t i = 0; i < own.multipliers.size(); ++i)
+    CHECK(std::abs(near.multipliers[i] - own.multipliers[i]) < 1e-6);
+}
+
+TEST_CASE("a steady state alone is that of a full search, without the others") {
+  // A hardening spring, on which another orbit attracts.
+  sim::Model model;
+  model.oscillator = {.mass = 1.0, .stiffness = 1.0, .damping = 0.05, .cubic_stiffness = 0.3};
+  model.excitation = {
+      .type = sim::ExcitationType::force_harmonic, .amplitude = 1.0, .frequency = 1.8, .offset = 0.5};
+  model.friction = {law("coulomb", {{"kinetic", 0.05}, {"static", 2.0}})};
+  const sim::SteadyState full = sim::steady_state(model);
+  const sim::SteadyState alone = sim::steady_state_alone(model);
+  REQUIRE(full.outcome.ok());
+  REQUIRE_FALSE(full.others.empty());
+  CHECK(alone.others.empty());
+  CHECK(alone.outcome.ok());
+  CHECK(alone.amplitude == full.amplitude);
+  CHECK(alone.start.x == full.start.x);
+  CHECK(alone.start.v == full.start.v);
 }
 
 TEST_CASE("a known orbit of other laws is refused") {
