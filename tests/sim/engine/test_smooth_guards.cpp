@@ -320,7 +320,7 @@ TEST_CASE("smooth engine: what a motion says is a number up to the end of the ra
   model.oscillator = {.mass = 0.129, .stiffness = 1648.0, .damping = -72.0};
   model.excitation = {.type = sim::ExcitationType::base_ramp, .slope = -0.00135};
   model.friction = {law("coulomb", {{"kinetic", 0.001}})};
-  for (const SolverKind kind : {SolverKind::explicit_steps, SolverKind::implicit_steps}) {
+  for (const sim::SolverKind kind : {sim::SolverKind::explicit_steps, sim::SolverKind::implicit_steps}) {
     model.solver.kind = kind;
     const auto engine = sim::make_engine(model);
     double fastest = 0.0;
