@@ -182,7 +182,8 @@ std::optional<Levels> reconstruct(const MechanismStudy& study, const identify::K
 std::optional<Response> response(const Departure& mechanism, const Apparatus& apparatus,
                                  const RigFriction& friction, std::span<const double> values,
                                  const std::vector<double>& Y, const std::vector<sim::KnownOrbit>& near) {
-  const sim::SteadyStateOptions options{.tolerance = accuracy, .max_periods = patience, .full_account = false};
+  const sim::SteadyStateOptions options{
+      .tolerance = accuracy, .max_periods = patience, .full_account = false, .others = false};
   Response result;
   for (std::size_t i = 0; i < Y.size(); ++i) {
     const sim::Model model = test_model(mechanism, apparatus, friction, values, Y[i]);

@@ -127,6 +127,7 @@ class SteadyStates final : public Experiment {
     options.tolerance = std::max(options.tolerance, 1e-2 * model.solver.tolerance);
     options.max_periods = 2000;
     options.full_account = !with_phase_.empty();
+    options.others = false;
     return options;
   }
 

@@ -195,6 +195,19 @@ void warn_of_short(const Request& request, Fit& result) {
   }
 }
 
+/// The covariance knows the motions near the estimate only. Beside a parameter at the end of its range, others may
+/// trade off with it farther inside.
+void warn_of_ends(Fit& result) {
+  std::vector<std::string> names;
+  for (const FittedParameter& fitted : result.parameters)
+    if (fitted.at_bound) names.push_back(fitted.parameter.name);
+  if (names.empty() || names.size() == result.parameters.size()) return;
+  result.warnings.push_back(
+      core::joined(names, " and ") + (names.size() == 1 ? " is" : " are") +
+      " at the end of the range: without profiles, the intervals of the other parameters may be "
+      "too narrow");
+}
+
 /// Sets all results of a fit at the end of a search. Returns coordinates with a smaller sum of squares, if a
 /// profile found any.
 std::optional<Eigen::VectorXd> describe(const FitProblem& problem, const Request& request,
@@ -220,9 +233,12 @@ std::optional<Eigen::VectorXd> describe(const FitProblem& problem, const Request
   warn_of_residuals(request.experiments, request.options.robust,
                     zero_gains_of(problem, found.weights, misses, jacobian), result);
   problem.limit(request.options.most_work);
-  return add_uncertainty({problem, found.weights, found.unbounded, q, misses, jacobian, request.options.profile,
-                          request.options.robust},
-                         result);
+  std::optional<Eigen::VectorXd> lower =
+      add_uncertainty({problem, found.weights, found.unbounded, q, misses, jacobian, request.options.profile,
+                       request.options.robust},
+                      result);
+  if (!request.options.profile) warn_of_ends(result);
+  return lower;
 }
 
 void warn_of_search(const SearchResult& found, long most_work, Fit& result) {

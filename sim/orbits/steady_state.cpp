@@ -21,7 +21,6 @@
 #include "sim/orbits/orbit_account.hpp"
 #include "sim/orbits/orbit_solver.hpp"
 #include "sim/orbits/period_map.hpp"
-#include "sim/orbits/steady_state_near.hpp"
 #include "sim/orbits/structural_damping.hpp"
 #include "sim/validate.hpp"
 
@@ -56,13 +55,10 @@ State linear_response(const Model& model) {
   return state;
 }
 
-/// Whether the other steady states of the model are looked for as well.
-enum class Others { left_out, looked_for };
-
 class OrbitFinder {
  public:
-  OrbitFinder(const Model& model, const SteadyStateOptions& options, Others others)
-      : model_(model), options_(options), look_for_(others), map_(model), motions_(motions_of(model)) {
+  OrbitFinder(const Model& model, const SteadyStateOptions& options)
+      : model_(model), options_(options), map_(model), motions_(motions_of(model)) {
     const double accuracy = map_.engine().accuracy();
     const Closure closure = closure_within(options_.tolerance, accuracy);
     options_.tolerance = closure.tolerance;
@@ -92,7 +88,6 @@ class OrbitFinder {
 
   const Model& model_;
   SteadyStateOptions options_;
-  Others look_for_;
   PeriodMap map_;
   Motions motions_;
   /// At an end of the positions in which friction can hold the mass, where it slips by less than rounding. The
@@ -173,7 +168,7 @@ void OrbitFinder::describe(SteadyState& result) {
     if (result.period_ratio > 1)
       result.warnings.emplace_back("subharmonic: the motion repeats itself after several forcing periods only");
   }
-  if (look_for_ == Others::looked_for) add_mirror_images(result);
+  if (options_.others) add_mirror_images(result);
   // If the mass never moves, other rest positions are not listed.
   if (result.never_moves()) std::erase_if(result.others, &OtherState::never_moves);
   if (!result.others.empty())
@@ -316,7 +311,7 @@ void OrbitFinder::find(SteadyState& result) {
       orbit = std::move(end_of_rest_);
       result.outcome = {};
     }
-    if (orbit && motions_ == Motions::may_part && !has_past && look_for_ == Others::looked_for) {
+    if (orbit && motions_ == Motions::may_part && !has_past && options_.others) {
       error_ = solver.error(*orbit);
       for (const Orbit& other : other_orbits(model_, *orbit, approach.others(), solver)) {
         error_ = std::max(error_, solver.error(other));
@@ -337,23 +332,6 @@ void OrbitFinder::find(SteadyState& result) {
   warn_of_steps(*orbit, result);
 }
 
-SteadyState found_state(const Model& model, const SteadyStateOptions& options, Others others) {
-  valid_harmonic(model, "steady_state");
-  if (model.oscillator.loss_factor != 0.0) return found_state(with_viscous_equivalent(model), options, others);
-  SteadyState result;
-  result.period = core::two_pi / model.excitation.frequency;
-  for (const friction::Law& law : model.friction) {
-    if (law.aperiodic().empty()) continue;
-    result.outcome = {core::OutcomeKind::no_steady_state, "no steady state: " + std::string(law.aperiodic())};
-    return result;
-  }
-  OrbitFinder finder(model, options, others);
-  finder.find(result);
-  if (result.outcome.ok()) finder.describe(result);
-  result.certificate = finder.count();
-  return result;
-}
-
 }  // namespace
 
 bool SteadyState::stable() const {
@@ -362,11 +340,20 @@ bool SteadyState::stable() const {
 }
 
 SteadyState steady_state(const Model& model, const SteadyStateOptions& options) {
-  return found_state(model, options, Others::looked_for);
-}
-
-SteadyState steady_state_alone(const Model& model, const SteadyStateOptions& options) {
-  return found_state(model, options, Others::left_out);
+  valid_harmonic(model, "steady_state");
+  if (model.oscillator.loss_factor != 0.0) return steady_state(with_viscous_equivalent(model), options);
+  SteadyState result;
+  result.period = core::two_pi / model.excitation.frequency;
+  for (const friction::Law& law : model.friction) {
+    if (law.aperiodic().empty()) continue;
+    result.outcome = {core::OutcomeKind::no_steady_state, "no steady state: " + std::string(law.aperiodic())};
+    return result;
+  }
+  OrbitFinder finder(model, options);
+  finder.find(result);
+  if (result.outcome.ok()) finder.describe(result);
+  result.certificate = finder.count();
+  return result;
 }
 
 std::vector<Sample> one_period(const Model& model, const SteadyState& state, int count) {

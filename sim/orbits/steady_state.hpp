@@ -76,6 +76,9 @@ struct SteadyStateOptions {
   long most_work = std::numeric_limits<long>::max();
   /// Whether to compute phase, fundamental, speeds and energy, which cost more than the orbit; else they stay zero.
   bool full_account = true;
+  /// Whether to look for other steady states of the model, which costs several times the orbit itself where motions
+  /// may part; else `others` is empty, and no warning tells of them.
+  bool others = true;
   /// If no law holds the mass (smooth laws, compliant contacts), the mass never quite sticks. With this a stick
   /// is a time longer than `shortest_stick` of a forcing period at a speed below `stick_speed` times the largest.
   bool sticks_by_speed = false;

@@ -93,13 +93,15 @@ SteadyState steady_state_near(const KnownOrbit& near, const Model& model, const 
   SteadyState result;
   result.period = core::two_pi / model.excitation.frequency;
   PeriodMap map(model);
-  if (near.monodromy.size() == 0) return steady_state_alone(model, options);
+  SteadyStateOptions alone = options;
+  alone.others = false;
+  if (near.monodromy.size() == 0) return steady_state(model, alone);
   if (correct(map, near, model, options, result)) {
     ForcingPeriod known;
     known.monodromy = near.monodromy;
     result.multipliers = known.multipliers();
   } else if (!close(map, near, model, options, result)) {
-    return steady_state_alone(model, options);
+    return steady_state(model, alone);
   }
   result.certificate = map.engine().count();
   return result;

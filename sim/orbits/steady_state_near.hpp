@@ -24,12 +24,8 @@ struct KnownOrbit {
 
 /// `near`: of a model with the same laws. The result has the Floquet multipliers of the known orbit, or its own if
 /// its corrections needed them; `newton_steps` counts corrections. If no correction helps, or the orbit found does
-/// not attract, the result is that of `steady_state_alone`. Needs a harmonic excitation.
+/// not attract, the result is that of `steady_state`, without others. Needs a harmonic excitation.
 [[nodiscard]] SteadyState steady_state_near(const KnownOrbit& near, const Model& model,
                                             const SteadyStateOptions& options = {});
-
-/// The result of `steady_state` without a look for other steady states, which costs several times the orbit itself
-/// where motions may part: `others` is empty, and no warning tells of them. For a search that has no known orbit.
-[[nodiscard]] SteadyState steady_state_alone(const Model& model, const SteadyStateOptions& options = {});
 
 }  // namespace dualdamp::sim

@@ -1,7 +1,9 @@
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
 
+#include "core/constants.hpp"
 #include "core/random.hpp"
 #include "friction_models/registry.hpp"
 #include "identify/fit/comparison.hpp"
@@ -54,7 +56,8 @@ identify::History resting_loop(const RestingLoop& plan) {
   return loop;
 }
 
-Fit fit_of_resting_loop(const RestingLoop& plan, bool robust = false) {
+Fit fit_of_resting_loop(const RestingLoop& plan, bool robust = false, bool profile = false,
+                        double most_damping = core::infinity) {
   identify::Record record;
   record.histories.push_back(resting_loop(plan));
   std::string fault;
@@ -68,7 +71,8 @@ Fit fit_of_resting_loop(const RestingLoop& plan, bool robust = false) {
       test::sought_in(rig, {"mass", "stiffness", "damping", "kinetic"}, 1.3);
   for (const identify::RecordParameter each : identify::sought_of_record(*experiments.front(), true))
     parameters.push_back(identify::parameter_of_record(*experiments.front(), 0, each, true));
-  Fit fit = identify::fit_rig(rig, parameters, experiments, {.robust = robust, .profile = false});
+  std::ranges::find(parameters, "damping", &identify::FitParameter::name)->range.high = most_damping;
+  Fit fit = identify::fit_rig(rig, parameters, experiments, {.robust = robust, .profile = profile});
   REQUIRE(fit.outcome.ok());
   return fit;
 }
@@ -90,6 +94,20 @@ TEST_CASE("loop: a mass at rest says nothing about rigid friction", "[identify][
       CHECK(test::fitted(fit, "mass").std < 4e-3);
       CHECK(fit.signals.front().freedom < 0.8 * static_cast<double>(fit.signals.front().rows.end));
     }
+}
+
+TEST_CASE("fit: an interval without a profile, beside a parameter at the end of its range, comes with a warning",
+          "[identify][fit]") {
+  const auto warns = [](bool profile, double most_damping) {
+    const Fit fit = fit_of_resting_loop({}, false, profile, most_damping);
+    CHECK(test::fitted(fit, "damping").at_bound == (most_damping < 2.0));
+    return std::ranges::any_of(fit.warnings, [](const std::string& warning) {
+      return warning.starts_with("damping is at the end of the range: without profiles");
+    });
+  };
+  CHECK(warns(false, 1.9));
+  CHECK_FALSE(warns(true, 1.9));
+  CHECK_FALSE(warns(false, core::infinity));
 }
 
 TEST_CASE("loop: a mass that sticks under more than the friction holds is told", "[identify][fit]") {
