@@ -72,14 +72,15 @@ Instant ForceLimits::at(const ModifierCourse& course, double power, Instant now)
     modulated += settings_.modulation * std::cos(angle);
     modulated_rate = -settings_.modulation * settings_.modulation_order * now.angle_rate * std::sin(angle);
   }
+  double factor_rate = (settings_.drift * modulated + drifted * modulated_rate) * factor * load(now.x);
+  if (factor != 0.0 && (settings_.drift != 0.0 || settings_.modulates())) factor_rate = varying_rate(factor_rate);
   double vanished = course.vanished == 0 ? -1.0 : nominal_[static_cast<std::size_t>(course.vanished) - 1];
   if (course.unloaded) vanished = infinity;
-  now.modification = {
-      .factor = drifted * modulated * factor,
-      .factor_rate = (settings_.drift * modulated + drifted * modulated_rate) * factor * load(now.x),
-      .factor_slope = drifted * modulated * factor * settings_.load_gradient,
-      .slope = course.side * settings_.slope,
-      .vanished = vanished};
+  now.modification = {.factor = drifted * modulated * factor,
+                      .factor_rate = factor_rate,
+                      .factor_slope = drifted * modulated * factor * settings_.load_gradient,
+                      .slope = course.side * settings_.slope,
+                      .vanished = vanished};
   return now;
 }
 

@@ -46,6 +46,13 @@ struct ModifierSettings {
   }
 };
 
+/// The rate of a limit that varies [1/s]: never exactly zero. Which guards a law has depends on whether its limit
+/// varies, and must not depend on whether its rate is zero at an instant, which rounding may decide.
+[[nodiscard]] constexpr double varying_rate(double rate) {
+  constexpr double least = 1e-200;
+  return rate == 0.0 ? least : rate;
+}
+
 class ForceLimits {
  public:
   /// `nominal`: the force limits [N] of a law that supports `position_slope`, in any order.

@@ -203,10 +203,12 @@ Instant ModifiedLaw::modify(const Memory& inner, const ModifierCourse& course, d
   return modified;
 }
 
-/// The force limits fall at d(power)/dt = `rate` [W/s].
+/// The force limits fall at d(power)/dt = `rate` [W/s]. Also where the power is steady at this instant, or where
+/// the load is just gone, they count as varying (`varying_rate`).
 void ModifiedLaw::warm(Instant& modified, double rate) const {
   Modification& m = modified.modification;
   m.factor_rate -= (m.factor + m.factor_slope * modified.x) * rate / limits_.settings().warming_power;
+  m.factor_rate = varying_rate(m.factor_rate);
 }
 
 /// d(power)/dt [W/s]. `now`: under the force limits without their fall by warming.

@@ -18,7 +18,10 @@
 
 using namespace dualdamp;
 using friction::Coulomb;
+using friction::Direction;
+using friction::Instant;
 using friction::Law;
+using friction::Memory;
 using friction::ParameterValues;
 using test::coulomb_with;
 using test::loop_work;
@@ -47,6 +50,26 @@ TEST_CASE("load_gradient: laws under it conform to the law contract", "[friction
               {{"kinetic", 2.0}, {"static", 3.0}, {"stribeck_velocity", 0.05}, {"load_gradient", gradient}})) ==
           none);
   }
+}
+
+TEST_CASE("load_gradient: a warming contact has its guards also where its load is just gone, and at rest",
+          "[friction][load]") {
+  const ParameterValues warming{{"power", 1e-3}, {"time_constant", 1.0}};
+  const Law law = friction::modified(Law(friction::ContactCompliance(2.0, 2.0, 1e3, 0.0)),
+                                     {{"load_gradient", -100.0}, {"warming", std::vector{warming}}}, {2.0});
+  Instant now{.v = 1.0};
+  Memory memory = law.start(now);
+  now.x = 0.002;
+  law.jump(memory, {1}, now, Direction::forward);  // behind the guard of the load: slips forward
+  const auto count = [&](double x, double v) {
+    std::vector<double> guards;
+    law.guards(memory, {.x = x, .v = v}, Direction::forward, guards);
+    return guards.size();
+  };
+  REQUIRE(count(0.003, 1.0) == 2);  // of the load, and the slider's own
+  CHECK(count(0.01, 1.0) == 2);
+  CHECK(count(0.01 * (1.0 - 1e-15), 1.0) == 2);
+  CHECK(count(0.003, 0.0) == 2);
 }
 
 TEST_CASE("load_gradient: the work of a loop is that of the load along the way", "[load]") {
