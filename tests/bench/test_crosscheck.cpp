@@ -225,7 +225,7 @@ TEST_CASE("crosscheck: a mass that rings on a bond of 4 pm is an exception with 
     INFO(finding.comparison << ": " << finding.text);
     if (finding.comparison == "exact against smooth engine") {
       CHECK(finding.verdict == Verdict::exception);
-      CHECK_FALSE(finding.text.empty());
+      CHECK_THAT(finding.text, Catch::Contains("coincident events") || Catch::Contains("unresolved"));
     } else {
       CHECK(finding.verdict == Verdict::agreed);
     }

@@ -1,5 +1,6 @@
 """What tests of the program share: it runs in a folder of its own. The first argument of the test is the program."""
 
+import json
 import os
 import subprocess
 import sys
@@ -39,3 +40,8 @@ class Case(unittest.TestCase):
         result = subprocess.run(command, cwd=self.folder, capture_output=True, text=True, errors="replace", timeout=PATIENCE * (timeout or self.timeout), **options)
         self.assertEqual(result.returncode, status, result.stdout + result.stderr)
         return result
+
+    def fit_of_coulomb(self, *arguments):
+        """Result and warnings of a fit of `coulomb` without profiles, which stands in the folder `fit`."""
+        answer = json.loads(self.run_program("fit", "coulomb", *arguments, "--no-profile", "--json", "--out", "fit").stdout)
+        return answer["result"], answer["warnings"]

@@ -47,9 +47,7 @@ class StruckRecords(case.Case):
         return self.write(name, "t [s],x [m]\n" + "".join(f"{t!r},{x!r}\n" for t, x in zip(times, values)))
 
     def fitted(self, *arguments, constants=CONSTANTS):
-        ran = self.run_program("fit", "coulomb", *arguments, *constants, "--no-profile", "--json", "--out", "fit")
-        answer = json.loads(ran.stdout)
-        return answer["result"], answer["warnings"]
+        return self.fit_of_coulomb(*arguments, *constants)
 
     def assert_true(self, result):
         for row in result["parameters"]:
