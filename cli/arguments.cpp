@@ -73,8 +73,8 @@ class Parser {
       std::ostringstream out;
       std::ostringstream errors;
       const int status = app_.exit(error, out, errors);
-      if (status == 0) return {Leave{out.str(), 0, false}};
-      return {Leave{usage_error(app_, error), usage, json}};
+      if (status == 0) return {Leave{out.str(), 0, false, {}}};
+      return {Leave{usage_error(app_, error), usage, json, help_of(app_)}};
     }
     return {chosen_, plugins_, isolation_.empty() ? 0.0 : std::stod(isolation_), json};
   }

@@ -151,6 +151,7 @@ struct Leave {
   std::string message;
   int status = 0;
   bool json = false;  ///< whether the caller asked for JSON
+  std::string help;   ///< the command line that prints what is allowed
 };
 
 using Command =

@@ -377,7 +377,7 @@ int execute(const Leave& leave) {
     return finish(ExitStatus::done);
   }
   CommandOutput output = refused(ExitStatus::usage, leave.message);
-  output.errors += "see: dualdamp --help\n";
+  output.errors += "see: " + leave.help + "\n";
   return say(output, {leave.json, false});
 }
 

@@ -37,9 +37,10 @@ Words options_of(const CLI::App& command) {
 
 bool is_option(std::string_view word) { return word.size() > 1 && word.front() == '-'; }
 
-std::string suggestion(std::string_view word, const Words& names) {
+/// The name that the word probably means, or else all of them, after `all`.
+std::string allowed(std::string_view word, const Words& names, const std::string& all) {
   const std::string meant = core::nearest(word, names);
-  return meant.empty() ? std::string() : "; did you mean '" + meant + "'?";
+  return meant.empty() ? all + core::joined(names) : "; did you mean '" + meant + "'?";
 }
 
 /// Of the first option among the words that were not read; empty without one.
@@ -47,10 +48,11 @@ std::string wrong_option(const CLI::App& command, const Words& unread) {
   const auto option = std::ranges::find_if(unread, is_option);
   if (option == unread.end()) return {};
   const std::string name = option->substr(0, option->find('='));
-  const std::string owner = command.get_parent() == nullptr
-                                ? "there is no option"
-                                : "the command '" + command.get_name() + "' has no option";
-  return owner + " '" + name + "'" + suggestion(name, options_of(command));
+  const Words options = options_of(command);
+  if (command.get_parent() == nullptr)
+    return "there is no option '" + name + "'" + allowed(name, options, "; there are: ");
+  return "the command '" + command.get_name() + "' has no option '" + name + "'" +
+         allowed(name, options, "; it has: ");
 }
 
 std::string wrong_command(const CLI::App& app, const Words& unread) {
@@ -60,8 +62,7 @@ std::string wrong_command(const CLI::App& app, const Words& unread) {
     const std::string option = wrong_option(app, unread);
     return option.empty() ? "a command is missing; there are: " + core::joined(commands) : option;
   }
-  const std::string meant = suggestion(*word, commands);
-  return "there is no command '" + *word + "'" + (meant.empty() ? "; there are: " + core::joined(commands) : meant);
+  return "there is no command '" + *word + "'" + allowed(*word, commands, "; there are: ");
 }
 
 }  // namespace
@@ -72,6 +73,13 @@ std::string usage_error(const CLI::App& app, const CLI::ParseError& error) {
   if (!commands_of(command).empty()) return wrong_command(command, unread);
   const std::string option = wrong_option(command, unread);
   return option.empty() ? error.what() : option;
+}
+
+std::string help_of(const CLI::App& app) {
+  std::string words;
+  for (const CLI::App* command = &named_command(app); command != nullptr; command = command->get_parent())
+    words = command->get_name() + " " + words;
+  return words + "--help";
 }
 
 }  // namespace dualdamp::cli

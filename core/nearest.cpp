@@ -36,6 +36,19 @@ std::string folded(std::string_view word) {
   return result;
 }
 
+/// The shortest of the names that begin with the word, or with which the word begins; three letters at least.
+std::string with_same_beginning(const std::string& wanted, const std::vector<std::string>& names) {
+  constexpr std::size_t telling = 3;
+  std::string best;
+  for (const std::string& name : names) {
+    const std::string other = folded(name);
+    if (std::min(wanted.size(), other.size()) < telling) continue;
+    if (!wanted.starts_with(other) && !other.starts_with(wanted)) continue;
+    if (best.empty() || name.size() < best.size()) best = name;
+  }
+  return best;
+}
+
 }  // namespace
 
 std::string nearest(std::string_view word, const std::vector<std::string>& names) {
@@ -52,7 +65,7 @@ std::string nearest(std::string_view word, const std::vector<std::string>& names
       best_distance = distance;
     }
   }
-  return best;
+  return best.empty() ? with_same_beginning(wanted, names) : best;
 }
 
 }  // namespace dualdamp::core

@@ -6,7 +6,8 @@
 
 namespace dualdamp::core {
 
-/// The name among `names` that `word` probably means; empty when none is similar.
+/// The name among `names` that `word` probably means, because a few letters differ or one begins with the other;
+/// empty when none is similar.
 [[nodiscard]] std::string nearest(std::string_view word, const std::vector<std::string>& names);
 
 }  // namespace dualdamp::core

@@ -117,6 +117,7 @@ struct MainChart {
   std::string_view by = {};       ///< rows that differ in this column are separate series
   enum class Kind { line, points, cells } kind = Kind::line;
   std::string_view x_otherwise = {};  ///< column, where there is no column x
+  std::string_view key = {};          ///< the key without which a run does not write the table
 };
 
 struct Analysis {

@@ -360,8 +360,10 @@ core::Diagnostic without_chart(const StoredRun& run) {
   const Json& result = run.document().at("result");
   if (analysis == nullptr || !result.is_object()) return problem;
   const std::string table = result.contains("sweep") ? "sweep" : std::string(analysis->chart.table);
-  if (!table.empty() && run.table(table).columns.empty())
-    problem.allowed = "a result with " + table + ".csv of the same run beside it";
+  if (table.empty() || !run.table(table).columns.empty()) return problem;
+  problem.allowed = "a result with " + table + ".csv of the same run beside it";
+  if (table == analysis->chart.table && !analysis->chart.key.empty())
+    problem.allowed += ", which needs the key " + std::string(analysis->chart.key);
   return problem;
 }
 

@@ -161,7 +161,7 @@ const Analysis& simulate_analysis() {
                                     .needs = {{"", excitations().names(), {"amplitude", "frequency"}, true, ""}},
                                     .results = simulate_fields(),
                                     .main = {"final.x", "final.v", "energy.friction"},
-                                    .chart = motion_chart("history"),
+                                    .chart = motion_chart("history", "analysis.sample_rate"),
                                     .verifiable = true,
                                     .check = check_simulate,
                                     .ask = ask_simulate};

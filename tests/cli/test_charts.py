@@ -95,6 +95,10 @@ class Charts(Case):
         self.assertIn("of one scenario", self.run_program("run", "curve.yaml", "other.yaml", "--plot", "a.svg", status=2).stderr)
         formula = ROOT / "scenarios/examples/formula.yaml"
         self.assertIn("has no chart", self.run_program("run", formula, "--out", "formula", "--plot", "a.svg", status=2).stderr)
+        sparse = re.sub("analysis: .*", "analysis: {type: simulate, duration: 1 s}", CURVE.replace("frequency: 10", "amplitude: 0.1 m, frequency: 10"))
+        (self.folder / "sparse.yaml").write_text(sparse)
+        refusal = self.run_program("run", "sparse.yaml", "--out", "sparse", "--plot", "a.svg", status=2).stderr
+        self.assertIn("a result with history.csv of the same run beside it, which needs the key analysis.sample_rate", refusal)
 
     def compare(self, *assignments, status=0):
         names = []

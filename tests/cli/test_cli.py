@@ -253,8 +253,8 @@ class Refusals(Case):
     def test_a_command_or_option_that_is_none_is_named(self):
         for line, message in {"fly base.yaml": "there is no command 'fly'; there are: run, stress, check,", "": "a command is missing; there are: run, stress, check,",
                               "runn base.yaml": "there is no command 'runn'; did you mean 'run'?", "stress exprt": "there is no command 'exprt'; did you mean 'export'?",
-                              "--versoin": "there is no option '--versoin'; did you mean '--version'?", "run base.yaml --fly": "the command 'run' has no option '--fly'\n",
-                              "identify x.csv --mas=1 kg": "the command 'identify' has no option '--mas'; did you mean '--mass'?"}.items():
+                              "--versoin": "there is no option '--versoin'; did you mean '--version'?", "run base.yaml -o x": "'run' has no option '-o'; it has: --help, --out,",
+                              "run x.yaml --output y": "'run' has no option '--output'; did you mean '--out'?\n", "stress export --fly": "dualdamp stress export --help\n", "identify x.csv --mas=1 kg": "the command 'identify' has no option '--mas'; did you mean '--mass'?"}.items():
             with self.subTest(line):
                 self.assertIn(message, self.run_program(*line.split(), status=2).stderr)
 
