@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -81,7 +82,24 @@ sim::Transient transient(const sim::Model& model, const sim::SteadyState& state)
   return longer.settled || (longer.outcome.ok() && longer.periods > motion.periods) ? longer : motion;
 }
 
-Finding compare_transient(const sim::SteadyState& state, const sim::Transient& motion) {
+/// How far the orbit on which a transient has settled is from the steady state, relative to the motion.
+double distance(const sim::SteadyState& state, const sim::Transient& motion) {
+  const double apart = std::max(std::abs(state.peak - motion.peak), std::abs(state.trough - motion.trough));
+  return apart == 0.0 ? 0.0 : apart / std::max(size_of(motion), std::abs(state.peak));
+}
+
+/// Whether a change of the initial position by 1e-10 of the motion decides which of several orbits is reached.
+bool is_reached_from_beside(sim::Model model, const sim::SteadyState& state) {
+  const double start = model.initial.position;
+  const double size = std::max({std::abs(start), std::abs(state.peak), std::abs(state.trough)});
+  return std::ranges::any_of(std::array{-1e-10, 1e-10, -3e-11, 3e-11}, [&](double share) {
+    model.initial.position = start + share * size;
+    const sim::Transient motion = transient(model, state);
+    return motion.outcome.ok() && motion.settled && distance(state, motion) <= closure_tolerance;
+  });
+}
+
+Finding compare_transient(const sim::Model& model, const sim::SteadyState& state, const sim::Transient& motion) {
   const std::string name = "steady state against transient";
   const bool is_cut = motion.outcome.kind == core::OutcomeKind::event_limit;
   if (!motion.outcome.ok() && (!is_cut || !state.outcome.ok()))
@@ -102,10 +120,9 @@ Finding compare_transient(const sim::SteadyState& state, const sim::Transient& m
                           largest_multiplier(state), motion.periods, motion.closure)};
     return {name, Verdict::not_compared, 0.0, "the transient is too long"};
   }
-  const double size = std::max(size_of(motion), std::abs(state.peak));
-  const double apart = std::max(std::abs(state.peak - motion.peak), std::abs(state.trough - motion.trough));
-  const double worst = apart == 0.0 ? 0.0 : apart / size;
+  const double worst = distance(state, motion);
   if (worst <= closure_tolerance) return {name, Verdict::agreed, worst, {}};
+  if (is_reached_from_beside(model, state)) return {name, Verdict::exception, worst, "sensitive"};
   return {name, Verdict::disagree, worst,
           fmt::format("peak {:.10g}, trough {:.10g}; transient {:.10g}, {:.10g} after {} periods{}", state.peak,
                       state.trough, motion.peak, motion.trough, motion.periods,
@@ -152,7 +169,7 @@ Findings compare_orbits(const scenarios::Scenario& scenario) {
     findings.push_back({"steady state against transient", Verdict::not_compared, 0.0, reason});
     return findings;
   }
-  findings.push_back(compare_transient(state, *motion));
+  findings.push_back(compare_transient(model, state, *motion));
   const double omega = sim::natural_frequency(model.oscillator);
   sim::PeriodMap map(model);
   map.limit(most_work);

@@ -17,7 +17,7 @@
 #include "identify/ledger/estimate/relative_changes.hpp"
 #include "identify/ledger/estimate/stated_shares.hpp"
 #include "identify/ledger/force_balance.hpp"
-#include "identify/ledger/history_model.hpp"
+#include "identify/ledger/histories/history_model.hpp"
 #include "identify/ledger/relaxation_tests.hpp"
 #include "identify/ledger/stated_noise.hpp"
 #include "identify/statistics/decompositions.hpp"

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/numbers.hpp"
-#include "identify/ledger/history_rows.hpp"
+#include "identify/ledger/histories/history_rows.hpp"
 
 namespace dualdamp::identify {
 

@@ -133,6 +133,7 @@ class ForwardFit {
   ForwardFit& operator=(const ForwardFit&) = delete;
 
   [[nodiscard]] const std::string& problem() const { return problem_; }
+  [[nodiscard]] const std::vector<ForwardTest>& tests() const { return tests_; }
   [[nodiscard]] std::vector<ForwardTest>& tests() { return tests_; }
   [[nodiscard]] const ForwardLayout& layout() const { return *layout_; }
   [[nodiscard]] const ForwardResiduals& residuals() const { return *residuals_; }

@@ -1,4 +1,4 @@
-#include "identify/ledger/history_model.hpp"
+#include "identify/ledger/histories/history_model.hpp"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -9,7 +9,7 @@
 
 #include "core/random.hpp"
 #include "identify/answer/answer.hpp"
-#include "identify/ledger/history_rows.hpp"
+#include "identify/ledger/histories/history_rows.hpp"
 #include "identify/ledger/ledger.hpp"
 #include "identify/methods/histories/friction_force.hpp"
 #include "identify/methods/histories/output_error.hpp"

@@ -9,8 +9,8 @@
 #include <variant>
 
 #include "identify/ledger/decay_model.hpp"
-#include "identify/ledger/history_model.hpp"
-#include "identify/ledger/history_rows.hpp"
+#include "identify/ledger/histories/history_model.hpp"
+#include "identify/ledger/histories/history_rows.hpp"
 #include "identify/ledger/relaxation_tests.hpp"
 #include "identify/uncertainty/uncertain_constants.hpp"
 #include "tests/identify/ledger/laboratory.hpp"

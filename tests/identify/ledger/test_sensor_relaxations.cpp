@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "core/constants.hpp"
-#include "identify/ledger/history_rows.hpp"
+#include "identify/ledger/histories/history_rows.hpp"
 #include "identify/ledger/ledger.hpp"
 #include "tests/identify/ledger/laboratory.hpp"
 

@@ -18,7 +18,7 @@
 #include "identify/ledger/amplitude_model.hpp"
 #include "identify/ledger/decay_model.hpp"
 #include "identify/ledger/estimate/unstated_constants.hpp"
-#include "identify/ledger/history_model.hpp"
+#include "identify/ledger/histories/history_model.hpp"
 #include "identify/methods.hpp"
 #include "identify/records/derived_records.hpp"
 #include "identify/statistics/distributions.hpp"

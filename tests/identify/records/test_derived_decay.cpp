@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "identify/ledger/history_rows.hpp"
+#include "identify/ledger/histories/history_rows.hpp"
 #include "identify/records/derived_records.hpp"
 #include "sim/analytic/free_decay.hpp"
 #include "tests/identify/histories.hpp"

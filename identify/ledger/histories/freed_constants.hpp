@@ -9,7 +9,7 @@
 #include <string>
 #include <utility>
 
-#include "identify/ledger/history_relaxations.hpp"
+#include "identify/ledger/histories/history_relaxations.hpp"
 #include "identify/methods/histories/forward_fit.hpp"
 
 namespace dualdamp::identify {

@@ -1,4 +1,4 @@
-#include "identify/ledger/history_terms.hpp"
+#include "identify/ledger/histories/history_terms.hpp"
 
 #include <array>
 #include <cmath>

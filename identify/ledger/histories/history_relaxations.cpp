@@ -1,4 +1,4 @@
-#include "identify/ledger/history_relaxations.hpp"
+#include "identify/ledger/histories/history_relaxations.hpp"
 
 #include <algorithm>
 #include <cmath>

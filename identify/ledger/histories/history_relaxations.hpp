@@ -6,8 +6,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "identify/ledger/history_rows.hpp"
-#include "identify/ledger/history_terms.hpp"
+#include "identify/ledger/histories/history_rows.hpp"
+#include "identify/ledger/histories/history_terms.hpp"
 #include "identify/ledger/joint_model.hpp"
 #include "identify/methods/histories/forward_fit.hpp"
 #include "identify/models/sampled_oscillator.hpp"

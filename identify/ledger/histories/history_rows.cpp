@@ -1,4 +1,4 @@
-#include "identify/ledger/history_rows.hpp"
+#include "identify/ledger/histories/history_rows.hpp"
 
 #include <algorithm>
 #include <cmath>

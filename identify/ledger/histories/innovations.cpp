@@ -1,4 +1,4 @@
-#include "identify/ledger/innovations.hpp"
+#include "identify/ledger/histories/innovations.hpp"
 
 #include <cmath>
 

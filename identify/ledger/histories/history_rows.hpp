@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "identify/ledger/history_terms.hpp"
-#include "identify/ledger/innovations.hpp"
+#include "identify/ledger/histories/history_terms.hpp"
+#include "identify/ledger/histories/innovations.hpp"
 #include "identify/record.hpp"
 #include "identify/statistics/autoregression.hpp"
 

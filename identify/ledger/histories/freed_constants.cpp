@@ -1,4 +1,4 @@
-#include "identify/ledger/freed_constants.hpp"
+#include "identify/ledger/histories/freed_constants.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 
 #include "core/constants.hpp"
 #include "core/numbers.hpp"
-#include "identify/ledger/history_rows.hpp"
+#include "identify/ledger/histories/history_rows.hpp"
 
 namespace dualdamp::identify {
 

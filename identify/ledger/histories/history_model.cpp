@@ -1,0 +1,213 @@
+#include "identify/ledger/histories/history_model.hpp"
+
+#include <cmath>
+#include <memory>
+#include <numeric>
+#include <optional>
+#include <vector>
+
+#include "identify/ledger/histories/freed_constants.hpp"
+#include "identify/ledger/histories/history_linearisation.hpp"
+#include "identify/ledger/stated_noise.hpp"
+#include "identify/statistics/decompositions.hpp"
+
+namespace dualdamp::identify {
+
+namespace {
+
+/// The histories of one record with their fit, at which the joint model is linearised. In reading order:
+///  1. `fitted`: the nearest of some fits, to which Gauss-Newton steps (`descend`) lead, as a joint model
+///  (`joint`);
+///  2. `through_constant`, `seen_from_afar`, `freed`: if the stated constants miss most of the motion.
+class Histories {
+ public:
+  Histories(const Record& record, const KnownConstants& constants, double sigma_x, Estimate& exclusions)
+      : record_(record), constants_(constants), motion_(record_, constants_, sigma_x, exclusions) {}
+
+  [[nodiscard]] HistoryLinearisation& motion() { return motion_; }
+  [[nodiscard]] std::string fault_of_fit() { return freed_.fault(); }  ///< why the fit tells nothing; else empty
+
+  /// The model linearised where the relaxations taken are fitted beside the parameters.
+  [[nodiscard]] JointModel fitted(const Taken& taken) {
+    Taken all(motion_.list().relaxations.size());
+    std::iota(all.begin(), all.end(), std::size_t{0});
+    Fitted best{motion_.start(), motion_.at(motion_.start(), taken, Whitening::off)};
+    bool is_near = taken.empty();
+    for (const std::size_t number : taken) {
+      const std::optional<Place> other = freed(number);
+      if (other) best.take_nearer({*other, motion_.at(*other, taken, Whitening::off)});
+      is_near = is_near || (other && (motion_.is_constant(number) ||
+                                      freed_.with(motion_.list().parts[number]) == freed_.much_nearer()));
+    }
+    descend(taken, best);
+    if (!is_near) best.take_nearer(through_constant(taken));
+    return joint(best.at, taken, all);
+  }
+
+ private:
+  struct Fitted {
+    Place at;
+    std::optional<LinearisedHistories> here;
+
+    void take_nearer(Fitted&& other) {
+      if (other.here && !(here && other.here->squares > here->squares)) *this = std::move(other);
+    }
+  };
+
+  /// Steps of Gauss and Newton, as long as they bring the motion nearer.
+  void descend(const Taken& taken, Fitted& fitted) {
+    auto& [at, here] = fitted;
+    constexpr int most_steps = 8;
+    for (int i = 0; here && i < most_steps; ++i) {
+      Eigen::MatrixXd columns(here->residuals.size(), here->base.cols() + here->relaxed.cols());
+      columns << here->base, here->relaxed;
+      const Eigen::VectorXd step = pivoted_least_squares(columns, here->residuals);
+      constexpr double little = 0.01;  // of a standard error, squared
+      if (!step.allFinite() || (columns * step).squaredNorm() < little * here->variance) break;
+      std::optional<LinearisedHistories> next;
+      Place moved;
+      for (double share = 1.0; share > 0.05; share *= 0.4) {
+        moved = motion_.stepped(at, share * step, taken);
+        next = motion_.at(moved, taken, Whitening::off);
+        if (next && next->squares < here->squares) break;
+        next.reset();
+      }
+      if (!next) break;
+      at = std::move(moved);
+      here = std::move(next);
+    }
+  }
+
+  /// A fit out of step with the motion is at a minimum of its own, which no step leaves, whatever is relaxed. A fit
+  /// with a constant free that comes much nearer keeps in step, and from there the constant is set back.
+  [[nodiscard]] Fitted through_constant(const Taken& taken) {
+    const FreedFit* near = freed_.much_nearer();
+    for (std::size_t j = 0; near != nullptr && j < motion_.list().parts.size(); ++j) {
+      if (freed_.with(motion_.list().parts[j]) != near) continue;
+      Taken both = taken;
+      both.push_back(j);
+      Fitted through{*freed(j), {}};
+      through.here = motion_.at(through.at, both, Whitening::off);
+      descend(both, through);
+      Eigen::VectorXd back =
+          Eigen::VectorXd::Zero(motion_.count_of_base() + static_cast<Eigen::Index>(both.size()));
+      back[back.size() - 1] = -through.at.g[static_cast<Eigen::Index>(j)];
+      through.at = motion_.stepped(through.at, back, both);
+      through.here = motion_.at(through.at, taken, Whitening::off);
+      descend(taken, through);
+      return through;
+    }
+    return {motion_.start(), std::nullopt};
+  }
+
+  [[nodiscard]] JointModel joint(const Place& at, const Taken& taken, const Taken& all) {
+    JointModel model;
+    model.relaxations = motion_.list().relaxations;
+    for (std::size_t j = 0; j < motion_.list().parts.size(); ++j)
+      model.relaxations[j].is_far = !motion_.is_constant(j) && freed(j).has_value();
+    if (std::optional<LinearisedHistories> found =
+            taken.empty() ? seen_from_afar(at, all) : motion_.at(at, all, Whitening::on)) {
+      model.deviance =
+          found->log_variances +
+          left_beside(free_columns(found->base, found->relaxed, taken), found->residuals).squaredNorm();
+      model.residuals = std::move(found->residuals);
+      model.base = std::move(found->base);
+      model.relaxed = std::move(found->relaxed);
+      model.shaken = std::move(found->shaken);
+    }
+    const ForceParameters force = motion_.force_at(at);
+    model.value = parameters(force);
+    if (model.residuals.size() == 0) return model;
+    const std::vector<ForwardLayout::Entry>& shared = motion_.fit().layout().shared();
+    // From the scales of the fit to zeta and F0.
+    const Eigen::Vector2d units(critical_damping(force.m, force.k) / shared[0].scale, 1.0 / shared[1].scale);
+    for (Eigen::Index j = 0; j < units.size(); ++j) {
+      model.base.col(j) *= units[j];
+      if (model.shaken.size() > 0) model.shaken.col(1 + j) *= units[j];
+    }
+    model.constants = {force.m, force.k, constants_.frequency};
+    model.is_stated = motion_.is_stated();
+    model.scale_freedom = model.is_stated ? known_freedom : static_cast<double>(model.residuals.size());
+    model.F0_parts = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(motion_.list().parts.size()));
+    model.zeta_parts = model.F0_parts;
+    for (std::size_t j = 0; j < motion_.list().parts.size(); ++j) {
+      const auto own = static_cast<Eigen::Index>(j);
+      if (motion_.list().parts[j].kind == FreedPart::Kind::friction_of_history) model.F0_parts[own] = 1.0;
+      if (motion_.list().parts[j].term != nullptr && motion_.list().parts[j].term->one_sided)
+        model.zeta_parts[own] = motion_.unit_damping() / critical_damping(force.m, force.k);
+    }
+    return model;
+  }
+
+  /// Far from the right constants the fit leaves a swing, which an autoregression would take for errors that last.
+  /// If another constant brings it much nearer, errors are those of the nearer fit, and the column of a constant
+  /// leads straight to the fit with it free.
+  [[nodiscard]] std::optional<LinearisedHistories> seen_from_afar(const Place& at, const Taken& all) {
+    const FreedFit* near = freed_.much_nearer();
+    std::optional<LinearisedHistories> nearer;
+    for (std::size_t j = 0; near != nullptr && !nearer && j < motion_.list().parts.size(); ++j)
+      if (freed_.with(motion_.list().parts[j]) == near) nearer = motion_.at(*freed(j), {}, Whitening::on);
+    if (!nearer) return motion_.at(at, all, Whitening::on);
+    std::optional<LinearisedHistories> found = motion_.at(at, all, Whitening::on, nearer->errors);
+    for (std::size_t j = 0; found && j < motion_.list().parts.size(); ++j) {
+      const std::optional<Place> place = freed(j);
+      const auto own = static_cast<Eigen::Index>(j);
+      const std::optional<LinearisedHistories> there =
+          place && place->g[own] != 0.0 ? motion_.at(*place, {}, Whitening::on, nearer->errors) : std::nullopt;
+      if (!there) continue;
+      const Eigen::VectorXd straight = (found->residuals - there->residuals) / place->g[own];
+      if (found->shaken.size() > 0)
+        found->shaken.col(1 + found->base.cols() + own) += straight - found->relaxed.col(own);
+      found->relaxed.col(own) = straight;
+    }
+    return found;
+  }
+
+  /// The fit with this constant unknown: one out of step with it cannot be reached by steps from the stated one.
+  [[nodiscard]] std::optional<Place> freed(std::size_t number) {
+    const FreedFit* found = freed_.with(motion_.list().parts[number]);
+    if (found == nullptr) return std::nullopt;
+    Place place{found->p, motion_.start().zeros, motion_.start().g};
+    place.g[static_cast<Eigen::Index>(number)] = found->change;
+    return place;
+  }
+
+  const Record& record_;  // outlives the tests
+  KnownConstants constants_;
+  HistoryLinearisation motion_;
+  FreedConstants freed_{record_, constants_, motion_.fit()};
+};
+
+}  // namespace
+
+std::variant<JointModel, std::string> history_model(const Record& record, const KnownConstants& constants,
+                                                    double sigma_x) {
+  if (std::string fault = fault_of_histories(record); !fault.empty()) return fault;
+  Estimate exclusions;
+  const auto histories = std::make_shared<Histories>(record, constants, sigma_x, exclusions);
+  HistoryLinearisation& motion = histories->motion();
+  const ForwardFit& fit = motion.fit();
+  if (!fit.problem().empty()) return fit.problem();
+  if (std::string fault = histories->fault_of_fit(); !fault.empty()) return fault;
+  JointModel model = histories->fitted({});
+  const double ratio = motion.scatter();
+  const auto freedom = static_cast<double>(sigma_x > 0.0 ? model.residuals.size() : 0);
+  const ScatterBesideStated scatter = readings_scatter(ratio, freedom);
+  if (scatter == ScatterBesideStated::more) {
+    motion.forget_stated();
+    model = histories->fitted({});
+  }
+  note_contradiction(scatter, ratio, "samples of x", model);
+  if (model.residuals.size() == 0 || !model.residuals.allFinite() || !model.base.allFinite())
+    return "the simulated motion, fitted with the mass and the stiffness as stated, grows beyond all numbers";
+  model.refit = [histories](const Taken& numbers) { return histories->fitted(numbers); };
+  model.of_histories = true;
+  model.step_interval = step_interval_of(fit.tests());
+  model.data = std::to_string(fit.residuals().count()) + " samples of " + std::to_string(fit.tests().size()) +
+               (fit.tests().size() == 1 ? " history" : " histories");
+  for (const Exclusion& exclusion : exclusions.excluded)
+    model.left_out.push_back("history " + std::to_string(exclusion.number) + ": " + exclusion.reason);
+  return model;
+}
+
+}  // namespace dualdamp::identify
