@@ -43,7 +43,7 @@ class Mutants(unittest.TestCase):
 
     def test_what_is_no_code_or_is_evaluated_by_the_compiler_stays(self):
         for text in ['#include "a - b.hpp"', "/// 1.0 + 2", "constexpr double a = b + 1.0;", "template <int i = 1>", "  case 1:", "  return word;", "  std::array<double, 3> list;",
-                     '  return "1 + 1";  // 2 + 2', "  assert(is_open);"]:
+                     '  return "1 + 1";  // 2 + 2', "  assert(is_open);", "      .real();"]:
             self.assertEqual(mutants.switched(text, 1), (text + "\n", []))
 
     def test_a_change_says_its_number_and_line_and_lines_can_be_left_out(self):
