@@ -69,7 +69,9 @@ class Events {
     if (a.samples.empty()) return;
     spacing_ = a.samples.front().t;
     slow_window_ = slow_instant * a.samples.back().t;
-    place_ = 0.1 * same_instant * sizes(a).x.back();
+    const double size = sizes(a).x.back();
+    place_ = 0.1 * same_instant * size;
+    resolved_ = 1e-13 * size;
   }
 
   void compare(Difference& result);
@@ -96,12 +98,15 @@ class Events {
   double spacing_ = 0.0;
   double slow_window_ = 0.0;
   double place_ = 0.0;
+  double resolved_ = -1.0;
   std::size_t i_ = 0;  ///< next event of a
   std::size_t j_ = 0;  ///< next event of b
 };
 
-/// Whether neither velocity differs from zero by more than allowed.
+/// Whether neither velocity differs from zero by more than allowed, or neither position changes by more than
+/// engines resolve.
 bool Events::rest_between(double from, double to) const {
+  if (std::max(way(a_, from, to), way(b_, from, to)) <= resolved_) return true;
   if (speeds_.empty()) return false;
   const auto last = static_cast<double>(speeds_.size() - 1);
   const auto index = static_cast<std::size_t>(std::clamp(std::floor(from / spacing_) - 1.0, 0.0, last));

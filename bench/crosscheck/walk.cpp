@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "sim/engine/engine.hpp"
 #include "sim/motion/observers.hpp"
@@ -76,6 +77,17 @@ bool is_slow(const Walk& walk, double from, double to, double speed) {
     if (piece->end >= to) return true;
   }
   return false;
+}
+
+double way(const Walk& walk, double from, double to) {
+  double result = 0.0;
+  auto piece = std::ranges::lower_bound(walk.pieces, from, {}, &Piece::end);
+  for (double begin = from; piece != walk.pieces.end(); ++piece) {
+    result += piece->speed * (std::min(piece->end, to) - begin);
+    if (piece->end >= to) return result;
+    begin = piece->end;
+  }
+  return std::numeric_limits<double>::infinity();
 }
 
 std::string fault_of_sticks(const std::vector<sim::Event>& events) {

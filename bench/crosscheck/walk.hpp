@@ -45,6 +45,10 @@ struct Walk {
 /// Whether |v| <= `speed` in all pieces between the two times.
 [[nodiscard]] bool is_slow(const Walk& walk, double from, double to, double speed);
 
+/// The way of the mass between the two times, at the largest speed of each piece [m]; infinite beyond the last
+/// piece.
+[[nodiscard]] double way(const Walk& walk, double from, double to);
+
 /// What is wrong with the order of the events: the mass stops or turns while it is held, or is released while it
 /// slips. Empty: nothing. At the start it may be held.
 [[nodiscard]] std::string fault_of_sticks(const std::vector<sim::Event>& events);

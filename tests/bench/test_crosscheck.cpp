@@ -257,6 +257,28 @@ TEST_CASE("crosscheck: the reversals of a mass at rest within the tolerance are 
   CHECK_FALSE(crosscheck::difference(walk_that_turns(0.7), walk_that_turns(1.5), mild, 1e-7).fault.empty());
 }
 
+TEST_CASE("crosscheck: a turn of a ringing that positions do not resolve is named, one that they resolve is not",
+          "[crosscheck]") {
+  // Turns each 0.01 s, fast beside the slowest speed that counts, over a way of 0.01 `speed`.
+  const auto ringing = [](int turns, double speed) {
+    crosscheck::Walk walk;
+    for (int i = 1; i <= crosscheck::walk_samples; ++i) {
+      const double t = 0.01 * i;
+      walk.samples.push_back({.t = t, .x = 1.0, .v = 0.0});
+      walk.pieces.push_back({t, speed});
+      if (i <= turns) walk.events.push_back({t, sim::EventKind::reversal, 1.0, 0.0});
+    }
+    walk.end = 2.0;
+    return walk;
+  };
+  const crosscheck::Sensitivity mild{.deviation = std::vector<double>(crosscheck::walk_samples, 1e-10),
+                                     .change = 1e-10};
+  const crosscheck::Difference below = crosscheck::difference(ringing(9, 9e-12), ringing(10, 9e-12), mild, 1e-7);
+  CHECK(below.fault.empty());
+  CHECK(below.resting == 1);
+  CHECK_FALSE(crosscheck::difference(ringing(9, 2e-11), ringing(10, 2e-11), mild, 1e-7).fault.empty());
+}
+
 TEST_CASE("crosscheck: a subharmonic motion is compared over its own period", "[crosscheck]") {
   Json subharmonic = {{"schema", "dualdamp/1"},
                       {"system",
