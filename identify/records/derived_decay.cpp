@@ -57,6 +57,11 @@ LocalFit local_fit(std::span<const double> x, std::size_t first, std::size_t las
   return fit;
 }
 
+double swing_of(std::span<const double> x) {
+  const auto [low, high] = std::ranges::minmax(x);
+  return high - low;
+}
+
 class DecayReader {
  public:
   explicit DecayReader(const History& history) : history_(history), x_(history.x) {}
@@ -80,9 +85,9 @@ class DecayReader {
     // If a period has few samples, differences of second order take the motion for noise.
     constexpr double many = 32.0;
     if (half_period_ < many) turns = read_turns(robust_noise_level(history_.x));
-    if (turns.size() < 3) return refused(no_turns());
+    if (turns.size() < 3) return refused(no_turns(), swing_of(x_) > 2.0 * band_);
     if (half_period_ < fewest_in_half_period) {
-      DerivedDecay slow = refused(too_slow());
+      DerivedDecay slow = refused(turns.size() > 3 ? too_slow() : "x turns back once" + duration(), true);
       slow.warnings.push_back("no extremes are read: " + slow.fault);
       return slow;
     }
@@ -94,12 +99,13 @@ class DecayReader {
     add_first(result, turns.front(), held);
     add_last(result, turns.back());
     const std::string fault = keep_decay(result);
-    return fault.empty() ? result : refused(fault);
+    return fault.empty() ? result : refused(fault, result.is_coarse);
   }
 
-  static DerivedDecay refused(std::string fault) {
+  static DerivedDecay refused(std::string fault, bool is_coarse = false) {
     DerivedDecay result;
     result.fault = std::move(fault);
+    result.is_coarse = is_coarse;
     return result;
   }
 
@@ -123,8 +129,7 @@ class DecayReader {
     // step.
     constexpr double steps = 2.5;
     constexpr std::size_t fewest_levels = 6;
-    const auto [low, high] = std::ranges::minmax(x_);
-    return std::max({noises * noise, steps * converter_step(history_.x, fewest_levels), rounding * (high - low)});
+    return std::max({noises * noise, steps * converter_step(history_.x, fewest_levels), rounding * swing_of(x_)});
   }
 
   /// The median of the swings that are not much smaller than the largest one; ripple, and the motion of a mass that
@@ -149,9 +154,9 @@ class DecayReader {
 
   /// The first and the last of two turning points of a zigzag are its ends.
   [[nodiscard]] std::string no_turns() const {
-    const auto [low, high] = std::ranges::minmax(x_);
-    if (!(high > low)) return "x does not move" + duration();
-    const auto share = [range = high - low](double length) { return core::percent(length / range, 3); };
+    const double range = swing_of(x_);
+    if (!(range > 0.0)) return "x does not move" + duration();
+    const auto share = [range](double length) { return core::percent(length / range, 3); };
     return "x does not turn back" + duration() + ", where swings count above " + share(band_) +
            " of its range and its noise is " + share(noise_);
   }
@@ -182,12 +187,11 @@ class DecayReader {
 
   /// Of the samples [first, last).
   [[nodiscard]] Mean mean_of(std::size_t first, std::size_t last) const {
-    const auto n = static_cast<double>(last - first);
-    const double mean = std::reduce(x_.begin() + static_cast<std::ptrdiff_t>(first),
-                                    x_.begin() + static_cast<std::ptrdiff_t>(last)) /
-                        n;
+    const std::span<const double> part = x_.subspan(first, last - first);
+    const auto n = static_cast<double>(part.size());
+    const double mean = std::reduce(part.begin(), part.end()) / n;
     double square = 0.0;
-    for (std::size_t i = first; i < last; ++i) square += (x_[i] - mean) * (x_[i] - mean);
+    for (const double value : part) square += (value - mean) * (value - mean);
     return {mean, std::sqrt(square / n / std::max(n - 1.0, 1.0))};
   }
 
@@ -348,7 +352,7 @@ class DecayReader {
   /// are cut off. Returns why the history is no free decay; empty if it is one.
   [[nodiscard]] std::string keep_decay(DerivedDecay& result) const {
     const std::vector<double>& extremes = result.record.extremes;
-    if (extremes.size() < 3) return "x has " + std::to_string(extremes.size()) + " extremes" + duration();
+    if (extremes.size() < 3) return too_few(result, " extremes" + duration(), extremes.size());
     const auto swing = [&extremes](std::size_t i) { return std::abs(extremes[i] - extremes[i - 1]); };
     std::size_t largest = 1;
     for (std::size_t i = 2; i < extremes.size(); ++i)
@@ -376,7 +380,7 @@ class DecayReader {
     const std::size_t begin = largest > 1 ? largest : 0;
     if (begin > longest_start + 1)
       return "the swings grow at the beginning: the drive of the motion was not recorded";
-    if (end < begin + 3) return "x has " + std::to_string(end - begin) + " extremes from its largest swing on";
+    if (end < begin + 3) return too_few(result, " extremes from its largest swing on", end - begin);
     if (fails) {
       const std::string where = " at t = " + core::format_number(result.record.times[end], 4) + " s, where " +
                                 core::percent(swing(end - 1) / swing(largest), 2) +
@@ -393,6 +397,11 @@ class DecayReader {
     result.first = std::max(result.first, sample_of(result, begin));
     cut(result, begin, end);
     return {};
+  }
+
+  static std::string too_few(DerivedDecay& result, const std::string& extremes, std::size_t count) {
+    result.is_coarse = true;
+    return "x has " + std::to_string(count) + extremes;
   }
 
   /// Between two swings that shrink hardly, the noise of their extremes may show a growth up to this. `extreme`,

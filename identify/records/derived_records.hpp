@@ -38,8 +38,10 @@ struct DerivedDecay {
   std::vector<std::string> warnings;    ///< what was left out before the release and in the noise at the end
   std::size_t first = 0, last = 0;      ///< samples [first, last) of the free motion
   std::string fault;                    ///< why there are no extremes
-  std::size_t held = 0;                 ///< first samples that are equal within the noise
-  double half_period = 0.0;             ///< samples of a half swing; 0: x does not turn back
+  /// The fault is that x has few extremes, or few samples between them: a simulated motion may still fit it.
+  bool is_coarse = false;
+  std::size_t held = 0;      ///< first samples that are equal within the noise
+  double half_period = 0.0;  ///< samples of a half swing; 0: x does not turn back
 };
 
 /// Turning points of x, from the release until the mass comes to rest, the swings grow again in noise, or the

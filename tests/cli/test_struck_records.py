@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Fits and predictions of records that begin with a hammer's blow of few samples.
+"""Fits, predictions and identifications of records with a hammer's blows of few samples.
 
 usage: test_struck_records.py PROGRAM ROOT [TEST...]
 """
@@ -30,10 +30,23 @@ def struck(blow, begin=0.31, speed=0.3):
     return laboratory.forced(force, RATE, COUNT, RIG)
 
 
+def struck_again(blows, count=1300):
+    """The same struck several times: each blow has its begin, its length in samples and the speed that it gives."""
+    halves = [(begin, length / RATE, MASS * speed * math.pi / 2 / (length / RATE)) for begin, length, speed in blows]
+
+    def force(t):
+        return sum(peak * math.sin(math.pi * (t - begin) / length) for begin, length, peak in halves if begin < t < begin + length)
+
+    return laboratory.forced(force, RATE, count, RIG)
+
+
+SEVERAL = ((0.31, 4.3, 0.3), (8.13, 2.6, -0.27), (16.44, 5.8, 0.33))
+
+
 class StruckRecords(case.Case):
-    def record(self, name, blow, signals="x", more=""):
+    def record(self, name, blow, signals="x", more="", rows=None):
         units = {"x": "m", "v": "m/s", "a": "m/s^2"}
-        columns = list(zip(*struck(blow)))
+        columns = list(zip(*(rows or struck(blow))))
         held = [columns["txvaf".index(s)] for s in signals]
         lines = [",".join(["t [s]", *(f"{s} [{units[s]}]" for s in signals), "force [N]"])]
         for row in zip(columns[0], *map(laboratory.rough, held), columns[4]):
@@ -105,6 +118,50 @@ class StruckRecords(case.Case):
         self.assert_true(result)
         self.assert_told("impulse", warnings, 0)
         self.assertIn("type: measured_force", result["scenario"])
+
+    def test_the_motions_after_several_short_blows_are_fitted_together(self):
+        rows = struck_again(SEVERAL)
+        for signal in "xa":
+            with self.subTest(signal=signal):
+                result, warnings = self.fitted(self.record("again.csv", 0, signal, rows=rows), "--drive", "force")
+                self.assert_true(result)
+                self.assert_told("the 3 blows of force at t = 0.32, 8.14, 16.46 s have 3 to 5 samples, too few to know their impulses", warnings)
+                self.assert_told("the motion after them is read as 3 free vibrations, each with a first state of its own", warnings)
+                self.assertLess(result["residual"]["noise_units"], 1.1)
+                self.assertIn("velocity[2]", [row["name"] for row in result["parameters"]])
+                self.assertIn("type: none", result["scenario"])
+
+    def test_several_short_blows_are_validated_and_predicted_together(self):
+        again = self.record("again.csv", 0, rows=struck_again(SEVERAL))
+        result, warnings = self.fitted(self.decay(), "--validate", again, "--drive", "force")
+        self.assert_told("again.csv: the 3 blows of force", warnings)
+        self.assertLess(result["validation"]["error"], 2e-3)
+        ran = json.loads(self.run_program("predict", "fit", again, "--drive", "force", "--json").stdout)
+        self.assertLess(ran["result"]["validation"]["error"], 2e-3)
+        self.assertFalse(ran["result"]["validation"]["wrong"])
+        self.assert_told("again.csv: the 3 blows of force", ran["warnings"])
+
+    def test_where_several_blows_are_needed_the_error_of_their_impulses_is_told(self):
+        again = self.record("again.csv", 0, rows=struck_again(SEVERAL))
+        warnings = self.fitted(again, "--drive", "force", constants=(*CONSTANTS, "--set", "initial={position: 0 m}"))[1]
+        self.assert_told("have 3 to 5 samples: an impulse may be wrong by 8.9 %", warnings)
+        self.assert_told("left out", warnings, 0)
+        # Blows that follow each other closely leave no vibration that could be read.
+        often = tuple((0.31 + 0.31 * i, 2.6, 0.05) for i in range(40))
+        warnings = self.fitted(self.record("often.csv", 0, rows=struck_again(often, 640)), "--drive", "force", "--set", "analysis.starts=2")[1]
+        self.assert_told("an impulse may be wrong by ", warnings)
+
+    def identified(self, record):
+        return json.loads(self.run_program("identify", record, *CONSTANTS, "--json").stdout)
+
+    def test_identify_uses_the_motions_after_several_short_blows_together(self):
+        answer = self.identified(self.record("again.csv", 0, rows=struck_again(SEVERAL)))
+        self.assert_told("the motion after them is read as 3 free vibrations", answer["warnings"])
+        estimate = answer["result"]["answer"]
+        self.assertEqual(estimate["method"], "joint_fit")
+        for name, truth in (("c", DAMPING), ("F0", FRICTION)):
+            self.assertAlmostEqual(estimate[name], truth, delta=0.03 * truth)
+        self.assertIn("3 histories", answer["result"]["tested"])
 
     def test_a_prediction_begins_after_the_blow(self):
         record = self.record("struck.csv", 4.3)

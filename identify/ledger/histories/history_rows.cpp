@@ -219,7 +219,7 @@ std::string fault_of_histories(const Record& record) {
     samples += history.x.size();
     const bool free = history.y.empty() && history.force.empty();
     if (!free) continue;
-    if (std::string fault = decay_of(history).fault; !fault.empty()) return fault;
+    if (DerivedDecay decay = decay_of(history); !decay.fault.empty() && !decay.is_coarse) return decay.fault;
   }
   if (samples > most_samples) return "tests take at most 60,000 samples: give a part, or every n-th sample";
   // Each history has a first state and zeros of its own, and the work of a fit is that of its samples times the

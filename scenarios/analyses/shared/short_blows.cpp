@@ -49,11 +49,12 @@ std::optional<RecordDrive> drive_after_blow(CheckedFile& file, DataFile& data, s
   if (!column.empty() && column != "force") return std::nullopt;
   std::vector<double> force = column.empty() ? stated_force(file, history) : history.force;
   std::swap(history.force, force);
-  const std::optional<identify::ShortBlow> blow = identify::short_blow(history);
-  if (blow && !needs_force(file, data)) return RecordDrive{{}, {{"type", "none"}}, true};
-  if (blow)
+  const std::optional<identify::ShortBlows> found = identify::short_blows(history);
+  if (found && !found->vibrations.empty() && !needs_force(file, data))
+    return RecordDrive{{}, {{"type", "none"}}, true};
+  if (found)
     file.warnings.push_back(data.name + ": " + (history.sweep.empty() ? "" : "test '" + history.sweep + "': ") +
-                            identify::impulse_warning(history, *blow));
+                            identify::impulse_warning(history, *found));
   std::swap(history.force, force);
   return std::nullopt;
 }
