@@ -37,6 +37,7 @@ void leave_out_blows(DataItem& item, std::vector<std::string>& warnings) {
   for (std::size_t h = 0; h < item.data.record.histories.size(); ++h) {
     identify::History& history = item.data.record.histories[h];
     const RecordDrive* own = item.drive_of(h);
+    const std::string name = name_of(item, history);
     const std::optional<identify::ShortBlows> found =
         own != nullptr && own->follows_blow ? identify::short_blows(history) : std::nullopt;
     std::vector<std::string> done;
@@ -45,7 +46,7 @@ void leave_out_blows(DataItem& item, std::vector<std::string>& warnings) {
     else
       histories.push_back(std::move(history));
     drives.resize(histories.size(), own != nullptr ? std::optional(*own) : std::nullopt);
-    for (const std::string& sentence : done) warnings.push_back(name_of(item, history) + sentence);
+    for (const std::string& sentence : done) warnings.push_back(name + sentence);
   }
   item.data.record.histories = std::move(histories);
   item.drives = std::move(drives);

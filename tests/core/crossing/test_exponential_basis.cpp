@@ -158,10 +158,14 @@ TEST_CASE("An element at s = 0 is 1 without a parent and 0 with one") {
   Random random(2);
   const ExponentialBasis basis = random_basis(random, true);
   const ModeFunction f = random_function(basis, random);
+  ExponentialBasis::Values values;
+  basis.start(values);
   double plain = 0.0;
   for (int k = 0; k < basis.size(); ++k) {
     const bool has_parent = basis.parent(k) != ExponentialBasis::no_parent;
     CHECK(value_of(basis, k, 0.0) == (has_parent ? 0.0 : 1.0));
+    CHECK(values.re[static_cast<std::size_t>(k)] == (has_parent ? 0.0 : 1.0));
+    CHECK(values.im[static_cast<std::size_t>(k)] == 0.0);
     if (!has_parent) plain += f.re[static_cast<std::size_t>(k)];
   }
   CHECK(at_start(basis, f) == plain);
