@@ -91,7 +91,7 @@ class Compromiser {
     if (shared == 0 || of_values.rows() != shared || !of_values.allFinite()) return;
     const Eigen::MatrixXd inverse = in_values_ ? Eigen::MatrixXd::Identity(shared, shared)
                                                : inverse_of(problem_.slope(held_).topLeftCorner(shared, shared));
-    const Eigen::MatrixXd covariance = inverse * of_values * inverse.transpose();
+    const Eigen::MatrixXd covariance = propagated(inverse, of_values);
     std::vector<Eigen::Index> in;
     for (Eigen::Index i = 0; i < shared; ++i)
       if (of_values(i, i) > 0.0 && covariance(i, i) > 0.0) in.push_back(i);
@@ -99,16 +99,16 @@ class Compromiser {
     const Eigen::VectorXd scale = covariance.diagonal()(in).cwiseSqrt().cwiseInverse();
     Eigen::MatrixXd open(static_cast<Eigen::Index>(in.size()), 0);
     if (known.uncertainty.undetermined.rows() == shared)
-      open = scale.asDiagonal() * Eigen::MatrixXd(inverse * known.uncertainty.undetermined)(in, Eigen::all);
+      open = scale.asDiagonal() * product(inverse, known.uncertainty.undetermined)(in, Eigen::all);
     const Eigen::MatrixXd held = complement_of(open);
     if (held.cols() == 0) return;
-    const Eigen::MatrixXd part = scale.asDiagonal() * covariance(in, in) * scale.asDiagonal();
-    const SymmetricSpectrum spectrum = symmetric_spectrum(held.transpose() * part * held);
+    const Eigen::MatrixXd part = in_units(covariance(in, in), scale);
+    const SymmetricSpectrum spectrum = symmetric_spectrum(product(product(held.transpose(), part), held));
     constexpr double rounding = 1e-10;
     const Eigen::VectorXd weights = spectrum.values.cwiseMax(rounding).cwiseSqrt().cwiseInverse();
     whitening_ = Eigen::MatrixXd::Zero(held.cols(), size());
     whitening_(Eigen::all, in) =
-        weights.asDiagonal() * spectrum.vectors.transpose() * held.transpose() * scale.asDiagonal();
+        product(weights.asDiagonal() * spectrum.vectors.transpose(), held.transpose()) * scale.asDiagonal();
   }
 
   /// An orthonormal basis of all that is orthogonal to the columns.
@@ -122,8 +122,7 @@ class Compromiser {
     for (std::size_t j = 0; j < units.size(); ++j) spanning.col(static_cast<Eigen::Index>(j)) = units[j];
     constexpr double dependent = 1e-6;
     const Eigen::MatrixXd basis = orthonormal_basis(spanning, dependent);
-    const SymmetricSpectrum projector =
-        symmetric_spectrum(Eigen::MatrixXd::Identity(size, size) - basis * basis.transpose());
+    const SymmetricSpectrum projector = symmetric_spectrum(projector_beside(basis));
     return projector.vectors.rightCols(size - basis.cols());
   }
 
@@ -190,7 +189,7 @@ class Compromiser {
       if (jacobian == nullptr) return true;
       jacobian->resize(least.residuals, size());
       *jacobian << weights_.cwiseProduct(problem_.counted()).asDiagonal() * slopes,
-          in_values_ ? Eigen::MatrixXd(whitening_ * problem_.slope(q)) : whitening_;
+          in_values_ ? product(whitening_, problem_.slope(q)) : whitening_;
       return true;
     };
     const LeastSquaresFit found = fit(least);

@@ -1,12 +1,14 @@
 #include "identify/fit/far_starts.hpp"
 
-#include <Eigen/Cholesky>
+#include <Eigen/Core>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <iterator>
 #include <ranges>
 #include <utility>
+
+#include "identify/statistics/decompositions.hpp"
 
 namespace dualdamp::identify {
 
@@ -18,8 +20,8 @@ Eigen::VectorXd deviations_of(const SearchEnd& end, double readings) {
   const Eigen::Index count = end.jacobian.cols();
   const double variance = end.place.squares / std::max(1.0, readings - static_cast<double>(count));
   const Eigen::MatrixXd information =
-      end.jacobian.transpose() * end.jacobian + variance / (most * most) * Eigen::MatrixXd::Identity(count, count);
-  const Eigen::MatrixXd covariance = information.ldlt().solve(Eigen::MatrixXd::Identity(count, count));
+      gram(end.jacobian) + variance / (most * most) * Eigen::MatrixXd::Identity(count, count);
+  const Eigen::MatrixXd covariance = DefiniteMatrix(information).inverse();
   return (variance * covariance.diagonal().cwiseMax(0.0)).cwiseSqrt();
 }
 

@@ -40,19 +40,18 @@ double uncertainty_of(const Fit& held, const Rig& rig, const std::vector<FitPara
   Eigen::VectorXd outputs;
   Eigen::MatrixXd jacobian;
   if (!problem.derivatives(q, outputs, jacobian)) return unknown;
-  jacobian = (jacobian * inverse_of(problem.slope(q))).eval();
+  jacobian = product(jacobian, inverse_of(problem.slope(q)));
   for (const FittedSignal& signal : held.signals)
     jacobian.middleRows(signal.rows.begin, signal.rows.size()) /= signal.range;
   Eigen::MatrixXd by_rig = jacobian.leftCols(count);
   // The record's own parameters are fitted, so the changes that they can compensate are no error.
   if (const Eigen::MatrixXd own = jacobian.rightCols(jacobian.cols() - count); own.cols() > 0) {
     const Eigen::MatrixXd basis = orthonormal_basis(own);
-    by_rig -= basis * (basis.transpose() * by_rig);
+    by_rig -= product(basis, product(basis.transpose(), by_rig));
   }
   if (shows_undetermined(by_rig, known.undetermined)) return unknown;
   double sum = 0.0;
-  for (Eigen::Index i = 0; i < by_rig.rows(); ++i)
-    sum += by_rig.row(i) * known.covariance * by_rig.row(i).transpose();
+  for (Eigen::Index i = 0; i < by_rig.rows(); ++i) sum += variance_along(by_rig.row(i), known.covariance);
   return std::sqrt(std::max(sum, 0.0) / static_cast<double>(by_rig.rows()));
 }
 

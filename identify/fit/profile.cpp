@@ -1,11 +1,12 @@
 #include "identify/fit/profile.hpp"
 
-#include <Eigen/QR>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "core/constants.hpp"
+#include "identify/statistics/decompositions.hpp"
 #include "sim/parallel.hpp"
 
 namespace dualdamp::identify {
@@ -68,7 +69,7 @@ void Profiler::for_each(Eigen::Index count, const std::function<void(Eigen::Inde
 
 Profiler::ProfilePath Profiler::at(const Eigen::VectorXd& q, const Eigen::VectorXd& residuals,
                                    const Eigen::MatrixXd& rows) const {
-  ProfilePath path{q, residuals, rows, rows.transpose() * rows, Eigen::VectorXd::Ones(q.size())};
+  ProfilePath path{q, residuals, rows, gram(rows), Eigen::VectorXd::Ones(q.size())};
   for (Eigen::Index j = 0; j < q.size(); ++j)
     if (path.normal(j, j) > 0.0) path.unit[j] = 1.0 / std::sqrt(path.normal(j, j));
   return path;
@@ -81,7 +82,7 @@ Eigen::VectorXd Profiler::step(Eigen::Index i, double value, const ProfilePath& 
   const Eigen::VectorXd row = path.unit.cwiseProduct(problem_.slope(path.q).row(i).transpose());
   const double scale = row.norm();
   Eigen::MatrixXd bordered = Eigen::MatrixXd::Zero(size + 1, size + 1);
-  bordered.topLeftCorner(size, size) = path.unit.asDiagonal() * path.normal * path.unit.asDiagonal();
+  bordered.topLeftCorner(size, size) = in_units(path.normal, path.unit);
   constexpr double least = 0.1;  // of the size of a coordinate
   for (Eigen::Index j = 0; damping > 0.0 && j < size; ++j) {
     const bool is_logarithm = problem_.coordinates()[static_cast<std::size_t>(j)].logarithmic;
@@ -94,7 +95,7 @@ Eigen::VectorXd Profiler::step(Eigen::Index i, double value, const ProfilePath& 
   right.head(size) = -path.unit.cwiseProduct(path.rows.transpose() * path.residuals);
   right[size] = (value - problem_.values(path.q)[i]) / scale;
   for (Eigen::Index held = 0;; ++held) {
-    const Eigen::VectorXd found = bordered.completeOrthogonalDecomposition().solve(right);
+    const Eigen::VectorXd found = shortest_solution(bordered, right);
     Eigen::VectorXd q = path.q + path.unit.cwiseProduct(found.head(size));
     Eigen::Index leaving = -1;
     for (Eigen::Index j = 0; j < size; ++j) {

@@ -61,12 +61,11 @@ double serial_p_value(const Eigen::VectorXd& residuals, const Eigen::MatrixXd& b
   constexpr Eigen::Index many = 400;
   if (count > many)
     return 0.5 * std::erfc((2.0 - d) * std::sqrt(static_cast<double>(count)) / (2.0 * std::numbers::sqrt2));
-  const Eigen::MatrixXd left = Eigen::MatrixXd::Identity(count, count) - base * base.transpose();
+  const Eigen::MatrixXd left = projector_beside(base);
   const Eigen::MatrixXd differences = matrix_of_differences(count) - d * Eigen::MatrixXd::Identity(count, count);
   const SymmetricSpectrum covariance = symmetric_spectrum(left);
-  const Eigen::MatrixXd root = covariance.vectors * covariance.values.cwiseMax(0.0).cwiseSqrt().asDiagonal() *
-                               covariance.vectors.transpose();
-  const SymmetricSpectrum spectrum = symmetric_spectrum(root * differences * root);
+  const Eigen::MatrixXd root = covariance.matrix_with(covariance.values.cwiseMax(0.0).cwiseSqrt());
+  const SymmetricSpectrum spectrum = symmetric_spectrum(product(product(root, differences), root));
   return chance_below_zero(spectrum.values);
 }
 

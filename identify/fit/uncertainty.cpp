@@ -34,8 +34,8 @@ class Uncertainty {
     measure_variance();
     decompose();
     slope_ = end_.problem.slope(end_.q);
-    fit_.covariance = slope_ * covariance_ * slope_.transpose();
-    fit_.slopes = end_.jacobian * inverse_of(slope_);
+    fit_.covariance = propagated(slope_, covariance_);
+    fit_.slopes = product(end_.jacobian, inverse_of(slope_));
     for (Eigen::Index i = 0; i < size_; ++i) quantiles_.push_back(quantile95(freedom_along(scaled_row(i))));
     for (Eigen::Index i = 0; i < size_; ++i) add_interval(i);
     for (FittedParameter& fitted : fit_.parameters) end_above_other(fitted);
@@ -158,7 +158,7 @@ class Uncertainty {
     for (Eigen::Index j = 0; j < free; ++j)
       scaled.col(j) =
           rows_.col(free_[static_cast<std::size_t>(j)]) * judged_change(free_[static_cast<std::size_t>(j)]);
-    const SymmetricSpectrum normal = symmetric_spectrum(scaled.transpose() * scaled);
+    const SymmetricSpectrum normal = symmetric_spectrum(gram(scaled));
     for (Eigen::Index j = 0; j < free; ++j)
       if (!(normal.values[j] > singular * normal.values[free - 1]))
         lost_.push_back(vector_among_all(normal.vectors.col(j)));
@@ -167,24 +167,23 @@ class Uncertainty {
     for (std::size_t s = 0; s < variances_.size(); ++s) {
       const SignalRows& rows = end_.problem.signals()[s];
       const Eigen::MatrixXd part = scaled.middleRows(rows.begin, rows.size());
-      parts_.push_back(matrix_among_all(bread *
-                                        score_covariance(part, residuals_.segment(rows.begin, rows.size()),
-                                                         variances_[s], end_.problem.signal(rows).is_sampled) *
-                                        bread));
+      const Eigen::MatrixXd scores = score_covariance(part, residuals_.segment(rows.begin, rows.size()),
+                                                      variances_[s], end_.problem.signal(rows).is_sampled);
+      parts_.push_back(matrix_among_all(product(product(bread, scores), bread)));
       scaled_covariance_ += parts_.back();
-      plain += variances_[s] * (part.transpose() * part);
+      plain += variances_[s] * gram(part);
     }
     const Eigen::VectorXd all = judged_changes();
-    covariance_ = all.asDiagonal() * scaled_covariance_ * all.asDiagonal();
-    classical_ = all.asDiagonal() * matrix_among_all(end_.robust ? bounded_inverse() : bread * plain * bread) *
-                 all.asDiagonal();
+    covariance_ = in_units(scaled_covariance_, all);
+    classical_ =
+        in_units(matrix_among_all(end_.robust ? bounded_inverse() : product(product(bread, plain), bread)), all);
   }
 
   /// The inverse of a normal matrix without its directions that are lost.
   [[nodiscard]] static Eigen::MatrixXd regular_inverse(const SymmetricSpectrum& normal) {
     const double least = singular * normal.values[normal.values.size() - 1];
     const Eigen::VectorXd inverse = (normal.values.array() > least).select(normal.values.cwiseInverse(), 0.0);
-    return normal.vectors * inverse.asDiagonal() * normal.vectors.transpose();
+    return normal.matrix_with(inverse);
   }
 
   /// What takes the place of the classical covariance for the profiles of a robust fit, which keep the weights of
@@ -193,7 +192,7 @@ class Uncertainty {
     const auto free = static_cast<Eigen::Index>(free_.size());
     Eigen::MatrixXd scaled = end_.weights.asDiagonal() * end_.jacobian(Eigen::all, free_);
     for (Eigen::Index j = 0; j < free; ++j) scaled.col(j) *= judged_change(free_[static_cast<std::size_t>(j)]);
-    return mean_variance() * regular_inverse(symmetric_spectrum(scaled.transpose() * scaled));
+    return mean_variance() * regular_inverse(symmetric_spectrum(gram(scaled)));
   }
 
   [[nodiscard]] Eigen::VectorXd full_changes() const {
@@ -328,7 +327,7 @@ class Uncertainty {
       // What acts in steps has no other interval.
       if (!end_.profile && !end_.problem.is_stepped(i)) return;
       // Correlated residuals widen the profile as they widen the covariance.
-      const double variance = slope_.row(i) * classical_ * slope_.row(i).transpose();
+      const double variance = variance_along(slope_.row(i), classical_);
       const double widening = fitted.at_bound || !(variance > 0.0)
                                   ? mean_variance()
                                   : fit_.covariance(i, i) / variance * mean_variance();
@@ -387,8 +386,7 @@ class Uncertainty {
     const Eigen::VectorXd ratio = judged_changes().cwiseQuotient(full_changes());
     for (const Eigen::VectorXd& direction : lost_) add(ratio.cwiseProduct(direction).normalized(), infinity);
     if (free_.empty()) return;
-    const SymmetricSpectrum spectrum =
-        symmetric_spectrum(ratio.asDiagonal() * scaled_covariance_ * ratio.asDiagonal());
+    const SymmetricSpectrum spectrum = symmetric_spectrum(in_units(scaled_covariance_, ratio));
     for (Eigen::Index j = size_ - 1; j >= 0; --j) {
       const Eigen::VectorXd direction = spectrum.vectors.col(j);
       const Eigen::VectorXd in_judged_changes = ratio.cwiseProduct(direction);

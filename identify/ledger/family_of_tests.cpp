@@ -7,6 +7,7 @@
 
 #include "core/constants.hpp"
 #include "core/random.hpp"
+#include "identify/statistics/decompositions.hpp"
 #include "identify/statistics/distributions.hpp"
 #include "identify/statistics/ties.hpp"
 
@@ -21,7 +22,7 @@ namespace {
 Eigen::MatrixXd coordinates_of(const Eigen::MatrixXd& unit, Eigen::Index most) {
   constexpr double dependent = 1e-8;  // of the square of a length
   const Eigen::Index count = unit.cols();
-  Eigen::MatrixXd left = unit.transpose() * unit;
+  Eigen::MatrixXd left = gram(unit);
   Eigen::MatrixXd coordinates = Eigen::MatrixXd::Zero(count, std::min(count, most));
   Eigen::Index rank = 0;
   for (; rank < coordinates.cols(); ++rank) {

@@ -1,6 +1,6 @@
 #include "identify/ledger/relaxation_tests.hpp"
 
-#include <Eigen/QR>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -55,18 +55,18 @@ Eigen::MatrixXd finite_columns(Eigen::MatrixXd columns) {
 /// Lengths of columns beside a base.
 Eigen::VectorXd lengths_beside(const Eigen::MatrixXd& base, const Eigen::MatrixXd& columns) {
   const Eigen::VectorXd scale = base.colwise().norm().cwiseMax(1e-300);
-  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(base * scale.cwiseInverse().asDiagonal());
-  return (columns - base * (scale.cwiseInverse().asDiagonal() * qr.solve(columns))).colwise().norm();
+  const DependentColumns qr(base * scale.cwiseInverse().asDiagonal());
+  return (columns - base * (scale.cwiseInverse().asDiagonal() * qr.solve_each(columns))).colwise().norm();
 }
 
 Projection project(const JointModel& model, const Taken& taken) {
   const Eigen::Index own = model.base.cols();
   const Eigen::MatrixXd base = free_columns(model.base, model.relaxed, taken);
   const Eigen::VectorXd scale = base.colwise().norm().cwiseMax(1e-300);
-  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(base * scale.cwiseInverse().asDiagonal());
+  const DependentColumns qr(base * scale.cwiseInverse().asDiagonal());
   const Eigen::MatrixXd columns = finite_columns(model.relaxed);
-  const Eigen::MatrixXd solved = scale.cwiseInverse().asDiagonal() * qr.solve(columns);
-  const Eigen::MatrixXd beside = columns - base * solved;
+  const Eigen::MatrixXd solved = scale.cwiseInverse().asDiagonal() * qr.solve_each(columns);
+  const Eigen::MatrixXd beside = columns - product(base, solved);
 
   Projection result;
   result.residuals = model.residuals - base * (scale.cwiseInverse().asDiagonal() * qr.solve(model.residuals));

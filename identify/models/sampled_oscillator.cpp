@@ -1,11 +1,12 @@
 #include "identify/models/sampled_oscillator.hpp"
 
-#include <Eigen/LU>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "core/cancellation.hpp"
+#include "identify/statistics/decompositions.hpp"
 #include "sim/engine/sticking_gate.hpp"
 
 namespace dualdamp::identify {
@@ -56,7 +57,7 @@ std::vector<std::array<double, nodes>> interpolate(const std::vector<double>& sa
       Eigen::Matrix<double, nodes, nodes> powers;
       for (int r = 0; r < nodes; ++r)
         for (int c = 0; c < nodes; ++c) powers(r, c) = std::pow(static_cast<double>(r - back), c);
-      weights = powers.inverse();
+      weights = inverse_of(powers);
       laid_out = back;
     }
     const Eigen::Map<const Eigen::Matrix<double, nodes, 1>> around(samples.data() + first);
@@ -335,7 +336,7 @@ void SampledOscillator::look_along() {
 
 /// A force along the motion, as a polynomial through these points. It is smooth, because the direction is constant.
 SampledOscillator::Drive SampledOscillator::push(const Force& force) const {
-  static const Eigen::Matrix<double, nodes, nodes> to_powers = powers_of_places<nodes>().matrix().inverse();
+  static const Eigen::Matrix<double, nodes, nodes> to_powers = inverse_of(powers_of_places<nodes>().matrix());
   const double per_length = 1.0 / (1.0 - begin_);
   AtNodes coefficients = AtNodes::Zero();
   for (int i = 0; i < nodes; ++i)

@@ -1,4 +1,4 @@
-#include <Eigen/QR>
+#include <Eigen/Core>
 #include <algorithm>
 #include <boost/math/tools/minima.hpp>
 #include <cmath>
@@ -10,6 +10,7 @@
 #include "core/numbers.hpp"
 #include "identify/records/derived_records.hpp"
 #include "identify/records/turning_points.hpp"
+#include "identify/statistics/decompositions.hpp"
 #include "identify/statistics/median.hpp"
 #include "identify/statistics/noise_level.hpp"
 #include "identify/validate.hpp"
@@ -39,21 +40,14 @@ LocalFit local_fit(std::span<const double> x, std::size_t first, std::size_t las
     fill((static_cast<double>(sample) - centre) / width, design.row(i));
     values(i) = x[sample];
   }
-  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(design);
-  const Eigen::VectorXd solution = qr.solve(values);
+  const LinearFit found = linear_fit(design, values);
   LocalFit fit;
-  fit.value = solution(0);
-  fit.slope = solution(1);
-  fit.sum_of_squares = (values - design * solution).squaredNorm();
-  const Eigen::MatrixXd R = qr.matrixQR().topRows(columns).triangularView<Eigen::Upper>();
-  // The k-th row of the inverse of R gives the variance of the k-th coefficient.
+  fit.value = found.coefficients(0);
+  fit.slope = found.coefficients(1);
+  fit.sum_of_squares = (values - design * found.coefficients).squaredNorm();
   const double variance = fit.sum_of_squares / static_cast<double>(std::max<Eigen::Index>(n - columns - 1, 1));
-  const auto std_of = [&](Eigen::Index k) {
-    const Eigen::VectorXd unit = Eigen::VectorXd::Unit(columns, k);
-    return std::sqrt(variance) * R.transpose().triangularView<Eigen::Lower>().solve(unit).norm();
-  };
-  fit.std = std_of(0);
-  fit.slope_std = std_of(1);
+  fit.std = std::sqrt(variance) * found.deviations(0);
+  fit.slope_std = std::sqrt(variance) * found.deviations(1);
   return fit;
 }
 

@@ -1,6 +1,6 @@
 #include "identify/records/free_part.hpp"
 
-#include <Eigen/QR>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -8,6 +8,7 @@
 
 #include "core/numbers.hpp"
 #include "identify/records/derived_records.hpp"
+#include "identify/statistics/decompositions.hpp"
 
 namespace dualdamp::identify {
 
@@ -39,7 +40,7 @@ bool rests(const std::vector<double>& x, std::size_t count) {
   const Eigen::VectorXd u = Eigen::VectorXd::LinSpaced(n, -1.0, 1.0);
   Eigen::MatrixXd columns(n, 3);
   columns << Eigen::VectorXd::Ones(n), u, u.cwiseAbs2();
-  const Eigen::VectorXd parabola = columns * columns.householderQr().solve(values);
+  const Eigen::VectorXd parabola = columns * linear_least_squares(columns, values);
   const auto rms = [n](const Eigen::VectorXd& of) { return of.norm() / std::sqrt(static_cast<double>(n)); };
   const double bend = rms((parabola.array() - parabola.mean()).matrix());
   const double error = rms(values - parabola) / std::sqrt(static_cast<double>(n));

@@ -1,11 +1,14 @@
 #include "identify/records/sine_fit.hpp"
 
-#include <Eigen/Cholesky>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <numbers>
 #include <numeric>
+#include <optional>
+
+#include "identify/statistics/decompositions.hpp"
 
 namespace dualdamp::identify {
 
@@ -42,13 +45,11 @@ class Basis {
         even(j, k) = 0.5 * (difference + sum);
         if (j > 0 && k > 0) odd(j - 1, k - 1) = 0.5 * (difference - sum);
       }
-    even_gram_.compute(even);
-    odd_gram_.compute(odd);
+    even_gram_.emplace(even);
+    odd_gram_.emplace(odd);
   }
 
-  [[nodiscard]] bool is_regular() const {
-    return even_gram_.info() == Eigen::Success && odd_gram_.info() == Eigen::Success;
-  }
+  [[nodiscard]] bool is_regular() const { return even_gram_->is_regular() && odd_gram_->is_regular(); }
   [[nodiscard]] Index size() const { return even_ + odd_; }
 
   /// Calls `take(i, tau, columns)` for every sample; columns in the order 1, cosines, sines.
@@ -84,15 +85,15 @@ class Basis {
 
   [[nodiscard]] VectorXd solve(const VectorXd& moments) const {
     VectorXd result(size());
-    result.head(even_) = even_gram_.solve(moments.head(even_));
-    result.tail(odd_) = odd_gram_.solve(moments.tail(odd_));
+    result.head(even_) = even_gram_->solve(moments.head(even_));
+    result.tail(odd_) = odd_gram_->solve(moments.tail(odd_));
     return result;
   }
 
   [[nodiscard]] MatrixXd inverse() const {
     MatrixXd result = MatrixXd::Zero(size(), size());
-    result.topLeftCorner(even_, even_) = even_gram_.solve(MatrixXd::Identity(even_, even_));
-    result.bottomRightCorner(odd_, odd_) = odd_gram_.solve(MatrixXd::Identity(odd_, odd_));
+    result.topLeftCorner(even_, even_) = even_gram_->inverse();
+    result.bottomRightCorner(odd_, odd_) = odd_gram_->inverse();
     return result;
   }
 
@@ -107,8 +108,8 @@ class Basis {
   int harmonics_;
   Index even_;
   Index odd_;
-  Eigen::LDLT<MatrixXd> even_gram_;
-  Eigen::LDLT<MatrixXd> odd_gram_;
+  std::optional<DefiniteMatrix> even_gram_;
+  std::optional<DefiniteMatrix> odd_gram_;
 };
 
 /// The linear fit at one frequency, and its derivative by the frequency.

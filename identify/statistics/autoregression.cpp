@@ -1,10 +1,11 @@
 #include "identify/statistics/autoregression.hpp"
 
-#include <Eigen/Cholesky>
+#include <Eigen/Core>
 #include <cmath>
 #include <utility>
 
 #include "core/constants.hpp"
+#include "identify/statistics/decompositions.hpp"
 
 namespace dualdamp::identify {
 
@@ -35,7 +36,7 @@ Autoregression autoregression_of(const Eigen::VectorXd& covariances, double coun
     for (Eigen::Index r = 0; r < p; ++r)
       for (Eigen::Index c = 0; c < p; ++c) toeplitz(r, c) = covariances[std::abs(r - c)];
     const Eigen::VectorXd lagged = covariances.segment(1, p);
-    const Eigen::VectorXd a = p == 0 ? Eigen::VectorXd() : Eigen::VectorXd(toeplitz.ldlt().solve(lagged));
+    const Eigen::VectorXd a = p == 0 ? Eigen::VectorXd() : DefiniteMatrix(toeplitz).solve(lagged);
     const double variance = covariances[0] - (p == 0 ? 0.0 : a.dot(lagged));
     if (!(variance > 1e-12 * covariances[0])) break;
     const double criterion = count * std::log(variance) + 2.0 * static_cast<double>(p + 1);

@@ -95,7 +95,7 @@ std::optional<CorrelatedFit> fit_correlated(const Eigen::MatrixXd& columns, cons
   const Eigen::VectorXd scale = columns.colwise().norm();
   if (!(scale.minCoeff() > 0.0)) return std::nullopt;
   const Eigen::MatrixXd scaled = columns * scale.cwiseInverse().asDiagonal();
-  const Eigen::MatrixXd normal = scaled.transpose() * scaled;
+  const Eigen::MatrixXd normal = gram(scaled);
   const SymmetricSpectrum spectrum = symmetric_spectrum(normal);
   const double least = spectrum.values[0];
   constexpr double dependent = 1e-12;  // of squares: the columns agree to a millionth
@@ -114,11 +114,10 @@ std::optional<CorrelatedFit> fit_correlated(const Eigen::MatrixXd& columns, cons
   const double inflation = variance > 0.0 ? bartlett_sum(fit.residuals, parts, lags)(0, 0) / variance : 1.0;
   fit.independent = static_cast<double>(columns.rows()) / std::max(1.0, inflation);
 
-  const Eigen::MatrixXd inverse =
-      spectrum.vectors * spectrum.values.cwiseInverse().asDiagonal() * spectrum.vectors.transpose();
+  const Eigen::MatrixXd inverse = spectrum.matrix_with(spectrum.values.cwiseInverse());
   const Eigen::MatrixXd root = scale.cwiseInverse().asDiagonal() * inverse;
   const Eigen::MatrixXd scores = fit.residuals.asDiagonal() * scaled;
-  fit.covariance = root * bartlett_sum(scores, parts, lags) * root.transpose();
+  fit.covariance = propagated(root, bartlett_sum(scores, parts, lags));
   // As N - p replaces N in least squares with independent errors.
   fit.covariance *= 1.0 + static_cast<double>(count) / fit.freedom();
   return fit;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <vector>
 
+#include "identify/statistics/decompositions.hpp"
+
 namespace dualdamp::identify {
 
 namespace {
@@ -44,7 +46,7 @@ double independent_samples(const Eigen::VectorXd& residuals, bool is_sampled) {
 Eigen::MatrixXd score_covariance(const Eigen::MatrixXd& rows, const Eigen::VectorXd& residuals, double variance,
                                  bool is_sampled) {
   const std::vector<double> rho = autocorrelation(residuals, is_sampled);
-  Eigen::MatrixXd sum = variance * (rows.transpose() * rows);
+  Eigen::MatrixXd sum = variance * gram(rows);
   for (std::size_t l = 1; l < rho.size(); ++l) {
     const Eigen::Index count = rows.rows() - static_cast<Eigen::Index>(l);
     const Eigen::MatrixXd part = rows.bottomRows(count).transpose() * rows.topRows(count);

@@ -1,6 +1,6 @@
 #include "identify/uncertainty/synthetic_record.hpp"
 
-#include <Eigen/Cholesky>
+#include <Eigen/Core>
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -11,6 +11,7 @@
 #include "core/constants.hpp"
 #include "core/random.hpp"
 #include "identify/models/sampled_oscillator.hpp"
+#include "identify/statistics/decompositions.hpp"
 #include "identify/statistics/lasting_part.hpp"
 #include "identify/statistics/noise_level.hpp"
 
@@ -153,8 +154,7 @@ class SyntheticHistory {
       if (!(miss.squaredNorm() < least)) break;
       least = miss.squaredNorm();
       at_ = next;
-      const Eigen::Matrix2d normal = derivatives.transpose() * derivatives;
-      const Eigen::Vector2d move = normal.ldlt().solve(derivatives.transpose() * miss);
+      const Eigen::Vector2d move = DefiniteMatrix(gram(derivatives)).solve(derivatives.transpose() * miss);
       if (!move.allFinite()) break;
       next.x0 += move[0];
       next.v0 += move[1];

@@ -1,6 +1,6 @@
 #include "identify/methods/amplitudes/den_hartog_fit.hpp"
 
-#include <Eigen/Cholesky>
+#include <Eigen/Core>
 #include <algorithm>
 #include <boost/math/tools/minima.hpp>
 #include <cmath>
@@ -14,6 +14,7 @@
 #include "identify/methods/amplitudes/input_levels.hpp"
 #include "identify/methods/amplitudes/line_estimate.hpp"
 #include "identify/models/sticking.hpp"
+#include "identify/statistics/decompositions.hpp"
 #include "identify/statistics/distributions.hpp"
 #include "identify/statistics/least_squares.hpp"
 #include "identify/statistics/profile_likelihood.hpp"
@@ -171,12 +172,8 @@ std::optional<Eigen::Vector3d> refine(const AmplitudeLaw& law, Eigen::Vector3d p
   for (int i = 0; i < steps; ++i) {
     if (!law.evaluate(p, residual, &jacobian)) return std::nullopt;
     Eigen::Vector3d step = Eigen::Vector3d::Zero();
-    if (law.size() == 3) {
-      step = (jacobian.transpose() * jacobian).ldlt().solve(jacobian.transpose() * residual);
-    } else {
-      const auto columns = jacobian.leftCols<2>();
-      step.head<2>() = (columns.transpose() * columns).ldlt().solve(columns.transpose() * residual);
-    }
+    const Eigen::MatrixXd columns = jacobian.leftCols(law.size());
+    step.head(law.size()) = DefiniteMatrix(gram(columns)).solve(columns.transpose() * residual);
     p -= step;
     if (std::abs(step[0]) < 1e-9 * p[0]) return p;
   }

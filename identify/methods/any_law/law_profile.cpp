@@ -1,6 +1,6 @@
 #include "identify/methods/any_law/law_profile.hpp"
 
-#include <Eigen/Cholesky>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -164,9 +164,7 @@ class Search {
 
 /// Covariance of the unknowns from the derivatives; false where the readings do not determine them.
 bool find_covariance(SeverityFit& fit) {
-  const MatrixXd information = fit.slopes.transpose() * fit.slopes;
-  const Eigen::LDLT<MatrixXd> factor(information);
-  fit.covariance = factor.solve(MatrixXd::Identity(information.rows(), information.cols()));
+  fit.covariance = DefiniteMatrix(gram(fit.slopes)).inverse();
   constexpr double determined = 100.0;  // units of F0 and c: with a larger error the readings determine nothing
   return fit.covariance.allFinite() && fit.covariance.diagonal().minCoeff() > 0.0 && std::isfinite(fit.chi2) &&
          fit.covariance.diagonal().head(2).maxCoeff() < determined * determined;
