@@ -40,9 +40,9 @@ target_compile_options(dualdamp_options INTERFACE
   # Where rooms are compiled together a name of one file may shadow another file's; clang-tidy looks at the files alone.
   $<$<BOOL:${CMAKE_UNITY_BUILD}>:-Wno-shadow>
   $<$<BOOL:${DUALDAMP_WARNINGS_AS_ERRORS}>:-Werror>)
-# What reads, writes and tests computes little: in daily work its time is the compiler's, which -O1 costs a third less.
+# What reads, writes and tests computes little: its time is the compiler's, which -O1 costs a third less.
 add_library(dualdamp_brief_options INTERFACE)
-target_compile_options(dualdamp_brief_options INTERFACE $<$<CONFIG:RelWithDebInfo>:-O1>)
+target_compile_options(dualdamp_brief_options INTERFACE $<$<CONFIG:RelWithDebInfo,Release>:-O1>)
 set(DUALDAMP_BRIEF_FOLDERS scenarios bench)
 
 # The engine's loops cross folders: where speed counts, these are optimised at link time, and no others, so that
