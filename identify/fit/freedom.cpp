@@ -12,11 +12,8 @@ std::vector<double> freedoms_of(const FitProblem& problem, const Eigen::MatrixXd
   std::vector<Eigen::Index> effective;
   for (Eigen::Index j = 0; j < rows.cols(); ++j)
     if (rows.col(j).norm() > 0.0) effective.push_back(j);
-  Eigen::MatrixXd basis(problem.rows(), 0);
-  if (!effective.empty()) {
-    constexpr double dependent = 1e-6;
-    basis = orthonormal_basis(rows(Eigen::all, effective).colwise().normalized(), dependent);
-  }
+  constexpr double dependent = 1e-6;
+  const Eigen::MatrixXd basis = orthonormal_basis(rows(Eigen::all, effective).colwise().normalized(), dependent);
   std::vector<double> freedoms;
   for (const SignalRows& signal : problem.signals()) {
     const double spent = basis.middleRows(signal.begin, signal.size()).squaredNorm();

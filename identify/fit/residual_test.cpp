@@ -264,8 +264,7 @@ std::vector<std::string> contradictions_of_stated(const Experiments& experiments
 
 std::vector<double> zero_gains_of(const FitProblem& problem, const Eigen::VectorXd& weights,
                                   const Eigen::VectorXd& misses, const Eigen::MatrixXd& jacobian) {
-  Eigen::MatrixXd basis(jacobian.rows(), 0);  // a prediction may have no parameter
-  if (jacobian.cols() > 0) basis = orthonormal_basis(weights.asDiagonal() * jacobian);
+  const Eigen::MatrixXd basis = orthonormal_basis(weights.asDiagonal() * jacobian);
   const Eigen::VectorXd residuals = weights.cwiseProduct(misses);
   std::vector<double> gains;
   for (const SignalRows& rows : problem.signals()) {

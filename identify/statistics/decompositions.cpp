@@ -26,6 +26,7 @@ LinearFit linear_fit(const Eigen::MatrixXd& columns, const Eigen::VectorXd& valu
 }
 
 Eigen::VectorXd pivoted_least_squares(const Eigen::MatrixXd& columns, const Eigen::VectorXd& values) {
+  if (columns.cols() == 0) return Eigen::VectorXd(0);  // Eigen reads beyond a matrix without columns
   return Eigen::ColPivHouseholderQR<Eigen::MatrixXd>(columns).solve(values);
 }
 
@@ -38,13 +39,16 @@ struct DependentColumns::Factors {
 };
 
 DependentColumns::DependentColumns(const Eigen::MatrixXd& columns)
-    : factors_(std::make_shared<const Factors>(Eigen::ColPivHouseholderQR<Eigen::MatrixXd>(columns))) {}
+    : factors_(columns.cols() == 0
+                   ? nullptr
+                   : std::make_shared<const Factors>(Eigen::ColPivHouseholderQR<Eigen::MatrixXd>(columns))) {}
 
-Eigen::Index DependentColumns::rank() const { return factors_->qr.rank(); }
+Eigen::Index DependentColumns::rank() const { return factors_ ? factors_->qr.rank() : 0; }
 
-Eigen::VectorXd DependentColumns::solve(const Eigen::VectorXd& values) const { return factors_->qr.solve(values); }
+Eigen::VectorXd DependentColumns::solve(const Eigen::VectorXd& values) const { return solve_each(values); }
 
 Eigen::MatrixXd DependentColumns::solve_each(const Eigen::MatrixXd& values) const {
+  if (!factors_) return Eigen::MatrixXd(0, values.cols());
   return factors_->qr.solve(values);
 }
 
@@ -53,6 +57,7 @@ Eigen::VectorXd shortest_solution(const Eigen::MatrixXd& matrix, const Eigen::Ve
 }
 
 Eigen::MatrixXd orthonormal_basis(const Eigen::MatrixXd& columns, std::optional<double> threshold) {
+  if (columns.cols() == 0) return Eigen::MatrixXd(columns.rows(), 0);
   Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(columns);
   if (threshold) qr.setThreshold(*threshold);
   return qr.householderQ() * Eigen::MatrixXd::Identity(columns.rows(), std::min(qr.rank(), columns.rows()));

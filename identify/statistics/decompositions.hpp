@@ -20,7 +20,8 @@ struct LinearFit {
 /// The same with the standard deviations of the coefficients.
 [[nodiscard]] LinearFit linear_fit(const Eigen::MatrixXd& columns, const Eigen::VectorXd& values);
 
-/// The same for columns that may be nearly dependent, by column pivoting: dependent columns get 0.
+/// The same for columns that may be nearly dependent, by column pivoting: dependent columns get 0. There
+/// may be no column.
 [[nodiscard]] Eigen::VectorXd pivoted_least_squares(const Eigen::MatrixXd& columns, const Eigen::VectorXd& values);
 
 /// What columns, which may be nearly dependent, leave of values: values - columns x with the x of least squares.
@@ -42,14 +43,14 @@ class DependentColumns {
 
  private:
   struct Factors;
-  std::shared_ptr<const Factors> factors_;
+  std::shared_ptr<const Factors> factors_;  ///< null: there is no column
 };
 
 /// The shortest of the x that minimise |matrix x - values|, for a matrix of any rank.
 [[nodiscard]] Eigen::VectorXd shortest_solution(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& values);
 
 /// An orthonormal basis of what the columns span, by QR with column pivoting: columns that are dependent to
-/// `threshold` of the largest, or to rounding, add nothing.
+/// `threshold` of the largest, or to rounding, add nothing. No columns have an empty basis.
 [[nodiscard]] Eigen::MatrixXd orthonormal_basis(const Eigen::MatrixXd& columns,
                                                 std::optional<double> threshold = std::nullopt);
 

@@ -173,6 +173,42 @@ TEST_CASE("prediction: a record tells that the drive assumed for it is not there
   CHECK_FALSE(identify::record_with_unknown_drive(held(undriven, free), free));
 }
 
+TEST_CASE("prediction: a loop has no parameter of its own, under a law that remembers the path as well",
+          "[identify][fit]") {
+  const auto loop = [](const identify::Record& record) {
+    std::string fault;
+    identify::Experiments experiments = identify::experiments_of(record, {.name = "loop", .loop = true}, fault);
+    REQUIRE(fault.empty());
+    return experiments;
+  };
+  constexpr double noise = 0.01;
+  identify::Rig rig = test::loop_alone(test::rig_with(test::law_case_of("dahl")));
+  const identify::Experiments first = loop(test::loop_of(rig, 5e-3, noise, 1));
+  const identify::Record other = test::loop_of(rig, 3e-3, noise, 2);
+  const identify::Experiments second = loop(other);
+  REQUIRE(second.front()->record_free.empty());
+  const std::vector<identify::FitParameter> parameters = test::sought_in(rig, {"kinetic", "sigma0"}, 1.15);
+  const identify::Fit fit = identify::fit_rig(rig, parameters, first, {.profile = false});
+  REQUIRE(fit.outcome.ok());
+  const identify::SharedUncertainty known = identify::shared_uncertainty(fit);
+  const identify::Prediction right = identify::predict_records(fit.rig, parameters, known, second);
+  CAPTURE(right.text);
+  REQUIRE(right.outcome.ok());
+  CHECK(right.fit.parameters.empty());
+  CHECK(!right.is_wrong);
+  CHECK(right.noise_units == Approx(1.0).margin(0.1));
+  CHECK(right.error < 1.1 * right.attainable);
+  // The second half begins with a loaded contact: the load is sought although nothing else is.
+  identify::Record cut = other;
+  identify::History& history = cut.histories.front();
+  for (std::vector<double>* signal : {&history.x, &history.v, &history.force})
+    signal->erase(signal->begin(), signal->begin() + static_cast<std::ptrdiff_t>(signal->size() / 2));
+  const identify::Prediction loaded = identify::predict_records(fit.rig, parameters, known, loop(cut));
+  CAPTURE(loaded.text);
+  CHECK(loaded.noise_units < 1.2);
+  CHECK(!loaded.is_wrong);
+}
+
 TEST_CASE("prediction: what the fit does not determine proves nothing against the law", "[identify][fit]") {
   // At one speed V, the force shows the friction force F plus V times the damping c, and neither of the two.
   identify::Rig rig = test::loop_alone({.laws = {{friction::find_law("coulomb"), {{"kinetic", 1.0}}}}});

@@ -65,3 +65,16 @@ TEST_CASE("decompositions: products of matrices") {
   CHECK(spectrum.matrix_with(spectrum.values).isApprox(S));
   CHECK(spectrum.matrix_with(spectrum.values.cwiseInverse()).isApprox(inverse_of(S)));
 }
+
+TEST_CASE("decompositions: a matrix without columns spans nothing, and takes nothing away") {
+  const Eigen::MatrixXd none(3, 0);
+  const Eigen::Vector3d values(1.0, 2.0, 3.0);
+  CHECK(orthonormal_basis(none).rows() == 3);
+  CHECK(orthonormal_basis(none).cols() == 0);
+  CHECK(orthonormal_basis(none, 1e-6).cols() == 0);
+  CHECK(pivoted_least_squares(none, values).size() == 0);
+  CHECK(left_beside(none, values) == values);
+  CHECK(DependentColumns(none).rank() == 0);
+  CHECK(DependentColumns(none).solve(values).size() == 0);
+  CHECK(DependentColumns(none).solve_each(values).cols() == 1);
+}
