@@ -134,7 +134,10 @@ void judge(Prediction& found, const Fit& attainable) {
         "(chance " +
         core::format_number(found.compromise.p_value, 2) + ")";
   else
-    found.text += ": the law also describes this record";
+    found.text += ": the law also describes this record" +
+                  (found.error > share * found.attainable && found.uncertainty > 0.0
+                       ? "; the standard errors of the fit make an error of " + core::percent(found.uncertainty, 3)
+                       : std::string());
 }
 
 /// The load of the contacts of a record in a fit.

@@ -53,6 +53,13 @@ struct Bracket {
 
 }  // namespace
 
+bool bends(const FittedParameter& fitted, double quantile) {
+  constexpr double much = 0.25;
+  const double width = quantile * fitted.std;
+  return std::abs(fitted.profile95[0] - fitted.interval95[0]) > much * width ||
+         std::abs(fitted.profile95[1] - fitted.interval95[1]) > much * width;
+}
+
 Profiler::Profiler(const FitProblem& problem, const Eigen::VectorXd& weights, const Eigen::VectorXd& q,
                    const Eigen::MatrixXd& rows, const Eigen::VectorXd& residuals)
     : problem_(problem),
@@ -79,7 +86,12 @@ Eigen::VectorXd Profiler::step(Eigen::Index i, double value, const ProfilePath& 
   // Lagrange's multiplier, in units of `path.unit`. A parameter that would leave its range is held at the end of
   // the range, and the step of the others is computed again.
   const Eigen::Index size = q_.size();
-  const Eigen::VectorXd row = path.unit.cwiseProduct(problem_.slope(path.q).row(i).transpose());
+  // A value that one coordinate sets is held exactly, however far it is: a factor of it is no slope.
+  const bool is_alone = other_of(i, path.q) < 0;
+  const Eigen::VectorXd slope =
+      is_alone ? Eigen::VectorXd(Eigen::VectorXd::Unit(size, i)) : problem_.slope(path.q).row(i).transpose();
+  const double change = is_alone ? placed(i, value, path.q)[i] - path.q[i] : value - problem_.values(path.q)[i];
+  const Eigen::VectorXd row = path.unit.cwiseProduct(slope);
   const double scale = row.norm();
   Eigen::MatrixXd bordered = Eigen::MatrixXd::Zero(size + 1, size + 1);
   bordered.topLeftCorner(size, size) = in_units(path.normal, path.unit);
@@ -93,7 +105,7 @@ Eigen::VectorXd Profiler::step(Eigen::Index i, double value, const ProfilePath& 
   bordered.block(size, 0, 1, size) = row.transpose() / scale;
   Eigen::VectorXd right(size + 1);
   right.head(size) = -path.unit.cwiseProduct(path.rows.transpose() * path.residuals);
-  right[size] = (value - problem_.values(path.q)[i]) / scale;
+  right[size] = change / scale;
   for (Eigen::Index held = 0;; ++held) {
     const Eigen::VectorXd found = shortest_solution(bordered, right);
     Eigen::VectorXd q = path.q + path.unit.cwiseProduct(found.head(size));
@@ -227,8 +239,15 @@ std::optional<double> Profiler::followed(Eigen::Index i, double value, double be
   }
 }
 
+bool Profiler::is_flat(Eigen::Index i, const FittedParameter& fitted, double limit) const {
+  const double norm = rows_.col(i).norm();
+  return std::isnan(fitted.std) && problem_.coordinates()[static_cast<std::size_t>(i)].logarithmic && norm > 0.0 &&
+         norm < limit;
+}
+
 double Profiler::first_distance(Eigen::Index i, const FittedParameter& fitted, double limit) const {
   if (!std::isnan(fitted.std)) return limit * fitted.std;
+  if (is_flat(i, fitted, limit)) return std::abs(problem_.slope(q_)(i, i));
   // A parameter without an effect near the estimate may have one further off.
   const double norm = rows_.col(i).norm();
   constexpr double near = 1e-3;
@@ -254,6 +273,9 @@ double Profiler::end(Eigen::Index i, const FittedParameter& fitted, double limit
         c.logarithmic ? fitted.value * std::exp(sign * distance / fitted.value) : fitted.value + sign * distance;
     return std::clamp(value, range.low, range.high);
   };
+  Eigen::VectorXd at_end = q_;
+  at_end[i] = sign < 0.0 ? c.low : c.high;
+  const double farthest = problem_.values(at_end)[i];
   double distance = first_distance(i, fitted, limit);
   ProfilePath others = at(q_, residuals_, rows_);
   ProfilePath within = others;
@@ -268,7 +290,9 @@ double Profiler::end(Eigen::Index i, const FittedParameter& fitted, double limit
     if (!grown) return unknown;
     last = *grown / limit;
     if (std::abs(last - 1.0) < close) return value;
-    if (last < 1.0 && value == (sign < 0.0 ? range.low : range.high)) return value;
+    const double last_value = sign < 0.0 ? range.low : range.high;
+    if (last < 1.0 && value == last_value) return value;
+    if (last < 1.0 && is_flat(i, fitted, limit) && sign * (value - farthest) >= 0.0) return last_value;
     const double next = bracket.guess(distance, last);
     bracket.take(distance, last);
     if (last < 1.0) within = others;

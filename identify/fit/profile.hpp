@@ -18,6 +18,10 @@
 
 namespace dualdamp::identify {
 
+/// Whether an end of the profile differs from the interval by the covariance. `quantile`: of the parameter, in
+/// standard errors.
+[[nodiscard]] bool bends(const FittedParameter& fitted, double quantile);
+
 class Profiler {
  public:
   /// `rows`, `residuals`: weighted, at the estimate `q`. The arguments must outlive this.
@@ -75,6 +79,9 @@ class Profiler {
   [[nodiscard]] bool take(const Eigen::VectorXd& q, ProfilePath& path, double& best) const;
   void note(const ProfilePath& path, double growth) const;
   [[nodiscard]] double growth_of(const Eigen::VectorXd& residuals) const;
+  /// Whether a parameter that is sought by its logarithm has no effect near the estimate: a factor e of it changes
+  /// the readings by less than the limit. Its profile goes outwards by factors, to the end of the search.
+  [[nodiscard]] bool is_flat(Eigen::Index i, const FittedParameter& fitted, double limit) const;
   /// The first distance of the parameter from its estimate.
   [[nodiscard]] double first_distance(Eigen::Index i, const FittedParameter& fitted, double limit) const;
   [[nodiscard]] double end(Eigen::Index i, const FittedParameter& fitted, double limit, double sign) const;

@@ -37,6 +37,32 @@ std::string pair_text(const WeakDirection& direction, const std::vector<FitParam
 
 }  // namespace
 
+Eigen::VectorXd reaches(const std::vector<FittedParameter>& parameters) {
+  Eigen::VectorXd all = Eigen::VectorXd::Constant(static_cast<Eigen::Index>(parameters.size()), unknown);
+  for (Eigen::Index i = 0; i < all.size(); ++i) {
+    const FittedParameter& fitted = parameters[static_cast<std::size_t>(i)];
+    const double below = fitted.value - fitted.profile95[0];
+    const double above = fitted.profile95[1] - fitted.value;
+    all[i] = fitted.at_bound ? std::fmax(below, above) : std::max(below, above);
+    if (!fitted.at_bound && std::isnan(below)) all[i] = unknown;
+  }
+  return all;
+}
+
+TradeOff known_further_off(const FittedParameter& fitted) {
+  const auto& [low, high] = fitted.interval95;
+  const std::string unit = fitted.parameter.unit == "1" ? "" : " " + fitted.parameter.unit;
+  const std::string above = "above " + core::format_number(low, 3) + unit;
+  const std::string below = "below " + core::format_number(high, 3) + unit;
+  const bool has_low = low > fitted.parameter.range.low;
+  const bool has_high = high < fitted.parameter.range.high;
+  return {{fitted.parameter.name},
+          "the data show of " + fitted.parameter.name + " only that it is " +
+              (has_low && has_high ? above + " and " + below
+               : has_low           ? above
+                                   : below)};
+}
+
 std::optional<TradeOff> trade_off(const WeakDirection& direction, const std::vector<FitParameter>& parameters) {
   std::vector<Eigen::Index> order(parameters.size());
   std::iota(order.begin(), order.end(), Eigen::Index{0});
@@ -70,12 +96,18 @@ std::optional<TradeOff> trade_off(const WeakDirection& direction, const std::vec
     return std::nullopt;
   const std::string quantity =
       core::format_number(open * near_zero, 2) + " " + parameters[static_cast<std::size_t>(first)].unit;
-  const std::string known = std::isfinite(direction.deviation)
+  // The deviation along a direction holds near the estimate; a profile without an end goes on beyond.
+  const bool is_endless = std::isinf(reach);
+  const std::string known = std::isfinite(direction.deviation) && is_endless
+                                ? "; the profile of " + sought(parameters, first) + " has no end"
+                            : std::isfinite(direction.deviation)
                                 ? "; the data leave " + (near_zero > 0.0 ? quantity : percent_of_size(open)) +
                                       " of " + sought(parameters, first) + " open"
                                 : "; the data do not determine them";
   if (order.size() == 1)
-    found.text = std::isfinite(direction.deviation)
+    found.text = std::isfinite(direction.deviation) && is_endless
+                     ? "the data hardly show " + sought(parameters, first) + ": its profile has no end"
+                 : std::isfinite(direction.deviation)
                      ? "the data hardly show " + sought(parameters, first) + ": it is known to " +
                            (near_zero > 0.0 ? quantity + ", and is zero within that"
                                             : percent_of_size(open) + " of its value")

@@ -18,13 +18,20 @@ struct WeakDirection {
   double rounding = 0.0;   ///< a smaller `effect` may be rounding
   /// One unit of `share` of a parameter whose own value is too small to be a unit, in its unit; else 0.
   Eigen::VectorXd near_zero;
-  /// How far the profile of each parameter lets it go from its value, in its unit; not finite: the profile does not
-  /// end, or there is none. The deviation holds near the estimate only: at the end of a range, where an effect
-  /// begins, it says nothing.
+  /// How far the profile of each parameter lets it go from its value, in its unit; infinite: the profile does not
+  /// end in the range; `unknown`: no end was found, or there is no profile. The deviation holds near the estimate
+  /// only: at the end of a range, where an effect begins, it says nothing.
   Eigen::VectorXd reach;
 };
 
 [[nodiscard]] std::optional<TradeOff> trade_off(const WeakDirection& direction,
                                                 const std::vector<FitParameter>& parameters);
+
+/// How far the profiles let the parameters go. That of a parameter at an end of its range ends on one side only.
+[[nodiscard]] Eigen::VectorXd reaches(const std::vector<FittedParameter>& parameters);
+
+/// What the profile says of a parameter that has no effect near the estimate: "the data show of exponent only that
+/// it is above 1.8".
+[[nodiscard]] TradeOff known_further_off(const FittedParameter& fitted);
 
 }  // namespace dualdamp::identify

@@ -196,15 +196,11 @@ class Uncertainty {
   }
 
   [[nodiscard]] Eigen::VectorXd full_changes() const {
-    Eigen::VectorXd all(size_);
-    for (Eigen::Index i = 0; i < size_; ++i) all[i] = full_change(i);
-    return all;
+    return Eigen::VectorXd::NullaryExpr(size_, [this](Eigen::Index i) { return full_change(i); });
   }
 
   [[nodiscard]] Eigen::VectorXd judged_changes() const {
-    Eigen::VectorXd all(size_);
-    for (Eigen::Index i = 0; i < size_; ++i) all[i] = judged_change(i);
-    return all;
+    return Eigen::VectorXd::NullaryExpr(size_, [this](Eigen::Index i) { return judged_change(i); });
   }
 
   /// What belongs to the parameters with an effect, among all; zero elsewhere.
@@ -238,6 +234,27 @@ class Uncertainty {
   /// Of each component of a change of the coordinates on the readings.
   [[nodiscard]] Eigen::VectorXd effects(const Eigen::VectorXd& change) const {
     return (rows_ * change.asDiagonal()).colwise().norm();
+  }
+
+  [[nodiscard]] static bool is_alone(const Eigen::VectorXd& direction, Eigen::Index i) {
+    return std::abs(direction[i]) > 0.99 * direction.norm();
+  }
+
+  /// Whether a parameter that is sought by its logarithm has, by itself, no effect near the estimate. It may have
+  /// one further off, as an exponent of a sharp yield has, and others may trade off with it there.
+  [[nodiscard]] bool is_flat(Eigen::Index i) const {
+    return end_.profile && end_.problem.coordinates()[static_cast<std::size_t>(i)].logarithmic &&
+           !acts_in_steps(i) &&
+           std::ranges::any_of(lost_, [i](const Eigen::VectorXd& direction) { return is_alone(direction, i); });
+  }
+
+  /// The flat parameter of a lost direction whose profile has an end; nothing if there is none.
+  [[nodiscard]] std::optional<Eigen::Index> shown_further_off(const Eigen::VectorXd& direction) const {
+    for (Eigen::Index i = 0; i < size_; ++i)
+      if (is_alone(direction, i) && is_flat(i) &&
+          !std::isnan(fit_.parameters[static_cast<std::size_t>(i)].interval95[0]))
+        return i;
+    return std::nullopt;
   }
 
   void add_interval(Eigen::Index i) {
@@ -283,14 +300,6 @@ class Uncertainty {
   /// Whether a parameter has no effect near the estimate: its effect may come in steps, from reading to reading.
   [[nodiscard]] bool acts_in_steps(Eigen::Index i) const { return rows_.col(i).norm() == 0.0; }
 
-  /// Whether an end of the profile differs from the interval by the covariance.
-  [[nodiscard]] static bool bends(const FittedParameter& fitted, double quantile) {
-    constexpr double much = 0.25;
-    const double width = quantile * fitted.std;
-    return std::abs(fitted.profile95[0] - fitted.interval95[0]) > much * width ||
-           std::abs(fitted.profile95[1] - fitted.interval95[1]) > much * width;
-  }
-
   /// Chooses between the interval by the profile and the interval by the covariance.
   void judge_profile(Eigen::Index i) {
     FittedParameter& fitted = fit_.parameters[static_cast<std::size_t>(i)];
@@ -299,14 +308,15 @@ class Uncertainty {
     const auto& above = fitted.parameter.above;
     const double least = above ? fit_.parameters[*above].value : fitted.parameter.range.low;
     if (ends && fitted.at_bound) fitted.interval95 = fitted.profile95;
+    if (ends && is_flat(i) && (low > least || high < fitted.parameter.range.high)) {
+      fitted.interval95 = fitted.profile95;
+      fitted.reason = "it has no effect near the estimate: the interval is that of the profile";
+    }
     if (ends && acts_in_steps(i) && !fitted.at_bound && low > least && high < fitted.parameter.range.high) {
       fitted.interval95 = fitted.profile95;
       fitted.reason =
           "its effect comes in steps, from reading to reading: it has an interval and no standard error";
-      const auto is_alone = [i](const Eigen::VectorXd& direction) {
-        return std::abs(direction[i]) > 0.99 * direction.norm();
-      };
-      std::erase_if(lost_, is_alone);
+      std::erase_if(lost_, [i](const Eigen::VectorXd& direction) { return is_alone(direction, i); });
     } else if (end_.profile && ends && fitted.std > 0.0 && bends(fitted, quantiles_[static_cast<std::size_t>(i)])) {
       fitted.interval95 = fitted.profile95;
       fitted.reason = "the sum of squares is not a parabola: the interval is that of the profile";
@@ -322,13 +332,13 @@ class Uncertainty {
     std::vector<double> limits(static_cast<std::size_t>(size_), 0.0);
     Profiler::for_each(size_, [&](Eigen::Index i) {
       FittedParameter& fitted = fit_.parameters[static_cast<std::size_t>(i)];
-      if ((is_lost(i) && !acts_in_steps(i)) || (fitted.at_bound && free_.empty())) return;
+      if ((is_lost(i) && !acts_in_steps(i) && !is_flat(i)) || (fitted.at_bound && free_.empty())) return;
       if (needs_noise(scaled_row(i))) return;
       // What acts in steps has no other interval.
       if (!end_.profile && !end_.problem.is_stepped(i)) return;
       // Correlated residuals widen the profile as they widen the covariance.
       const double variance = variance_along(slope_.row(i), classical_);
-      const double widening = fitted.at_bound || !(variance > 0.0)
+      const double widening = fitted.at_bound || is_flat(i) || !(variance > 0.0)
                                   ? mean_variance()
                                   : fit_.covariance(i, i) / variance * mean_variance();
       double& limit = limits[static_cast<std::size_t>(i)];
@@ -357,19 +367,6 @@ class Uncertainty {
     return std::accumulate(variances_.begin(), variances_.end(), 0.0) / static_cast<double>(variances_.size());
   }
 
-  /// How far the profiles let the parameters go. That of a parameter at an end of its range ends on one side only.
-  [[nodiscard]] Eigen::VectorXd reaches() const {
-    Eigen::VectorXd all = Eigen::VectorXd::Constant(size_, unknown);
-    for (Eigen::Index i = 0; i < size_; ++i) {
-      const FittedParameter& fitted = fit_.parameters[static_cast<std::size_t>(i)];
-      const double below = fitted.value - fitted.profile95[0];
-      const double above = fitted.profile95[1] - fitted.value;
-      all[i] = fitted.at_bound ? std::fmax(below, above) : std::max(below, above);
-      if (!fitted.at_bound && std::isnan(below)) all[i] = unknown;
-    }
-    return all;
-  }
-
   void add_trade_offs() {
     std::vector<FitParameter> parameters;
     for (const FittedParameter& fitted : fit_.parameters) parameters.push_back(fitted.parameter);
@@ -378,13 +375,19 @@ class Uncertainty {
       if (is_near_zero(i)) near_zero[i] = slope_(i, i) * full_change(i);
     const auto add = [&](const Eigen::VectorXd& direction, double deviation) {
       const Eigen::VectorXd change = full_changes().cwiseProduct(direction);
-      std::optional<TradeOff> found = trade_off(
-          {slope_ * change, direction, effects(change), deviation, rounding * strongest_, near_zero, reaches()},
-          parameters);
+      std::optional<TradeOff> found = trade_off({slope_ * change, direction, effects(change), deviation,
+                                                 rounding * strongest_, near_zero, reaches(fit_.parameters)},
+                                                parameters);
       if (found) fit_.not_identifiable.push_back(std::move(*found));
     };
     const Eigen::VectorXd ratio = judged_changes().cwiseQuotient(full_changes());
-    for (const Eigen::VectorXd& direction : lost_) add(ratio.cwiseProduct(direction).normalized(), infinity);
+    for (const Eigen::VectorXd& direction : lost_) {
+      const std::optional<Eigen::Index> flat = shown_further_off(direction);
+      if (flat)
+        fit_.not_identifiable.push_back(known_further_off(fit_.parameters[static_cast<std::size_t>(*flat)]));
+      else
+        add(ratio.cwiseProduct(direction).normalized(), infinity);
+    }
     if (free_.empty()) return;
     const SymmetricSpectrum spectrum = symmetric_spectrum(in_units(scaled_covariance_, ratio));
     for (Eigen::Index j = size_ - 1; j >= 0; --j) {

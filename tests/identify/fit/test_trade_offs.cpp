@@ -2,6 +2,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "core/constants.hpp"
 #include "identify/fit/trade_offs.hpp"
 
 using namespace dualdamp;
@@ -22,4 +23,22 @@ TEST_CASE("trade-offs: what a profile ends is known to its end, whatever the dev
   direction.reach[1] = 0.0302;
   CHECK(identify::trade_off(direction, parameters)->text ==
         "the data hardly show static - kinetic: it is known to 0.03 N, and is zero within that");
+  // A profile without an end says more than the deviation near the estimate.
+  direction.reach[1] = core::infinity;
+  CHECK(identify::trade_off(direction, parameters)->text ==
+        "the data hardly show static - kinetic: its profile has no end");
+}
+
+TEST_CASE("trade-offs: what a parameter without an effect near the estimate has further off", "[identify][fit]") {
+  identify::FittedParameter exponent{.parameter = {.name = "exponent", .unit = "1"}, .value = 300.0};
+  exponent.parameter.range = {1.0, core::infinity};
+  exponent.interval95 = {1.8, core::infinity};
+  const identify::TradeOff found = identify::known_further_off(exponent);
+  CHECK(found.parameters == std::vector<std::string>{"exponent"});
+  CHECK(found.text == "the data show of exponent only that it is above 1.8");
+  exponent.interval95 = {1.8, 950.0};
+  CHECK(identify::known_further_off(exponent).text ==
+        "the data show of exponent only that it is above 1.8 and below 950");
+  exponent.interval95[0] = 1.0;
+  CHECK(identify::known_further_off(exponent).text == "the data show of exponent only that it is below 950");
 }
