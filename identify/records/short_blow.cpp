@@ -116,7 +116,7 @@ std::vector<Blow> only_blows(const std::vector<double>& force) {
   std::ranges::transform(force, pushes.begin(), [zero](double value) { return value - zero; });
   const double peak = peak_of(pushes);
   if (!(peak > 0.0)) return {};
-  const std::vector<Blow> blows = blows_of(pushes);
+  std::vector<Blow> blows = blows_of(pushes);
   const auto is_long = [](const Blow& blow) { return blow.samples() > longest_blow; };
   if (blows.empty() || blows.front().first == 0 || std::ranges::any_of(blows, is_long)) return {};
   std::vector<FreeVibration> quiet = parts_after(blows, force.size());
