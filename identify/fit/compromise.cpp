@@ -33,7 +33,7 @@ class Compromiser {
         problem_(known.rig, parameters_, second, sizes_, held.of_records) {
     Eigen::VectorXd at_held(size());
     for (Eigen::Index i = 0; i < size(); ++i) at_held[i] = parameters_[static_cast<std::size_t>(i)].stated;
-    held_ = problem_.coordinates(at_held);
+    held_ = problem_.space().point(at_held);
     weigh(alone);
     whiten(known);
   }
@@ -61,20 +61,20 @@ class Compromiser {
   [[nodiscard]] Eigen::VectorXd end_of_alone() const {
     Eigen::VectorXd values(size());
     for (Eigen::Index i = 0; i < size(); ++i) values[i] = alone_.parameters[static_cast<std::size_t>(i)].value;
-    return problem_.coordinates(values);
+    return problem_.space().point(values);
   }
 
   void weigh(const Fit& alone) {
-    weights_.resize(problem_.rows());
+    weights_.resize(problem_.readings().size());
     double independent = 0.0;
     bool all_stated = true;
     for (const FittedSignal& signal : alone.signals) {
       const Eigen::Index count = signal.rows.size();
       const double share = signal.independent / static_cast<double>(count);
-      const double counted = problem_.count(signal.rows);
+      const double counted = problem_.readings().count(signal.rows);
       const double own = signal.rms * std::sqrt(counted / std::max(signal.freedom, least_freedom));
       // A stated noise is used unless the residuals are larger.
-      const bool as_stated = problem_.signal(signal.rows).is_stated && own < signal.noise;
+      const bool as_stated = problem_.readings().signal(signal.rows).is_stated && own < signal.noise;
       const double deviation = std::max(as_stated ? signal.noise : own, std::numeric_limits<double>::min());
       weights_.segment(signal.rows.begin, count).setConstant(std::sqrt(share) / deviation);
       independent += signal.independent;
@@ -89,8 +89,9 @@ class Compromiser {
     whitening_.resize(0, size());
     const Eigen::MatrixXd& of_values = known.uncertainty.covariance;
     if (shared == 0 || of_values.rows() != shared || !of_values.allFinite()) return;
-    const Eigen::MatrixXd inverse = in_values_ ? Eigen::MatrixXd::Identity(shared, shared)
-                                               : inverse_of(problem_.slope(held_).topLeftCorner(shared, shared));
+    const Eigen::MatrixXd inverse = in_values_
+                                        ? Eigen::MatrixXd::Identity(shared, shared)
+                                        : inverse_of(problem_.space().slope(held_).topLeftCorner(shared, shared));
     const Eigen::MatrixXd covariance = propagated(inverse, of_values);
     std::vector<Eigen::Index> in;
     for (Eigen::Index i = 0; i < shared; ++i)
@@ -128,13 +129,14 @@ class Compromiser {
 
   /// Deviations from A's estimate, in standard deviations of what A determines.
   [[nodiscard]] Eigen::VectorXd deviations(const Eigen::VectorXd& q) const {
-    return whitening_ * (in_values_ ? Eigen::VectorXd(problem_.values(q) - problem_.values(held_)) : q - held_);
+    return whitening_ *
+           (in_values_ ? Eigen::VectorXd(problem_.space().values(q) - problem_.space().values(held_)) : q - held_);
   }
 
   [[nodiscard]] double squares(const Eigen::VectorXd& q, bool both) const {
     Eigen::VectorXd outputs;
     if (!problem_.outputs(q, outputs)) return infinity;
-    double sum = problem_.misses(outputs).cwiseProduct(weights_).squaredNorm();
+    double sum = problem_.readings().misses(outputs).cwiseProduct(weights_).squaredNorm();
     if (both) sum += deviations(q).squaredNorm();
     return std::isfinite(sum) ? sum : infinity;
   }
@@ -166,14 +168,14 @@ class Compromiser {
 
   [[nodiscard]] double improved(const Eigen::VectorXd& start) const {
     LeastSquaresProblem least;
-    const Eigen::Index rows = problem_.rows();
+    const Eigen::Index rows = problem_.readings().size();
     least.residuals = rows + whitening_.rows();
     least.start = start;
     least.low.resize(size());
     least.high.resize(size());
     for (Eigen::Index i = 0; i < size(); ++i) {
-      least.low[i] = problem_.coordinates()[static_cast<std::size_t>(i)].low;
-      least.high[i] = problem_.coordinates()[static_cast<std::size_t>(i)].high;
+      least.low[i] = problem_.space()[i].low;
+      least.high[i] = problem_.space()[i].high;
     }
     constexpr double fine = 1e-5;
     least.tolerance = fine;
@@ -185,11 +187,11 @@ class Compromiser {
       if (jacobian == nullptr ? !problem_.outputs(q, outputs) : !problem_.derivatives(q, outputs, slopes, true))
         return false;
       residuals.resize(least.residuals);
-      residuals << problem_.misses(outputs).cwiseProduct(weights_), deviations(q);
+      residuals << problem_.readings().misses(outputs).cwiseProduct(weights_), deviations(q);
       if (jacobian == nullptr) return true;
       jacobian->resize(least.residuals, size());
-      *jacobian << weights_.cwiseProduct(problem_.counted()).asDiagonal() * slopes,
-          in_values_ ? product(whitening_, problem_.slope(q)) : whitening_;
+      *jacobian << weights_.cwiseProduct(problem_.readings().counted()).asDiagonal() * slopes,
+          in_values_ ? product(whitening_, problem_.space().slope(q)) : whitening_;
       return true;
     };
     const LeastSquaresFit found = fit(least);

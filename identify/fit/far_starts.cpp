@@ -30,10 +30,10 @@ bool is_speed(const FitParameter& parameter) { return parameter.unit == "m/s"; }
 /// Values of a coordinate over the range of its starts.
 std::vector<double> values_along(const FitProblem& problem, const FitParameter& parameter, std::size_t number,
                                  const Eigen::VectorXd& from, const DataScale& scale) {
-  const SearchCoordinate& c = problem.coordinates()[number];
+  const SearchCoordinate& c = problem.space()[number];
   std::vector<double> values;
   if (parameter.above) {
-    const double base = problem.values(from)[static_cast<Eigen::Index>(*parameter.above)];
+    const double base = problem.space().values(from)[static_cast<Eigen::Index>(*parameter.above)];
     constexpr std::array shares = {0.05, 0.1, 0.2, 0.4, 0.8, 1.6};
     for (const double share : shares) values.push_back(share * base / c.size);
   } else {
@@ -53,12 +53,12 @@ std::vector<std::size_t> open_parameters(const FitProblem& problem, const std::v
                                          const SearchEnd& end) {
   if (problem.has_steady_states()) return {};
   constexpr double known = 0.03;
-  const Eigen::VectorXd deviations = deviations_of(end, problem.counted().sum());
+  const Eigen::VectorXd deviations = deviations_of(end, problem.readings().count());
   std::vector<std::size_t> open;
   for (std::size_t i = 0; i < parameters.size(); ++i) {
     const FitParameter& parameter = parameters[i];
     const auto at = static_cast<Eigen::Index>(i);
-    const bool is_logarithm = problem.coordinates()[i].logarithmic;
+    const bool is_logarithm = problem.space()[i].logarithmic;
     const bool is_missed = parameter.above || (is_speed(parameter) && is_logarithm);
     if (parameter.owner != Owner::law || problem.is_stepped(at) || !is_missed) continue;
     if (deviations[at] > known * (is_logarithm ? 1.0 : end.place.q[at])) open.push_back(i);

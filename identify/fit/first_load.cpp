@@ -79,7 +79,7 @@ class LoadSearch {
                                                 const Eigen::VectorXd& weights) const {
     Eigen::VectorXd outputs;
     if (!problem.outputs(q, outputs)) return {};
-    return problem.misses(outputs).cwiseProduct(weights);
+    return problem.readings().misses(outputs).cwiseProduct(weights);
   }
 
   [[nodiscard]] double squares(const FitTask& task, const SearchResult& at, const Eigen::VectorXd& weights) const {
@@ -103,7 +103,8 @@ class LoadSearch {
                  ? misses.squaredNorm() - (basis.transpose() * misses).squaredNorm()
                  : infinity;
     };
-    const double least = left_of(Eigen::VectorXd(before_.problem.misses(outputs).cwiseProduct(found_.weights)));
+    const double least =
+        left_of(Eigen::VectorXd(before_.problem.readings().misses(outputs).cwiseProduct(found_.weights)));
     std::vector<std::pair<double, double>> order(travels.size());
     sim::in_parts(travels.size(), 1, 0, [&](std::size_t i, std::size_t) {
       const std::unique_ptr<FitTask> trial = task_with(before_.parameters, before_.sizes, travels[i]);
@@ -122,7 +123,7 @@ class LoadSearch {
   }
 
   [[nodiscard]] static double freedom(const FitTask& task) {
-    return task.problem.counted().sum() - static_cast<double>(task.parameters.size());
+    return task.problem.readings().count() - static_cast<double>(task.parameters.size());
   }
 
   [[nodiscard]] std::optional<LoadedFit> with_travel(const std::vector<double>& travels) const {
@@ -157,7 +158,7 @@ class LoadSearch {
     }
     if (!best) return std::nullopt;
     loaded.found = std::move(*best);
-    const double travel = problem.values(loaded.found.coordinates)[loaded.found.coordinates.size() - 1];
+    const double travel = problem.space().values(loaded.found.coordinates)[loaded.found.coordinates.size() - 1];
     loaded.text = before_.experiments[index_]->label +
                   ": the contacts were loaded when the record began, as by a path of " +
                   core::format_number(travel, 3) + " " + loaded.task->parameters.back().unit +
@@ -175,7 +176,7 @@ class LoadSearch {
     constexpr double nothing = 0.1;  // deviations, all readings together, for a change of 100 %
     const double effect = jacobian.col(last).cwiseProduct(loaded.found.weights).norm() * std::abs(q[last]);
     if (!(effect < nothing)) return std::nullopt;
-    const double travel = loaded.task->problem.values(q)[last];
+    const double travel = loaded.task->problem.space().values(q)[last];
     LoadedFit yielded{
         task_with(before_.parameters, before_.sizes, std::copysign(std::max(std::abs(travel), length_), travel)),
         {},
@@ -199,10 +200,10 @@ class LoadSearch {
     const Eigen::VectorXd misses = weighted_misses(loaded.task->problem, loaded.found.coordinates, weights);
     double independent = 0.0;
     double all = 0.0;
-    for (const SignalRows& rows : loaded.task->problem.signals()) {
+    for (const SignalRows& rows : loaded.task->problem.readings().signals()) {
       const Eigen::Index size = rows.size();
-      independent +=
-          independent_samples(misses.segment(rows.begin, size), loaded.task->problem.signal(rows).is_sampled);
+      independent += independent_samples(misses.segment(rows.begin, size),
+                                         loaded.task->problem.readings().signal(rows).is_sampled);
       all += static_cast<double>(size);
     }
     // The parameter of the load counts also where the readings leave only its sign.
@@ -226,7 +227,7 @@ class LoadSearch {
 
 std::optional<LoadedFit> with_first_load(const FitTask& before, const SearchResult& found, std::size_t index,
                                          double length, const SearchOptions& options, long most_work) {
-  if (!may_be_loaded(before, before.problem.values(found.coordinates), index)) return std::nullopt;
+  if (!may_be_loaded(before, before.problem.space().values(found.coordinates), index)) return std::nullopt;
   return LoadSearch(before, found, index, length, options, most_work).run();
 }
 

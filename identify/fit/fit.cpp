@@ -46,39 +46,39 @@ void set_mean(const Eigen::VectorXd& misses, double counted, bool is_sampled, Fi
 
 void describe_signals(const FitProblem& problem, const Eigen::VectorXd& weights, const Eigen::VectorXd& misses,
                       const Eigen::MatrixXd& jacobian, bool robust, Fit& result) {
+  const FitReadings& readings = problem.readings();
   const SerialTest serial(problem, weights, misses, jacobian);
   const std::vector<double> freedoms = freedoms_of(problem, weights.asDiagonal() * jacobian);
   double sum = 0.0;
   double count = 0.0;
   for (std::size_t s = 0; s < freedoms.size(); ++s) {
-    const SignalRows& rows = problem.signals()[s];
+    const SignalRows& rows = readings.signals()[s];
+    const Signal& of = readings.signal(rows);
     const Eigen::Index size = rows.size();
-    const double counted = problem.count(rows);
-    const Eigen::VectorXd measured = problem.measured().segment(rows.begin, size);
-    FittedSignal signal{.rows = rows, .rms = problem.rms(misses, rows), .freedom = freedoms[s]};
+    const double counted = readings.count(rows);
+    const Eigen::VectorXd measured = readings.measured().segment(rows.begin, size);
+    FittedSignal signal{.rows = rows, .rms = readings.rms(misses, rows), .freedom = freedoms[s]};
     signal.range = rms(measured.array() - measured.mean());
     // Residuals far below the roughness of samples: it is that of the motion between too few samples, no noise.
     constexpr double least_noise_units = 0.5;
-    const bool is_too_rough = !problem.signal(rows).is_stated && problem.signal(rows).is_sampled &&
-                              signal.rms < least_noise_units * problem.signal(rows).noise;
-    if (problem.signal(rows).noise > 0.0 && !is_too_rough) {
-      signal.noise = problem.signal(rows).noise;
+    const bool is_too_rough = !of.is_stated && of.is_sampled && signal.rms < least_noise_units * of.noise;
+    if (of.noise > 0.0 && !is_too_rough) {
+      signal.noise = of.noise;
       signal.noise_units = signal.rms / signal.noise;
       sum += signal.noise_units * signal.noise_units * static_cast<double>(size);
       count += static_cast<double>(size);
     }
     const Eigen::VectorXd own = misses.segment(rows.begin, size);
     const Eigen::VectorXd bounded = bounded_residuals(own, weights.segment(rows.begin, size));
-    signal.p_value = noise_p_value(problem.signal(rows), bounded, counted - signal.freedom);
-    if (!robust && !problem.signal(rows).is_sampled)
-      signal.p_value = either_p_value(signal.p_value, serial.p_value(rows));
-    set_mean(bounded, counted, problem.signal(rows).is_sampled, signal);
-    signal.independent = independent_samples(bounded, problem.signal(rows).is_sampled);
-    signal.misses = problem.counted(misses, rows);
-    const std::optional<ZeroPhaseFilter>& filter = problem.signal(rows).filter;
+    signal.p_value = noise_p_value(of, bounded, counted - signal.freedom);
+    if (!robust && !of.is_sampled) signal.p_value = either_p_value(signal.p_value, serial.p_value(rows));
+    set_mean(bounded, counted, of.is_sampled, signal);
+    signal.independent = independent_samples(bounded, of.is_sampled);
+    signal.misses = readings.counted(misses, rows);
+    const std::optional<ZeroPhaseFilter>& filter = of.filter;
     signal.white = static_cast<double>(size) * (filter ? std::pow(filter->noise_gain(), 2) : 1.0);
     result.log_likelihood_count += signal.independent * counted / static_cast<double>(size);
-    if (problem.signal(rows).is_stated && signal.freedom > least_freedom) {
+    if (of.is_stated && signal.freedom > least_freedom) {
       const double share = signal.freedom / counted;
       const RobustDeviation found = robust ? robust_deviation(signal.misses, signal.freedom)
                                            : RobustDeviation{signal.rms / std::sqrt(share), signal.freedom};
@@ -127,7 +127,7 @@ std::string cut_short(long most_work) {
 /// The search ended where the motion cannot be simulated for values close to the estimate, most often at the end of
 /// a parameter's range: a contact as stiff as the search allows.
 core::Outcome without_derivative(const FitProblem& problem, const Request& request, const Eigen::VectorXd& q) {
-  const Eigen::VectorXd values = problem.values(q);
+  const Eigen::VectorXd values = problem.space().values(q);
   const core::Coordinate coordinate = request.rig.known.oscillator.coordinate;
   const auto has_stuck = [](const Signal& signal) { return !signal.stuck.empty(); };
   const bool sticks = std::ranges::any_of(request.experiments, [&](const auto& experiment) {
@@ -137,7 +137,7 @@ core::Outcome without_derivative(const FitProblem& problem, const Request& reque
   std::vector<std::string> ends;
   for (std::size_t i = 0; i < request.parameters.size(); ++i) {
     const auto at = static_cast<Eigen::Index>(i);
-    const SearchCoordinate& range = problem.coordinates()[i];
+    const SearchCoordinate& range = problem.space()[i];
     const FitParameter& parameter = request.parameters[i];
     const std::string unit = parameter.unit == "1" ? "" : " " + core::unit_for(coordinate, parameter.unit);
     all.push_back(parameter.name + " = " + core::format_number(values[at], 3) + unit);
@@ -219,10 +219,10 @@ std::optional<Eigen::VectorXd> describe(const FitProblem& problem, const Request
     result.outcome = without_derivative(problem, request, q);
     return std::nullopt;
   }
-  const Eigen::VectorXd values = problem.values(q);
+  const Eigen::VectorXd values = problem.space().values(q);
   result.rig = with_values(request.rig, request.parameters, values).value_or(request.rig);
   result.of_records = problem.of_records(values);
-  const Eigen::VectorXd misses = problem.misses(result.outputs);
+  const Eigen::VectorXd misses = problem.readings().misses(result.outputs);
   describe_signals(problem, found.weights, misses, jacobian, request.options.robust, result);
   for (std::size_t i = 0; i < request.parameters.size(); ++i)
     result.parameters.push_back(
@@ -283,13 +283,14 @@ Fit fit_rig(const Rig& rig, std::vector<FitParameter> parameters, const Experime
   const std::vector<double> sizes = sizes_of(parameters, scale);
   auto task = std::make_unique<FitTask>(rig, experiments, parameters, sizes, options.known);
   const FitProblem& problem = task->problem;
-  const auto readings = static_cast<Eigen::Index>(problem.counted().sum());
+  const auto readings = static_cast<Eigen::Index>(problem.readings().count());
   if (readings <= static_cast<Eigen::Index>(parameters.size())) {
-    result.outcome = {
-        core::OutcomeKind::not_identifiable,
-        std::to_string(parameters.size()) + " parameters need more than " + std::to_string(readings) + " readings" +
-            (readings < problem.rows() ? "; samples beside a jump, or at rest under rigid friction, do not count"
-                                       : "")};
+    result.outcome = {core::OutcomeKind::not_identifiable,
+                      std::to_string(parameters.size()) + " parameters need more than " + std::to_string(readings) +
+                          " readings" +
+                          (readings < problem.readings().size()
+                               ? "; samples beside a jump, or at rest under rigid friction, do not count"
+                               : "")};
     return result;
   }
   const bool all_stated =
@@ -299,7 +300,7 @@ Fit fit_rig(const Rig& rig, std::vector<FitParameter> parameters, const Experime
       .points = result.starts, .most_starts = all_stated ? 2U : 3U, .robust = options.robust, .scale = scale};
   problem.limit(options.most_work);
   task->problem.set_stepped(
-      stepped_parameters(problem, problem.coordinates(Eigen::Map<const Eigen::VectorXd>(
+      stepped_parameters(problem, problem.space().point(Eigen::Map<const Eigen::VectorXd>(
                                       sizes.data(), static_cast<Eigen::Index>(sizes.size())))));
   std::optional<SearchResult> found = search_parameters(problem, parameters, sizes, search);
   if (!found && problem.is_exhausted()) {

@@ -15,9 +15,9 @@ std::vector<double> freedoms_of(const FitProblem& problem, const Eigen::MatrixXd
   constexpr double dependent = 1e-6;
   const Eigen::MatrixXd basis = orthonormal_basis(rows(Eigen::all, effective).colwise().normalized(), dependent);
   std::vector<double> freedoms;
-  for (const SignalRows& signal : problem.signals()) {
+  for (const SignalRows& signal : problem.readings().signals()) {
     const double spent = basis.middleRows(signal.begin, signal.size()).squaredNorm();
-    freedoms.push_back(std::max(0.0, problem.count(signal) - spent));
+    freedoms.push_back(std::max(0.0, problem.readings().count(signal) - spent));
   }
   return freedoms;
 }

@@ -36,11 +36,11 @@ double uncertainty_of(const Fit& held, const Rig& rig, const std::vector<FitPara
   Eigen::VectorXd values(static_cast<Eigen::Index>(all.size()));
   for (std::size_t i = 0; i < all.size(); ++i) values[static_cast<Eigen::Index>(i)] = all[i].stated;
   const FitProblem problem(rig, all, experiments, sizes_of_stated(all), held.of_records);
-  const Eigen::VectorXd q = problem.coordinates(values);
+  const Eigen::VectorXd q = problem.space().point(values);
   Eigen::VectorXd outputs;
   Eigen::MatrixXd jacobian;
   if (!problem.derivatives(q, outputs, jacobian)) return unknown;
-  jacobian = product(jacobian, inverse_of(problem.slope(q)));
+  jacobian = product(jacobian, inverse_of(problem.space().slope(q)));
   for (const FittedSignal& signal : held.signals)
     jacobian.middleRows(signal.rows.begin, signal.rows.size()) /= signal.range;
   Eigen::MatrixXd by_rig = jacobian.leftCols(count);

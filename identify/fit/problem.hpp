@@ -3,15 +3,10 @@
 ///
 ///   r_i = (output_i(p) - measured_i)/s_i,   s_i: noise of the signal
 ///
-/// The coordinate of a parameter is its logarithm, if zero is an open end of its range; its distance above another
-/// parameter, if it must be at least that one; else its value in units of its size. A force at a speed far from
-/// those of the data is sought as the force at a speed of the data (`ForceAtSpeed`). Derivatives are central
-/// differences of the motion, whose events the engines find anew. Steady states for a difference are found by
-/// Newton's method from the orbit of the unchanged model.
+/// Derivatives by the coordinates (`SearchSpace`) are central differences of the motion, whose events the engines
+/// find anew. Steady states for a difference are found by Newton's method from the orbit of the unchanged model.
 
 #include <Eigen/Core>
-#include <algorithm>
-#include <cmath>
 #include <functional>
 #include <limits>
 #include <memory>
@@ -21,23 +16,10 @@
 
 #include "identify/experiments/experiment.hpp"
 #include "identify/experiments/rig.hpp"
+#include "identify/fit/fit_readings.hpp"
+#include "identify/fit/search_space.hpp"
 
 namespace dualdamp::identify {
-
-/// The coordinate of a parameter in the search.
-struct SearchCoordinate {
-  bool logarithmic = false;
-  double size = 1.0;  ///< one unit of the coordinate; a factor e if it is a logarithm
-  double low = 0.0;   ///< in coordinates
-  double high = 0.0;
-
-  [[nodiscard]] bool is_low_end(double q) const { return q <= low + near_end * std::max(1.0, std::abs(low)); }
-  [[nodiscard]] bool is_high_end(double q) const { return q >= high - near_end * std::max(1.0, std::abs(high)); }
-  [[nodiscard]] bool is_end(double q) const { return is_low_end(q) || is_high_end(q); }
-
- private:
-  static constexpr double near_end = 1e-6;
-};
 
 /// Accuracy of the motions, and step of the differences in each coordinate.
 struct Accuracy {
@@ -46,25 +28,12 @@ struct Accuracy {
   bool is_one_sided = false;  ///< differences of half the motions: the first steps need only their direction
 };
 
-/// Rows [begin, end) of one signal of one experiment.
-struct SignalRows {
-  std::size_t experiment = 0;
-  std::size_t signal = 0;
-  Eigen::Index begin = 0;
-  Eigen::Index end = 0;
-
-  [[nodiscard]] Eigen::Index size() const { return end - begin; }
-};
-
 /// The motions at the last point of a search. Those at its next points are found from them: so the steady states of
 /// smooth laws take a tenth of the time that they take otherwise.
 class LastMotions {
   friend class FitProblem;
   std::vector<std::unique_ptr<Neighbours>> neighbours_;  ///< of each experiment; empty: there was no point yet
 };
-
-/// Of each parameter, the absolute value that is stated; 1 if that is zero or unknown.
-[[nodiscard]] std::vector<double> sizes_of_stated(const std::vector<FitParameter>& parameters);
 
 class FitProblem {
  public:
@@ -107,25 +76,10 @@ class FitProblem {
   [[nodiscard]] bool has_loops_only() const;
   [[nodiscard]] bool has_steady_states() const;
 
-  [[nodiscard]] Eigen::Index rows() const { return rows_; }
+  [[nodiscard]] const SearchSpace& space() const { return space_; }
+  [[nodiscard]] const FitReadings& readings() const { return readings_; }
   /// Of each experiment, the values of its own parameters that are not sought.
   [[nodiscard]] const std::vector<RecordValues>& known() const { return known_; }
-  [[nodiscard]] const std::vector<SignalRows>& signals() const { return signals_; }
-  [[nodiscard]] const std::vector<SearchCoordinate>& coordinates() const { return coordinates_; }
-  /// The parameter that parameter `i` must not be below.
-  [[nodiscard]] const std::optional<std::size_t>& above(Eigen::Index i) const {
-    return parameters_[static_cast<std::size_t>(i)].above;
-  }
-  [[nodiscard]] const Signal& signal(const SignalRows& rows) const;
-  [[nodiscard]] const Experiment& experiment(const SignalRows& rows) const {
-    return *experiments_[rows.experiment];
-  }
-
-  /// Values of the parameters from coordinates, and back. A value beyond a bound is moved to the bound.
-  [[nodiscard]] Eigen::VectorXd values(const Eigen::VectorXd& q) const;
-  [[nodiscard]] Eigen::VectorXd coordinates(const Eigen::VectorXd& values) const;
-  /// d(values)/d(coordinates).
-  [[nodiscard]] Eigen::MatrixXd slope(const Eigen::VectorXd& q) const;
 
   /// Predicted readings, not divided by the noise. False: the rig has no such motion, or a law refuses the values.
   [[nodiscard]] bool outputs(const Eigen::VectorXd& q, Eigen::VectorXd& result,
@@ -136,21 +90,6 @@ class FitProblem {
   [[nodiscard]] bool derivatives(const Eigen::VectorXd& q, Eigen::VectorXd& result, Eigen::MatrixXd& jacobian,
                                  bool seeks = false, LastMotions* last = nullptr) const;
 
-  [[nodiscard]] const Eigen::VectorXd& measured() const { return measured_; }
-  /// 1 for each reading that counts, 0 for one that does not.
-  [[nodiscard]] const Eigen::VectorXd& counted() const { return counted_; }
-  /// Number of readings of a signal that count.
-  [[nodiscard]] double count(const SignalRows& rows) const {
-    return counted_.segment(rows.begin, rows.size()).sum();
-  }
-  /// Outputs minus readings; 0 for a reading that does not count.
-  [[nodiscard]] Eigen::VectorXd misses(const Eigen::VectorXd& outputs) const {
-    return (outputs - measured_).cwiseProduct(counted_);
-  }
-  /// The misses of a signal at the readings that count.
-  [[nodiscard]] Eigen::VectorXd counted(const Eigen::VectorXd& misses, const SignalRows& rows) const;
-  /// Root mean square of the misses of a signal, over the readings that count.
-  [[nodiscard]] double rms(const Eigen::VectorXd& misses, const SignalRows& rows) const;
   /// The values of each experiment's own parameters.
   [[nodiscard]] std::vector<RecordValues> of_records(const Eigen::VectorXd& values) const;
 
@@ -176,7 +115,6 @@ class FitProblem {
   /// The same with what `part_of` makes from the experiments; nothing if it makes nothing from any of them.
   using PartOf = std::function<std::unique_ptr<Experiment>(const Experiment&)>;
   [[nodiscard]] std::optional<FitProblem> with_parts(const PartOf& part_of) const;
-  void number_rows();
   [[nodiscard]] long work() const;
   /// The answer of `motions` of experiment `e`, of which none runs past the limit of the work. False beyond it, or
   /// if a law or an engine refuses the values.
@@ -184,18 +122,11 @@ class FitProblem {
   const Rig& rig_;
   bool holds_mass_ = false;  ///< a law of it can make the mass stick
   Accuracy accuracy_{};
-  const std::vector<FitParameter>& parameters_;
   Experiments parts_;  ///< experiments that this problem owns
-  std::vector<const Experiment*> experiments_;
-  std::vector<SearchCoordinate> coordinates_;
+  SearchSpace space_;
+  FitReadings readings_;
   std::vector<bool> stepped_;        ///< of each parameter; empty: none
-  std::vector<double> units_;        ///< of each parameter, `over_force_sought` at the sizes
   std::vector<RecordValues> known_;  ///< of each experiment
-  std::vector<SignalRows> signals_;
-  std::vector<Eigen::Index> begins_;  ///< of each experiment
-  Eigen::VectorXd measured_;
-  Eigen::VectorXd counted_;
-  Eigen::Index rows_ = 0;
   /// Of `work`, from `begun` to `most`; of all problems made from one.
   struct Limit {
     long begun = 0;

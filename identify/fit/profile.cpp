@@ -88,16 +88,17 @@ Eigen::VectorXd Profiler::step(Eigen::Index i, double value, const ProfilePath& 
   const Eigen::Index size = q_.size();
   // A value that one coordinate sets is held exactly, however far it is: a factor of it is no slope.
   const bool is_alone = other_of(i, path.q) < 0;
-  const Eigen::VectorXd slope =
-      is_alone ? Eigen::VectorXd(Eigen::VectorXd::Unit(size, i)) : problem_.slope(path.q).row(i).transpose();
-  const double change = is_alone ? placed(i, value, path.q)[i] - path.q[i] : value - problem_.values(path.q)[i];
+  const Eigen::VectorXd slope = is_alone ? Eigen::VectorXd(Eigen::VectorXd::Unit(size, i))
+                                         : problem_.space().slope(path.q).row(i).transpose();
+  const double change =
+      is_alone ? placed(i, value, path.q)[i] - path.q[i] : value - problem_.space().values(path.q)[i];
   const Eigen::VectorXd row = path.unit.cwiseProduct(slope);
   const double scale = row.norm();
   Eigen::MatrixXd bordered = Eigen::MatrixXd::Zero(size + 1, size + 1);
   bordered.topLeftCorner(size, size) = in_units(path.normal, path.unit);
   constexpr double least = 0.1;  // of the size of a coordinate
   for (Eigen::Index j = 0; damping > 0.0 && j < size; ++j) {
-    const bool is_logarithm = problem_.coordinates()[static_cast<std::size_t>(j)].logarithmic;
+    const bool is_logarithm = problem_.space()[j].logarithmic;
     const double whole = is_logarithm ? 1.0 : std::max(std::abs(path.q[j]), least);
     bordered(j, j) += std::pow(damping * growth_of(path.residuals) * path.unit[j] / whole, 2);
   }
@@ -111,7 +112,7 @@ Eigen::VectorXd Profiler::step(Eigen::Index i, double value, const ProfilePath& 
     Eigen::VectorXd q = path.q + path.unit.cwiseProduct(found.head(size));
     Eigen::Index leaving = -1;
     for (Eigen::Index j = 0; j < size; ++j) {
-      const SearchCoordinate& c = problem_.coordinates()[static_cast<std::size_t>(j)];
+      const SearchCoordinate& c = problem_.space()[j];
       const double inside = std::clamp(q[j], c.low, c.high);
       constexpr double rounding = 1e-12;
       const bool may_be_held = j != i || other_of(i, path.q) >= 0;
@@ -129,20 +130,20 @@ Eigen::VectorXd Profiler::step(Eigen::Index i, double value, const ProfilePath& 
 }
 
 Eigen::Index Profiler::other_of(Eigen::Index i, const Eigen::VectorXd& q) const {
-  const Eigen::MatrixXd slope = problem_.slope(q);
+  const Eigen::MatrixXd slope = problem_.space().slope(q);
   for (Eigen::Index j = 0; j < q.size(); ++j)
     if (j != i && slope(i, j) != 0.0) return j;
   return -1;
 }
 
 Eigen::VectorXd Profiler::placed(Eigen::Index i, double value, const Eigen::VectorXd& q) const {
-  Eigen::VectorXd values = problem_.values(q);
+  Eigen::VectorXd values = problem_.space().values(q);
   values[i] = value;
-  if (const std::optional<std::size_t>& least = problem_.above(i)) {
+  if (const std::optional<std::size_t>& least = problem_.space().above(i)) {
     double& other = values[static_cast<Eigen::Index>(*least)];
     other = std::min(other, value);
   }
-  return problem_.coordinates(values);
+  return problem_.space().point(values);
 }
 
 double Profiler::growth_of(const Eigen::VectorXd& residuals) const {
@@ -154,7 +155,7 @@ std::optional<double> Profiler::alone(Eigen::Index i, double value, ProfilePath&
   Eigen::VectorXd outputs;
   if (!problem_.outputs(q, outputs)) return std::nullopt;
   path.q = std::move(q);
-  path.residuals = problem_.misses(outputs).cwiseProduct(weights_);
+  path.residuals = problem_.readings().misses(outputs).cwiseProduct(weights_);
   return growth_of(path.residuals);
 }
 
@@ -178,7 +179,7 @@ std::optional<double> Profiler::growth(Eigen::Index i, double value, double limi
 bool Profiler::take(const Eigen::VectorXd& q, ProfilePath& path, double& best) const {
   Eigen::VectorXd outputs;
   if (!problem_.outputs(q, outputs)) return false;
-  Eigen::VectorXd residuals = problem_.misses(outputs).cwiseProduct(weights_);
+  Eigen::VectorXd residuals = problem_.readings().misses(outputs).cwiseProduct(weights_);
   const double found = growth_of(residuals);
   if (!(found < best)) return true;
   best = found;
@@ -195,7 +196,7 @@ void Profiler::note(const ProfilePath& path, double growth) const {
   const double squares = path.residuals.squaredNorm();
   const std::lock_guard lock(mutex_);
   constexpr double beyond_any_limit = 10.0;
-  if (growth < beyond_any_limit) places_.emplace_back(problem_.values(path.q), growth);
+  if (growth < beyond_any_limit) places_.emplace_back(problem_.space().values(path.q), growth);
   // The smallest of all, so that the order of the threads does not matter.
   const double limit = lower_ ? lower_->second : squares_ * (1.0 - margin / static_cast<double>(residuals_.size()));
   if (squares < limit) lower_ = {path.q, squares};
@@ -241,17 +242,17 @@ std::optional<double> Profiler::followed(Eigen::Index i, double value, double be
 
 bool Profiler::is_flat(Eigen::Index i, const FittedParameter& fitted, double limit) const {
   const double norm = rows_.col(i).norm();
-  return std::isnan(fitted.std) && problem_.coordinates()[static_cast<std::size_t>(i)].logarithmic && norm > 0.0 &&
-         norm < limit;
+  return std::isnan(fitted.std) && problem_.space()[i].logarithmic && norm > 0.0 && norm < limit;
 }
 
 double Profiler::first_distance(Eigen::Index i, const FittedParameter& fitted, double limit) const {
   if (!std::isnan(fitted.std)) return limit * fitted.std;
-  if (is_flat(i, fitted, limit)) return std::abs(problem_.slope(q_)(i, i));
+  if (is_flat(i, fitted, limit)) return std::abs(problem_.space().slope(q_)(i, i));
   // A parameter without an effect near the estimate may have one further off.
   const double norm = rows_.col(i).norm();
   constexpr double near = 1e-3;
-  return norm > 0.0 ? limit * problem_.slope(q_)(i, i) / norm : near * std::abs(problem_.slope(q_)(i, i));
+  return norm > 0.0 ? limit * problem_.space().slope(q_)(i, i) / norm
+                    : near * std::abs(problem_.space().slope(q_)(i, i));
 }
 
 std::optional<double> Profiler::grown_from(Eigen::Index i, double value, double limit, const ProfilePath* within,
@@ -266,7 +267,7 @@ std::optional<double> Profiler::grown_from(Eigen::Index i, double value, double 
 }
 
 double Profiler::end(Eigen::Index i, const FittedParameter& fitted, double limit, double sign) const {
-  const SearchCoordinate& c = problem_.coordinates()[static_cast<std::size_t>(i)];
+  const SearchCoordinate& c = problem_.space()[i];
   const friction::Range& range = fitted.parameter.range;
   const auto value_at = [&](double distance) {
     const double value =
@@ -275,7 +276,7 @@ double Profiler::end(Eigen::Index i, const FittedParameter& fitted, double limit
   };
   Eigen::VectorXd at_end = q_;
   at_end[i] = sign < 0.0 ? c.low : c.high;
-  const double farthest = problem_.values(at_end)[i];
+  const double farthest = problem_.space().values(at_end)[i];
   double distance = first_distance(i, fitted, limit);
   ProfilePath others = at(q_, residuals_, rows_);
   ProfilePath within = others;
@@ -322,8 +323,8 @@ Interval Profiler::widened(Eigen::Index i, Interval interval, double limit) cons
 
 Interval Profiler::interval(Eigen::Index i, const FittedParameter& fitted, double limit) const {
   Interval found = {end(i, fitted, limit, -1.0), end(i, fitted, limit, 1.0)};
-  if (const std::optional<std::size_t>& least = problem_.above(i)) {
-    const double lowest = problem_.values(q_)[static_cast<Eigen::Index>(*least)];
+  if (const std::optional<std::size_t>& least = problem_.space().above(i)) {
+    const double lowest = problem_.space().values(q_)[static_cast<Eigen::Index>(*least)];
     ProfilePath others = at(q_, residuals_, rows_);
     const bool is_lower = found[0] > lowest;
     if (const auto grown = is_lower ? growth(i, lowest, limit, others) : std::nullopt; grown && *grown <= limit)

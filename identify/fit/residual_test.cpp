@@ -267,11 +267,11 @@ std::vector<double> zero_gains_of(const FitProblem& problem, const Eigen::Vector
   const Eigen::MatrixXd basis = orthonormal_basis(weights.asDiagonal() * jacobian);
   const Eigen::VectorXd residuals = weights.cwiseProduct(misses);
   std::vector<double> gains;
-  for (const SignalRows& rows : problem.signals()) {
+  for (const SignalRows& rows : problem.readings().signals()) {
     const Eigen::Index size = rows.size();
     Eigen::VectorXd shift = Eigen::VectorXd::Zero(residuals.size());
     shift.segment(rows.begin, size) =
-        weights.segment(rows.begin, size).cwiseProduct(problem.counted().segment(rows.begin, size));
+        weights.segment(rows.begin, size).cwiseProduct(problem.readings().counted().segment(rows.begin, size));
     const double whole = shift.squaredNorm();
     shift -= basis * (basis.transpose() * shift);
     const double left = shift.squaredNorm();

@@ -24,7 +24,7 @@ std::vector<Eigen::VectorXd> start_points(const FitProblem& problem, const std::
                                           const std::vector<double>& sizes, const SearchOptions& options) {
   std::vector<Eigen::VectorXd> points;
   for (int i = 0; i < options.points; ++i)
-    points.push_back(problem.coordinates(start_of(parameters, sizes, i, options.scale)));
+    points.push_back(problem.space().point(start_of(parameters, sizes, i, options.scale)));
   return points;
 }
 
@@ -47,7 +47,7 @@ constexpr double rough = 1e-3;
 void take_better(LeastSquaresFit found, const WeightedSearch& search, const FitProblem& problem,
                  std::optional<LeastSquaresFit>& best) {
   found.sum_of_squares = search.squares(found);
-  if (!std::isfinite(found.sum_of_squares) || found.jacobian.rows() != problem.rows()) return;
+  if (!std::isfinite(found.sum_of_squares) || found.jacobian.rows() != problem.readings().size()) return;
   if (!best || found.sum_of_squares < best->sum_of_squares) best = std::move(found);
 }
 
@@ -72,7 +72,7 @@ std::vector<Eigen::VectorXd> improved(std::vector<Eigen::VectorXd> points, std::
   for (const Eigen::VectorXd& q : points) {
     LeastSquaresFit end = search.improve(q, rough, few);
     const auto is_there = [&](const LeastSquaresFit& other) { return is_same_place(other, end); };
-    const bool has_motion = end.jacobian.rows() == part.rows();
+    const bool has_motion = end.jacobian.rows() == part.readings().size();
     if (!has_motion || std::ranges::any_of(ends, is_there)) continue;
     least = std::min(least, end.sum_of_squares);
     ends.push_back(std::move(end));
@@ -185,7 +185,7 @@ std::optional<LeastSquaresFit> finish(LeastSquaresFit found, WeightedSearch& sea
   for (int round = 0; round < most_rounds; ++round) {
     Eigen::VectorXd outputs;
     LeastSquaresFit next = search.improve(found.parameters, last > large ? coarse : fine, 100);
-    if (next.jacobian.rows() == problem.rows() && next.jacobian.allFinite()) found = std::move(next);
+    if (next.jacobian.rows() == problem.readings().size() && next.jacobian.allFinite()) found = std::move(next);
     if (!problem.outputs(found.parameters, outputs)) return std::nullopt;
     const double change = search.reweight(outputs, found.jacobian);
     if (!several_weights || (change < settled && last <= large)) break;
@@ -195,7 +195,7 @@ std::optional<LeastSquaresFit> finish(LeastSquaresFit found, WeightedSearch& sea
 }
 
 bool has_several_weights(const FitProblem& problem, const SearchOptions& options) {
-  return options.robust || problem.signals().size() > 1;
+  return options.robust || problem.readings().signals().size() > 1;
 }
 
 /// The first steps need only find the region of the minimum.
@@ -204,7 +204,7 @@ constexpr Accuracy of_first_steps{.tolerance = 1e-7, .step = 1e-3, .is_one_sided
 /// Whether a sum of squares is less than another one by more than chance between places of one valley.
 bool is_clearly_less(double squares, double than, const FitProblem& problem) {
   constexpr double enough = 4.0;  // variances
-  return squares < than - enough * than / std::max(1.0, problem.counted().sum());
+  return squares < than - enough * than / std::max(1.0, problem.readings().count());
 }
 
 /// Searches from places far from the end of another one, along each parameter that is open there. Nothing, unless
@@ -217,7 +217,7 @@ std::optional<LeastSquaresFit> search_far(const SearchResult& from, const std::v
   constexpr int some = 16;
   LeastSquaresFit end = search.improve(from.coordinates, rough, some);
   end.sum_of_squares = search.squares(end);
-  if (end.jacobian.rows() != problem.rows() || !std::isfinite(end.sum_of_squares)) return std::nullopt;
+  if (end.jacobian.rows() != problem.readings().size() || !std::isfinite(end.sum_of_squares)) return std::nullopt;
   const auto fit_held = [&](const FitProblem& held, const std::vector<Eigen::VectorXd>& points) -> SearchPlace {
     const std::vector<Eigen::VectorXd> first = best_of(points, search, 1);
     if (first.empty() || problem.spent() > most) return {points.front(), infinity};
@@ -312,14 +312,14 @@ class EndedSearches {
 bool holds_motion(const SearchResult& found, const FitProblem& problem, std::optional<std::size_t> record) {
   Eigen::VectorXd outputs;
   if (!problem.outputs(found.coordinates, outputs)) return false;
-  const Eigen::VectorXd misses = problem.misses(outputs);
+  const Eigen::VectorXd misses = problem.readings().misses(outputs);
   const auto parameters = static_cast<double>(found.coordinates.size());
-  return std::ranges::any_of(problem.signals(), [&](const SignalRows& rows) {
+  return std::ranges::any_of(problem.readings().signals(), [&](const SignalRows& rows) {
     if (record && rows.experiment != *record) return false;
     const Eigen::Index size = rows.size();
     const Eigen::VectorXd part =
         bounded_residuals(misses.segment(rows.begin, size), found.weights.segment(rows.begin, size));
-    return !is_noise(noise_p_value(problem.signal(rows), part, parameters));
+    return !is_noise(noise_p_value(problem.readings().signal(rows), part, parameters));
   });
 }
 

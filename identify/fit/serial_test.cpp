@@ -72,8 +72,8 @@ double serial_p_value(const Eigen::VectorXd& residuals, const Eigen::MatrixXd& b
 SerialTest::SerialTest(const FitProblem& problem, const Eigen::VectorXd& weights, const Eigen::VectorXd& misses,
                        const Eigen::MatrixXd& jacobian)
     : problem_(problem), weights_(weights), misses_(misses), base_(misses.size(), 0) {
-  const auto is_tested = [&](const SignalRows& rows) { return !problem.signal(rows).is_sampled; };
-  if (jacobian.cols() == 0 || std::ranges::none_of(problem.signals(), is_tested)) return;
+  const auto is_tested = [&](const SignalRows& rows) { return !problem.readings().signal(rows).is_sampled; };
+  if (jacobian.cols() == 0 || std::ranges::none_of(problem.readings().signals(), is_tested)) return;
   Eigen::MatrixXd columns = weights.asDiagonal() * jacobian;
   for (Eigen::Index j = 0; j < columns.cols(); ++j)
     if (const double norm = columns.col(j).norm(); norm > 0.0) columns.col(j) /= norm;
@@ -82,14 +82,14 @@ SerialTest::SerialTest(const FitProblem& problem, const Eigen::VectorXd& weights
 }
 
 double SerialTest::p_value(const SignalRows& rows) const {
-  const Signal& signal = problem_.signal(rows);
+  const Signal& signal = problem_.readings().signal(rows);
   const Eigen::Index count = rows.size();
-  const Eigen::VectorXd measured = problem_.measured().segment(rows.begin, count);
+  const Eigen::VectorXd measured = problem_.readings().measured().segment(rows.begin, count);
   if (is_rounding(misses_.segment(rows.begin, count), measured)) return unknown;
   std::vector<std::size_t> order(static_cast<std::size_t>(count));
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::ranges::stable_sort(order, {}, [&](std::size_t i) { return signal.at[i]; });
-  const bool turns = problem_.experiment(rows).kind == ExperimentKind::decay && signal.name == "x";
+  const bool turns = problem_.readings().experiment(rows).kind == ExperimentKind::decay && signal.name == "x";
   Eigen::VectorXd residuals(count);
   Eigen::MatrixXd base(count, base_.cols());
   for (Eigen::Index i = 0; i < count; ++i) {

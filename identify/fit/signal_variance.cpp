@@ -28,12 +28,12 @@ double freedom_left(const FittedSignal& signal, double count, double freedom) {
 SignalVariance plain_variance(const FitEnd& end, const FittedSignal& signal) {
   const SignalRows& rows = signal.rows;
   const Eigen::Index size = rows.size();
-  const double count = end.problem.count(rows);
+  const double count = end.problem.readings().count(rows);
   const double freedom = std::max(signal.freedom, least_freedom);
   const double own =
       end.unbounded.segment(rows.begin, size).cwiseProduct(end.misses.segment(rows.begin, size)).squaredNorm() /
       freedom;
-  const bool is_stated = end.problem.signal(rows).is_stated;
+  const bool is_stated = end.problem.readings().signal(rows).is_stated;
   const bool as_stated = is_stated && agrees_with_stated(own, freedom);
   const bool is_open = !is_stated && signal.freedom < least_freedom;
   return {as_stated || is_open ? 1.0 : own, as_stated ? infinity : freedom_left(signal, count, signal.freedom),
@@ -43,12 +43,12 @@ SignalVariance plain_variance(const FitEnd& end, const FittedSignal& signal) {
 SignalVariance robust_variance(const FitEnd& end, const FittedSignal& signal) {
   const SignalRows& rows = signal.rows;
   const double weight = end.unbounded.segment(rows.begin, rows.size()).maxCoeff();
-  const Eigen::VectorXd residuals = weight * end.problem.counted(end.misses, rows);
+  const Eigen::VectorXd residuals = weight * end.problem.readings().counted(end.misses, rows);
   const auto count = static_cast<double>(residuals.size());
   const double freedom = std::max(signal.freedom, least_freedom);
   const RobustDeviation own = robust_deviation(residuals, freedom);
   const double square = own.deviation * own.deviation;
-  const bool is_stated = end.problem.signal(rows).is_stated;
+  const bool is_stated = end.problem.readings().signal(rows).is_stated;
   const bool as_stated = is_stated && agrees_with_stated(square, own.freedom);
   const double outliers = static_cast<double>((residuals.array().abs() > rare_residual).count()) / count;
   SignalVariance result{.variance = normal_huber_variance(huber_bound, 0.0),
@@ -70,7 +70,7 @@ SignalVariance robust_variance(const FitEnd& end, const FittedSignal& signal) {
 }  // namespace
 
 SignalVariance signal_variance(const FitEnd& end, const FittedSignal& signal) {
-  const bool counts = end.problem.count(signal.rows) > 0.0;
+  const bool counts = end.problem.readings().count(signal.rows) > 0.0;
   return end.robust && counts ? robust_variance(end, signal) : plain_variance(end, signal);
 }
 

@@ -23,9 +23,7 @@ class Along {
   Along(const FitProblem& problem, Eigen::VectorXd q, Eigen::Index i)
       : problem_(problem), q_(std::move(q)), i_(i) {}
 
-  [[nodiscard]] const SearchCoordinate& coordinate() const {
-    return problem_.coordinates()[static_cast<std::size_t>(i_)];
-  }
+  [[nodiscard]] const SearchCoordinate& coordinate() const { return problem_.space()[i_]; }
 
   [[nodiscard]] Eigen::VectorXd at(double value) const {
     Eigen::VectorXd there = q_;
@@ -37,7 +35,7 @@ class Along {
   [[nodiscard]] std::optional<Eigen::VectorXd> readings(double value) const {
     Eigen::VectorXd outputs;
     if (!problem_.outputs(at(value), outputs)) return std::nullopt;
-    return problem_.misses(outputs);
+    return problem_.readings().misses(outputs);
   }
 
   [[nodiscard]] bool is_alike(double a, double b) const {

@@ -33,7 +33,7 @@ class Uncertainty {
     for (Eigen::Index i = 0; i < size_; ++i) judge_bound(i);
     measure_variance();
     decompose();
-    slope_ = end_.problem.slope(end_.q);
+    slope_ = end_.problem.space().slope(end_.q);
     fit_.covariance = propagated(slope_, covariance_);
     fit_.slopes = product(end_.jacobian, inverse_of(slope_));
     for (Eigen::Index i = 0; i < size_; ++i) quantiles_.push_back(quantile95(freedom_along(scaled_row(i))));
@@ -60,7 +60,7 @@ class Uncertainty {
 
   /// Whether a parameter is at a bound, and whether it counts among those with an effect.
   void judge_bound(Eigen::Index i) {
-    const SearchCoordinate& c = end_.problem.coordinates()[static_cast<std::size_t>(i)];
+    const SearchCoordinate& c = end_.problem.space()[i];
     const bool low = c.is_low_end(end_.q[i]);
     const bool high = c.is_high_end(end_.q[i]);
     fit_.parameters[static_cast<std::size_t>(i)].at_bound = low || high;
@@ -77,7 +77,7 @@ class Uncertainty {
   void warn_of_end(Eigen::Index i, bool low, bool high) {
     const FittedParameter& fitted = fit_.parameters[static_cast<std::size_t>(i)];
     const friction::Range& range = fitted.parameter.range;
-    const SearchCoordinate& c = end_.problem.coordinates()[static_cast<std::size_t>(i)];
+    const SearchCoordinate& c = end_.problem.space()[i];
     const bool low_of_search = c.logarithmic ? !(range.low > 0.0) : std::isinf(range.low);
     if (!(low && low_of_search) && !(high && std::isinf(range.high))) return;
     fit_.warnings.push_back(fitted.parameter.name +
@@ -87,7 +87,7 @@ class Uncertainty {
 
   /// A change of 100 % of a parameter, in coordinates.
   [[nodiscard]] double full_change(Eigen::Index i) const {
-    const SearchCoordinate& c = end_.problem.coordinates()[static_cast<std::size_t>(i)];
+    const SearchCoordinate& c = end_.problem.space()[i];
     return c.logarithmic ? 1.0 : std::max(std::abs(end_.q[i]), small);
   }
 
@@ -95,7 +95,7 @@ class Uncertainty {
   /// effect of that is small, up to the largest value of the search. Within it a spring that is nearly zero makes
   /// up for all of a mass, which a factor e of it does not show.
   [[nodiscard]] double judged_change(Eigen::Index i) const {
-    const SearchCoordinate& c = end_.problem.coordinates()[static_cast<std::size_t>(i)];
+    const SearchCoordinate& c = end_.problem.space()[i];
     if (!c.logarithmic) return full_change(i);
     constexpr double least = 0.1;
     const double effect = rows_.col(i).norm();
@@ -105,12 +105,12 @@ class Uncertainty {
 
   /// A parameter that is so small that its own value is no measure of it.
   [[nodiscard]] bool is_near_zero(Eigen::Index i) const {
-    const SearchCoordinate& c = end_.problem.coordinates()[static_cast<std::size_t>(i)];
+    const SearchCoordinate& c = end_.problem.space()[i];
     return (c.logarithmic ? std::exp(end_.q[i]) : std::abs(end_.q[i])) < small;
   }
 
   void measure_variance() {
-    for (std::size_t s = 0; s < end_.problem.signals().size(); ++s) {
+    for (std::size_t s = 0; s < end_.problem.readings().signals().size(); ++s) {
       const SignalVariance found = signal_variance(end_, fit_.signals[s]);
       variances_.push_back(found.variance);
       freedoms_.push_back(found.freedom);
@@ -165,10 +165,11 @@ class Uncertainty {
     const Eigen::MatrixXd bread = regular_inverse(normal);
     Eigen::MatrixXd plain = Eigen::MatrixXd::Zero(free, free);
     for (std::size_t s = 0; s < variances_.size(); ++s) {
-      const SignalRows& rows = end_.problem.signals()[s];
+      const SignalRows& rows = end_.problem.readings().signals()[s];
       const Eigen::MatrixXd part = scaled.middleRows(rows.begin, rows.size());
-      const Eigen::MatrixXd scores = score_covariance(part, residuals_.segment(rows.begin, rows.size()),
-                                                      variances_[s], end_.problem.signal(rows).is_sampled);
+      const Eigen::MatrixXd scores =
+          score_covariance(part, residuals_.segment(rows.begin, rows.size()), variances_[s],
+                           end_.problem.readings().signal(rows).is_sampled);
       parts_.push_back(matrix_among_all(product(product(bread, scores), bread)));
       scaled_covariance_ += parts_.back();
       plain += variances_[s] * gram(part);
@@ -243,8 +244,7 @@ class Uncertainty {
   /// Whether a parameter that is sought by its logarithm has, by itself, no effect near the estimate. It may have
   /// one further off, as an exponent of a sharp yield has, and others may trade off with it there.
   [[nodiscard]] bool is_flat(Eigen::Index i) const {
-    return end_.profile && end_.problem.coordinates()[static_cast<std::size_t>(i)].logarithmic &&
-           !acts_in_steps(i) &&
+    return end_.profile && end_.problem.space()[i].logarithmic && !acts_in_steps(i) &&
            std::ranges::any_of(lost_, [i](const Eigen::VectorXd& direction) { return is_alone(direction, i); });
   }
 
@@ -259,7 +259,7 @@ class Uncertainty {
 
   void add_interval(Eigen::Index i) {
     FittedParameter& fitted = fit_.parameters[static_cast<std::size_t>(i)];
-    const SearchCoordinate& c = end_.problem.coordinates()[static_cast<std::size_t>(i)];
+    const SearchCoordinate& c = end_.problem.space()[i];
     if (fitted.at_bound) {
       fitted.reason = "it lies at the end of its range";
       return;

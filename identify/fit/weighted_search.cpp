@@ -10,11 +10,11 @@
 namespace dualdamp::identify {
 
 WeightedSearch::WeightedSearch(const FitProblem& problem, const SearchOptions& options)
-    : problem_(problem), options_(options), weights_(Eigen::VectorXd::Ones(problem.rows())) {
+    : problem_(problem), options_(options), weights_(Eigen::VectorXd::Ones(problem.readings().size())) {
   deviations_ = options.deviations;
-  if (deviations_.size() != problem.signals().size()) {
+  if (deviations_.size() != problem.readings().signals().size()) {
     deviations_.clear();
-    for (const SignalRows& rows : problem.signals()) deviations_.push_back(first_deviation(rows));
+    for (const SignalRows& rows : problem.readings().signals()) deviations_.push_back(first_deviation(rows));
   }
   spread();
 }
@@ -22,20 +22,20 @@ WeightedSearch::WeightedSearch(const FitProblem& problem, const SearchOptions& o
 double WeightedSearch::squares(const Eigen::VectorXd& q) const {
   Eigen::VectorXd outputs;
   if (!problem_.outputs(q, outputs)) return core::infinity;
-  const Eigen::VectorXd sizes = problem_.misses(outputs).cwiseProduct(weights_);
+  const Eigen::VectorXd sizes = problem_.readings().misses(outputs).cwiseProduct(weights_);
   const double sum = options_.robust ? huber_sum(sizes) : sizes.squaredNorm();
   return std::isfinite(sum) ? sum : core::infinity;
 }
 
 LeastSquaresFit WeightedSearch::improve(const Eigen::VectorXd& start, double tolerance, int most_iterations) const {
   LeastSquaresProblem least;
-  least.residuals = problem_.rows();
+  least.residuals = problem_.readings().size();
   least.start = start;
   least.low.resize(start.size());
   least.high.resize(start.size());
   for (Eigen::Index i = 0; i < start.size(); ++i) {
-    least.low[i] = problem_.coordinates()[static_cast<std::size_t>(i)].low;
-    least.high[i] = problem_.coordinates()[static_cast<std::size_t>(i)].high;
+    least.low[i] = problem_.space()[i].low;
+    least.high[i] = problem_.space()[i].high;
   }
   least.tolerance = tolerance;
   least.most_iterations = most_iterations;
@@ -43,7 +43,7 @@ LeastSquaresFit WeightedSearch::improve(const Eigen::VectorXd& start, double tol
   Last last;
   least.evaluate = [&](const Eigen::VectorXd& q, Eigen::VectorXd& residuals, Eigen::MatrixXd* jacobian) {
     if (!evaluate(q, jacobian != nullptr, last)) return false;
-    residuals = problem_.misses(last.outputs).cwiseProduct(weights_);
+    residuals = problem_.readings().misses(last.outputs).cwiseProduct(weights_);
     if (jacobian != nullptr) *jacobian = weights_.asDiagonal() * last.jacobian;
     return true;
   };
@@ -51,16 +51,17 @@ LeastSquaresFit WeightedSearch::improve(const Eigen::VectorXd& start, double tol
 }
 
 double WeightedSearch::reweight(const Eigen::VectorXd& outputs, const Eigen::MatrixXd& rows_of_fit) {
-  const Eigen::VectorXd misses = problem_.misses(outputs);
+  const Eigen::VectorXd misses = problem_.readings().misses(outputs);
   const std::vector<double> freedoms = freedoms_of(problem_, rows_of_fit);
   const Eigen::VectorXd before = weights_;
   double change = 0.0;
   for (std::size_t s = 0; s < deviations_.size(); ++s) {
-    const SignalRows& rows = problem_.signals()[s];
-    const double count = problem_.count(rows);
-    if (problem_.signal(rows).is_stated || freedoms[s] < least_freedom) continue;
-    const double found = options_.robust ? robust_deviation(problem_.counted(misses, rows), freedoms[s]).deviation
-                                         : problem_.rms(misses, rows) * std::sqrt(count / freedoms[s]);
+    const SignalRows& rows = problem_.readings().signals()[s];
+    const double count = problem_.readings().count(rows);
+    if (problem_.readings().signal(rows).is_stated || freedoms[s] < least_freedom) continue;
+    const double found = options_.robust
+                             ? robust_deviation(problem_.readings().counted(misses, rows), freedoms[s]).deviation
+                             : problem_.readings().rms(misses, rows) * std::sqrt(count / freedoms[s]);
     if (!(found > 0.0)) continue;
     change = std::max(change, std::abs(std::log(found / deviations_[s])));
     deviations_[s] = found;
@@ -85,20 +86,20 @@ bool WeightedSearch::evaluate(const Eigen::VectorXd& q, bool with_jacobian, Last
 }
 
 double WeightedSearch::first_deviation(const SignalRows& rows) const {
-  const Signal& signal = problem_.signal(rows);
+  const Signal& signal = problem_.readings().signal(rows);
   if (signal.noise > 0.0) return signal.noise;
   if (signal.unit == "rad") return 0.01;
-  const Eigen::VectorXd part = problem_.measured().segment(rows.begin, rows.size());
+  const Eigen::VectorXd part = problem_.readings().measured().segment(rows.begin, rows.size());
   const double size = std::sqrt((part.array() - part.mean()).square().mean());
   return size > 0.0 ? 0.01 * size : 1.0;
 }
 
 void WeightedSearch::spread() {
   for (std::size_t s = 0; s < deviations_.size(); ++s) {
-    const SignalRows& rows = problem_.signals()[s];
+    const SignalRows& rows = problem_.readings().signals()[s];
     weights_.segment(rows.begin, rows.size()).setConstant(1.0 / deviations_[s]);
   }
-  weights_ = weights_.cwiseProduct(problem_.counted());
+  weights_ = weights_.cwiseProduct(problem_.readings().counted());
   unbounded_ = weights_;
 }
 

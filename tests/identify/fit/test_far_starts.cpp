@@ -39,7 +39,7 @@ struct LugreFit {
     Eigen::VectorXd values(static_cast<Eigen::Index>(parameters.size()));
     for (std::size_t i = 0; i < parameters.size(); ++i)
       values[static_cast<Eigen::Index>(i)] = rig.laws.front().values.number(parameters[i].name);
-    return problem->coordinates(values);
+    return problem->space().point(values);
   }
   [[nodiscard]] DataScale scale() const { return scale_of(rig, experiments); }
   [[nodiscard]] std::size_t number_of(const std::string& name) const {

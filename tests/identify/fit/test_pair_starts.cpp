@@ -98,7 +98,7 @@ TEST_CASE("fit: a search finds from its last motions the steady states that are 
     const identify::Experiments experiments = states_of(resonant_rig("coulomb"), 4e-3, 16e-3, true, 1);
     const std::vector<identify::FitParameter> parameters = test::sought_in(rig, {"kinetic", "damping"}, 1.0);
     const identify::FitProblem problem(rig, parameters, experiments, {2.0, 1.2});
-    Eigen::VectorXd q = problem.coordinates(Eigen::Vector2d(2.0, 1.2));
+    Eigen::VectorXd q = problem.space().point(Eigen::Vector2d(2.0, 1.2));
     identify::LastMotions last;
     Eigen::VectorXd outputs;
     Eigen::MatrixXd slopes;

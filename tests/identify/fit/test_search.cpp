@@ -236,7 +236,7 @@ TEST_CASE("search: no single motion runs past the limit of the work", "[identify
     const identify::FitProblem problem(rig, parameters, experiments, sizes);
     problem.limit(most);
     Eigen::VectorXd outputs;
-    const bool ok = problem.outputs(problem.coordinates(Eigen::VectorXd::Ones(1)), outputs);
+    const bool ok = problem.outputs(problem.space().point(Eigen::VectorXd::Ones(1)), outputs);
     CHECK(problem.is_exhausted() == !ok);
     return std::pair{ok, experiments.front()->work->load()};
   };

@@ -99,13 +99,14 @@ TEST_CASE("sizes: the derivatives of a force that is sought at another speed are
   // c = 4 q0 (v0/0.02)^n/(0.5/0.02)^1.5
   const double v0 = 0.5 * std::exp(0.3);
   const double n = 1.5 * std::exp(-0.4);
-  CHECK(problem.values(q)[0] == Approx(4.0 * 1.7 * std::pow(v0 / 0.02, n) / std::pow(25.0, 1.5)));
-  CHECK((problem.coordinates(problem.values(q)) - q).norm() < 1e-12);
-  const Eigen::MatrixXd slope = problem.slope(q);
+  CHECK(problem.space().values(q)[0] == Approx(4.0 * 1.7 * std::pow(v0 / 0.02, n) / std::pow(25.0, 1.5)));
+  CHECK((problem.space().point(problem.space().values(q)) - q).norm() < 1e-12);
+  const Eigen::MatrixXd slope = problem.space().slope(q);
   constexpr double step = 1e-6;
   for (Eigen::Index j = 0; j < 3; ++j) {
     const Eigen::Vector3d change = step * Eigen::Vector3d::Unit(j);
-    const Eigen::VectorXd expected = (problem.values(q + change) - problem.values(q - change)) / (2.0 * step);
+    const Eigen::VectorXd expected =
+        (problem.space().values(q + change) - problem.space().values(q - change)) / (2.0 * step);
     CHECK((slope.col(j) - expected).norm() < 1e-7 * (1.0 + expected.norm()));
   }
 }
