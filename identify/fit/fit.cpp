@@ -14,11 +14,11 @@
 #include "identify/experiments/starts.hpp"
 #include "identify/fit/first_load.hpp"
 #include "identify/fit/freedom.hpp"
+#include "identify/fit/intervals/uncertainty.hpp"
 #include "identify/fit/residual_test.hpp"
 #include "identify/fit/search.hpp"
 #include "identify/fit/serial_test.hpp"
 #include "identify/fit/steps.hpp"
-#include "identify/fit/uncertainty.hpp"
 #include "identify/statistics/huber.hpp"
 #include "identify/statistics/residual_covariance.hpp"
 

@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include "core/constants.hpp"
-#include "identify/fit/trade_offs.hpp"
+#include "identify/fit/intervals/trade_offs.hpp"
 
 using namespace dualdamp;
 

@@ -1,4 +1,4 @@
-#include "identify/fit/trade_offs.hpp"
+#include "identify/fit/intervals/trade_offs.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "identify/fit/profile.hpp"
+#include "identify/fit/intervals/profile.hpp"
 
 #include <Eigen/Core>
 #include <algorithm>

@@ -5,7 +5,7 @@
 /// times the square of the deviation of the residuals that are no outliers (`huber.hpp`). A stated noise is used
 /// unless the residuals are larger than chance explains; with outliers, V still follows the residuals.
 
-#include "identify/fit/uncertainty.hpp"
+#include "identify/fit/intervals/uncertainty.hpp"
 
 namespace dualdamp::identify {
 

@@ -1,4 +1,4 @@
-#include "identify/fit/uncertainty.hpp"
+#include "identify/fit/intervals/uncertainty.hpp"
 
 #include <Eigen/Core>
 #include <algorithm>
@@ -7,9 +7,9 @@
 
 #include "core/constants.hpp"
 #include "identify/fit/freedom.hpp"
-#include "identify/fit/profile.hpp"
-#include "identify/fit/signal_variance.hpp"
-#include "identify/fit/trade_offs.hpp"
+#include "identify/fit/intervals/profile.hpp"
+#include "identify/fit/intervals/signal_variance.hpp"
+#include "identify/fit/intervals/trade_offs.hpp"
 #include "identify/statistics/decompositions.hpp"
 #include "identify/statistics/distributions.hpp"
 #include "identify/statistics/huber.hpp"

@@ -1,4 +1,4 @@
-#include "identify/fit/signal_variance.hpp"
+#include "identify/fit/intervals/signal_variance.hpp"
 
 #include <algorithm>
 #include <cmath>
