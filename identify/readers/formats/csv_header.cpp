@@ -100,9 +100,7 @@ class HeaderReader {
   [[nodiscard]] bool names_any() const {
     return std::ranges::any_of(headings_, [this](Heading heading) {
       if (is_like_number(heading.text)) return false;
-      return named_column(heading) != nullptr || std::ranges::any_of(options_.columns, [&](const auto& entry) {
-               return is_called(heading, entry.second);
-             });
+      return named_column(heading) != nullptr || is_asked_for(heading, options_);
     });
   }
 
@@ -163,12 +161,8 @@ class HeaderReader {
       if (is_called(headings_[i], called)) found.push_back(i);
     if (const auto place = number_in(called); found.empty() && place) found.push_back(*place);
     if (!found.empty()) return found;
-    for (std::size_t i = 0; i < headings_.size(); ++i) {
-      Heading heading = headings_[i];
-      choose_unit(heading, known);
-      split_unit(heading, known);
-      if (heading.name == called) found.push_back(i);
-    }
+    for (std::size_t i = 0; i < headings_.size(); ++i)
+      if (is_called_without_unit(headings_[i], called, known)) found.push_back(i);
     return found;
   }
 

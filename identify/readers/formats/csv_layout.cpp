@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "core/units.hpp"
-#include "identify/readers/columns.hpp"
 #include "identify/readers/formats/csv_numbers.hpp"
 
 namespace dualdamp::identify {
@@ -49,7 +48,7 @@ class Search {
       for (std::size_t i = 0; i < lines_.size(); ++i)
         for (const char separator : candidates(lines_[i].line.text))
           if (const auto row = first_row(i, separator, named))
-            return below(nearest(i, separator, *row, named), separator, *row);
+            return below(header_of(*row, i, separator, named), separator, *row);
     if (auto layout = header_in_comment()) return *layout;
     return first_line();
   }
@@ -98,15 +97,20 @@ class Search {
   /// Whether a heading names a column of numbers, by itself or by a statement of the caller.
   [[nodiscard]] bool names_column(const std::string& field) const {
     Heading heading = parse_heading(field, 0);
-    const bool called =
-        std::ranges::any_of(options_.columns, [&](const auto& entry) { return is_called(heading, entry.second); });
-    if (called) return true;
+    if (is_asked_for(heading, options_)) return true;
     const KnownColumn* known = named_column(heading);
     return known != nullptr && !known->unit.empty();
   }
 
+  /// Whether the caller states this column, counted from 0, by its number.
+  [[nodiscard]] bool is_numbered(std::size_t column) const {
+    return std::ranges::any_of(options_.columns,
+                               [&](const auto& entry) { return entry.second == std::to_string(column + 1); });
+  }
+
   /// The first row below line `i`, if line `i` can be its header: the header has no numbers, the row has as many
-  /// fields, and the fields below known headings (`named`), or all fields, are numbers.
+  /// fields, and the fields below known headings (`named`), or all fields, or one that the caller states by its
+  /// number, are numbers.
   [[nodiscard]] std::optional<std::size_t> first_row(std::size_t i, char separator, bool named) const {
     const Words headings = fields_of(lines_[i].line.text, separator);
     if (holds_numbers(headings)) return std::nullopt;
@@ -121,17 +125,20 @@ class Search {
     bool all = true;
     for (std::size_t k = 0; k < std::min(fields.size(), headings.size()); ++k) {
       if (!fields[k].empty()) all = all && is_like_number(fields[k]);
-      if (named && names_column(headings[k])) any = any || is_like_number(fields[k]);
+      if (named ? names_column(headings[k]) : is_numbered(k)) any = any || is_like_number(fields[k]);
     }
-    return (named ? any : all) ? std::optional(row) : std::nullopt;
+    return any || (!named && all) ? std::optional(row) : std::nullopt;
   }
 
-  /// Of several possible headers of a row, the nearest one. A line above it that names a column may be a
-  /// description.
-  [[nodiscard]] std::size_t nearest(std::size_t i, char separator, std::size_t row, bool named) const {
-    for (std::size_t k = row - 1; named && k > i; --k)
-      if (first_row(k, separator, true) == row) return k;
-    return i;
+  /// Of several possible headers of a row, the nearest one that names a column: a line above it that does so may be
+  /// a description. Where none names one, the first of those with the most fields: a spreadsheet fills a title with
+  /// separators.
+  [[nodiscard]] std::size_t header_of(std::size_t row, std::size_t i, char separator, bool named) const {
+    const auto count = [&](std::size_t k) { return count_of(fields_of(lines_[k].line.text, separator)); };
+    std::size_t found = i;
+    for (std::size_t k = i + 1; k < row; ++k)
+      if (first_row(k, separator, named) == row && (named || count(k) > count(found))) found = k;
+    return found;
   }
 
   /// As many fields as the header. With decimal commas there are more; the reader reports these.
@@ -243,6 +250,20 @@ std::optional<SourceLine> Rows::next() {
 }
 
 Layout layout_of(std::string_view text, const ReadOptions& options) { return Search(text, options).run(); }
+
+bool is_called_without_unit(Heading heading, std::string_view called, const KnownColumn& known) {
+  choose_unit(heading, known);
+  split_unit(heading, known);
+  return heading.name == called;
+}
+
+bool is_asked_for(const Heading& heading, const ReadOptions& options) {
+  return std::ranges::any_of(options.columns, [&](const auto& entry) {
+    const KnownColumn* const known = known_column(entry.first);
+    return is_called(heading, entry.second) ||
+           (known != nullptr && is_called_without_unit(heading, entry.second, *known));
+  });
+}
 
 std::string unit_in(std::string_view field) {
   std::string_view unit = trimmed(field);

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "identify/readers/columns.hpp"
 #include "identify/readers/formats/csv_text.hpp"
 #include "identify/readers/record_reader.hpp"
 
@@ -55,6 +56,13 @@ struct Layout {
 };
 
 [[nodiscard]] Layout layout_of(std::string_view text, const ReadOptions& options);
+
+/// Whether `called` is the name of a heading without the unit behind it: `Weg` of `Weg in mm`, `Weg [mm]`,
+/// `Weg_mm`.
+[[nodiscard]] bool is_called_without_unit(Heading heading, std::string_view called, const KnownColumn& known);
+
+/// Whether the caller states this heading for one of the columns, with or without its unit.
+[[nodiscard]] bool is_asked_for(const Heading& heading, const ReadOptions& options);
 
 /// The unit in a field of the row of units: "mm", "[mm]", "(mm)"; empty if the field has none.
 [[nodiscard]] std::string unit_in(std::string_view field);

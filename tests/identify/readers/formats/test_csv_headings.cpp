@@ -149,3 +149,18 @@ TEST_CASE("headings: a header below a thousand lines is found") {
   CHECK(mentions(refusal([&] { (void)identify::parse_record(above + text, "data.csv"); }),
                  "and no other header in the first 10000 lines of the file"));
 }
+
+TEST_CASE("headings: a title that a spreadsheet fills with separators is no header") {
+  const std::string rows = "1,2;3,678;ok\n1,9;9,558;ok\n2,6;15,36;ok\n3,3;21,16;ok\n";
+  for (const auto& [Y, x] : {std::pair{"Erregung", "Weg"}, {"Erregung in mm", "Weg in mm"}, {"1", "2"}})
+    for (const char* title : {"Messung vom 12.03.2026;;\n", "Messung;;\nOrt;Halle 2;\n"}) {
+      CAPTURE(Y, title);
+      const std::string text = std::string(title) + "Erregung in mm;Weg in mm;Kommentar\n" + rows;
+      const ReadOptions options{.columns = {{"Y", Y}, {"x", x}}, .decimal = ','};
+      CHECK(identify::parse_record(text, options).record.pairs->pairs.at(0).x == Approx(3.678e-3).epsilon(1e-12));
+    }
+  // With numbers alone below, the title may not take the place of the header either.
+  const MeasuredRecord bare = identify::parse_record(
+      "Messung;\nErregung in mm;Weg in mm\n1.2;3.6\n1.9;9.5\n2.6;15.3\n", {.columns = {{"Y", "1"}, {"x", "2"}}});
+  CHECK(bare.record.pairs->pairs.at(0).x == Approx(3.6e-3).epsilon(1e-12));
+}
