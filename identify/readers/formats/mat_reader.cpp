@@ -233,7 +233,7 @@ class Reader {
     if (holds_data(whole)) return {whole};
     if (structs.size() == 1) return std::move(structs.front());
     refuse_file(file_,
-                structs.empty() ? "the MATLAB file holds no vector x and nothing else that could be used"
+                structs.empty() ? "the MATLAB file holds no vector with the name of a column"
                                 : "several structs of the MATLAB file hold signals",
                 "vectors named like the columns, or one struct that holds them: " + std::string(allowed_columns) +
                     "; others by " + column_words("NAME") + ", " + column_words("'data(:,2)'") + ", " +

@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <regex>
 
+#include "identify/readers/text.hpp"
+
 namespace dualdamp::identify {
 
 namespace {
@@ -23,6 +25,11 @@ std::vector<double> converted(const matvar_t& variable, std::size_t size) {
 std::string describe(const matvar_t& variable) {
   std::string text;
   for (int i = 0; i < variable.rank; ++i) text += (i == 0 ? "" : " x ") + std::to_string(variable.dims[i]);
+  char* const* const fields = variable.class_type == MAT_C_STRUCT ? Mat_VarGetStructFieldnames(&variable) : nullptr;
+  if (fields == nullptr) return text;
+  auto* const record = const_cast<matvar_t*>(&variable);  // matio takes no const pointer here
+  for (unsigned i = 0; i < Mat_VarGetNumberOfFields(record); ++i)
+    text += (i == 0 ? " with " : ", ") + to_utf8(fields[i]);
   return text;
 }
 

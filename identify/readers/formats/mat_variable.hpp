@@ -13,7 +13,7 @@ namespace dualdamp::identify {
 /// Variables with more numbers are refused.
 inline constexpr std::size_t most_mat_values = 20'000'000;
 
-/// The size for messages: "100 x 3".
+/// For messages: the size, "100 x 3", and the fields of a struct, "1 x 1 with Fs, LVDT".
 [[nodiscard]] std::string describe(const matvar_t& variable);
 
 /// Number of values; larger ones than `most_mat_values` are not counted exactly.

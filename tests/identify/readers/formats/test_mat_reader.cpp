@@ -299,7 +299,8 @@ TEST_CASE("MATLAB files that hold something else") {
       const std::string path = file.path();
       return mentions(refusal([&] { return read_record(path); }), words);
     };
-    CHECK(says([](Matlab& m) { m.add("z", ramp(20)); }, "no vector x"));
+    CHECK(says([](Matlab& m) { m.add("z", ramp(20)); }, "no vector with the name of a column"));
+    CHECK(says([](Matlab& m) { m.add_struct_of_matrix("rec", ramp(40), 2, 100.0); }, "rec (1 x 1 with data, fs)"));
     CHECK(says([](Matlab& m) { m.add("x", {}); }, "variable 'x' is empty"));
     CHECK(says([](Matlab& m) { m.add_text("x", "no number"); }, "variable 'x' is text"));
     CHECK(says([](Matlab& m) { m.add_complex("x", ramp(20)); }, "holds complex numbers"));
