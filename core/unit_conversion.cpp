@@ -53,7 +53,7 @@ class UnitGrammar {
  public:
   explicit UnitGrammar(std::string_view text) : text_(text) {}
 
-  /// A share is no factor of a unit: "1 % kg" is a slip.
+  /// A share is no factor of a unit, "1 % kg" is a slip; but it may grow: "2 %/min".
   [[nodiscard]] bool accepts() { return text_ == "%" || text_ == "percent" || (product() && at_ == text_.size()); }
 
  private:
@@ -78,7 +78,7 @@ class UnitGrammar {
   }
 
   bool factor(bool first) {
-    if (first && peek() == '1') {  // 1/s
+    if (first && (peek() == '1' || peek() == '%')) {  // 1/s, %/min
       ++at_;
       return peek() == '/';
     }

@@ -65,16 +65,19 @@ std::string quoted(std::string_view text) {
 
 QuantityText refused_quantity(std::string fault) { return {std::nullopt, std::move(fault), {}}; }
 
-/// A usual unit that differs only in case, or by a further "/rad"; empty if there is none.
+/// A usual unit that differs only in case or in what stands between its names (`Ns/m`), or by a further "/rad";
+/// empty if there is none.
 std::string similar_unit(std::string_view unit, std::string_view si_unit, Coordinate coordinate) {
-  const auto lower = [](std::string_view text) {
-    std::string result(text);
-    std::ranges::transform(result, result.begin(),
-                           [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const auto letters = [](std::string_view text) {
+    std::string result;
+    for (const char c : text)
+      if (std::string_view(".* ^").find(c) == std::string_view::npos)
+        result += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
     return result;
   };
   for (const std::string_view candidate : usual_units(si_unit, coordinate))
-    if (lower(candidate) == lower(unit) || candidate == std::string(unit) + "/rad") return std::string(candidate);
+    if (letters(candidate) == letters(unit) || candidate == std::string(unit) + "/rad")
+      return std::string(candidate);
   return {};
 }
 

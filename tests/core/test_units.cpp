@@ -45,6 +45,7 @@ TEST_CASE("units: what an engineer types", "[core][units]") {
   CHECK(si("36 km/h", "m/s") == Approx(10.0).epsilon(1e-15));
   CHECK(si("2000 N/m\u00b3", "N/m^3") == 2000.0);
   CHECK(si("20 %", "1") == 0.2);
+  CHECK(si("-3 %/min", "1/s") == Approx(-0.0005).epsilon(1e-15));
   CHECK(si("5", "kg") == 5.0);
 }
 
@@ -152,6 +153,8 @@ TEST_CASE("units: an unknown unit, and one that differs in case only", "[core][u
   CHECK(fault("9 bananas", "N") == "the unit 'bananas' is not known");
   CHECK(parse_quantity("5 KG", "kg").suggestion == "5 kg");
   CHECK(parse_quantity("5 n", "N").suggestion == "5 N");
+  CHECK(parse_quantity("4 Ns/m", "N.s/m").suggestion == "4 N.s/m");
+  CHECK(parse_quantity("0.3 kgm2", "kg", dualdamp::core::Coordinate::angle).suggestion == "0.3 kg.m^2");
 }
 
 TEST_CASE("units: all usual units are units of their dimension", "[core][units]") {
