@@ -60,11 +60,11 @@ std::string facts_of(const friction::LawEntry& law) {
   if (law.plugin) {
     if (!law.sources.empty()) rows.push_back({"sources", std::string(law.sources)});
     rows.push_back({"plugin", law.plugin->file + ", version " + law.plugin->version});
-    return columns(rows);
+    return folded_columns(rows);
   }
   rows.push_back({"sources", std::string(law.sources) + " in docs/refs.bib"});
   rows.push_back({"page", "docs/laws/" + std::string(law.name) + ".md"});
-  return columns(rows);
+  return folded_columns(rows);
 }
 
 /// The keys of an analysis, without its type.
@@ -73,7 +73,7 @@ std::string keys_of(const scenarios::Analysis& analysis) {
   Rows rows = {{"key", "values", "meaning"}};
   for (const scenarios::Field& field : analysis.keys.fields)
     rows.push_back({field.name, scenarios::describe_values(field), field.meaning});
-  return "\n" + columns(rows);
+  return "\n" + folded_columns(rows);
 }
 
 /// The fields of the result of an analysis.
@@ -82,24 +82,24 @@ std::string results_of(const scenarios::Analysis& analysis) {
   Rows rows = {{"result", "unit", "meaning"}};
   for (const scenarios::ResultField& field : analysis.results)
     rows.push_back({field.path, field.unit == "1" ? "-" : field.unit, field.meaning});
-  return "\n" + columns(rows);
+  return "\n" + folded_columns(rows);
 }
 
-/// One line for each possible source of the data: "data with excitation base_harmonic or none".
-std::string needs_of(const scenarios::Analysis& analysis) {
-  std::string text;
-  for (const scenarios::Needs& needs : analysis.needs) {
-    const std::string source = needs.source.empty() ? "" : " with " + needs.source;
-    const std::string what =
-        needs.excitations.empty() ? "no system" : "a system, excitation " + core::joined(needs.excitations);
-    text += "  needs" + source + ": " + what + "\n";
-  }
-  return text;
+/// What an analysis needs, for each possible source of its data: "with data: a system, excitation none".
+std::string facts_of(const scenarios::Analysis& analysis) {
+  Rows rows;
+  for (const scenarios::Needs& needs : analysis.needs)
+    rows.push_back(
+        {"needs", (needs.source.empty() ? "" : "with " + needs.source + ": ") +
+                      (needs.excitations.empty() ? "no system"
+                                                 : "a system, excitation " + core::joined(needs.excitations))});
+  rows.push_back({"page", "docs/analyses.md"});
+  return folded_columns(rows);
 }
 
 /// The table of a method's options.
 std::string options_of(const identify::MethodEntry& method) {
-  if (method.options().empty()) return "  options: none\n";
+  if (method.options().empty()) return "  options  none\n";
   Rows rows = {{"option", "unit", "default", "values", "meaning"}};
   for (const identify::Option* option : method.options()) {
     const bool is_flag = option->kind == identify::OptionKind::flag;
@@ -107,10 +107,17 @@ std::string options_of(const identify::MethodEntry& method) {
                     is_flag ? "false" : std::string(option->otherwise), option->describe(),
                     std::string(option->meaning)});
   }
-  return "\n" + columns(rows);
+  return "\n" + folded_columns(rows);
 }
 
 std::string needs_of(const identify::MethodEntry& method) { return std::string(identify::describe(method.needs)); }
+
+std::string facts_of(const identify::MethodEntry& method) {
+  return folded_columns({{"needs", needs_of(method)},
+                         {"assumes", std::string(method.assumes)},
+                         {"sources", std::string(method.sources) + " in docs/refs.bib"},
+                         {"page", "docs/methods/" + std::string(method.name) + ".md"}});
+}
 
 }  // namespace
 
@@ -130,7 +137,7 @@ Listing list_laws(const std::string& name) {
   Rows rows = {{"parameter", "unit", "default", "values", "meaning"}};
   add_rows(rows, law->parameters, "");
   return {std::string(law->name) + ": " + std::string(law->summary) + "\n\n  " + std::string(law->equation) +
-          "\n\n" + facts_of(*law) + "\n" + columns(rows)};
+          "\n\n" + facts_of(*law) + "\n" + folded_columns(rows)};
 }
 
 Listing list_methods(const std::string& name) {
@@ -143,9 +150,7 @@ Listing list_methods(const std::string& name) {
   const identify::MethodEntry* method = identify::find_method(name);
   if (method == nullptr) return unknown("method", name, identify::methods());
   return {std::string(method->name) + ": " + std::string(method->summary) + "\n\n  " +
-          std::string(method->equation) + "\n\n  needs: " + needs_of(*method) +
-          "\n  assumes: " + std::string(method->assumes) + "\n  sources: " + std::string(method->sources) +
-          " in docs/refs.bib\n  page: docs/methods/" + std::string(method->name) + ".md\n" + options_of(*method)};
+          std::string(method->equation) + "\n\n" + facts_of(*method) + options_of(*method)};
 }
 
 Listing list_analyses(const std::string& name) {
@@ -157,8 +162,8 @@ Listing list_analyses(const std::string& name) {
   }
   const scenarios::Analysis* analysis = scenarios::find_analysis(bench::analyses(), name);
   if (analysis == nullptr) return unknown("analysis", name, bench::analyses());
-  return {name + ": " + std::string(analysis->summary) + "\n\n" + needs_of(*analysis) +
-          "  page: docs/analyses.md\n" + keys_of(*analysis) + results_of(*analysis)};
+  return {name + ": " + std::string(analysis->summary) + "\n\n" + facts_of(*analysis) + keys_of(*analysis) +
+          results_of(*analysis)};
 }
 
 }  // namespace dualdamp::cli

@@ -109,18 +109,22 @@ std::string certificate_text(const scenarios::Table& summary) {
   return text.empty() ? text : text + "\n";
 }
 
+/// The words of a text in lines of at most `widest` characters; a longer word has a line of its own.
+std::vector<std::string> lines_of(const std::string& text, std::size_t widest) {
+  std::vector<std::string> lines(1);
+  std::istringstream words(text);
+  for (std::string word; words >> word;) {
+    if (!lines.back().empty() && width(lines.back()) + 1 + width(word) > widest) lines.emplace_back();
+    lines.back() += (lines.back().empty() ? "" : " ") + word;
+  }
+  return lines;
+}
+
 /// The paragraph, broken into lines that fit a terminal.
 std::string folded(const std::string& paragraph) {
   constexpr std::size_t widest = 100;
   std::string text;
-  std::size_t column = 0;
-  std::istringstream words(paragraph);
-  for (std::string word; words >> word;) {
-    const bool breaks = column > 0 && column + 1 + width(word) > widest;
-    text += column == 0 ? "" : breaks ? "\n" : " ";
-    column = (breaks || column == 0 ? 0 : column + 1) + width(word);
-    text += word;
-  }
+  for (const std::string& line : lines_of(paragraph, widest)) text += (text.empty() ? "" : "\n") + line;
   return text;
 }
 
@@ -167,6 +171,22 @@ std::string columns(const std::vector<std::vector<std::string>>& rows) {
   for (const std::vector<std::string>& row : rows)
     for (std::size_t i = 0; i < blocks.size(); ++i) blocks[i].cells.push_back(row[i]);
   return aligned(blocks);
+}
+
+std::string folded_columns(const std::vector<std::vector<std::string>>& rows) {
+  constexpr std::size_t widest = 40;
+  constexpr std::size_t widest_last = 72;
+  std::vector<std::vector<std::string>> lines;
+  for (const std::vector<std::string>& row : rows) {
+    const std::size_t first = lines.size();
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      const std::vector<std::string> parts = lines_of(row[i], i + 1 < row.size() ? widest : widest_last);
+      if (lines.size() < first + parts.size())
+        lines.resize(first + parts.size(), std::vector<std::string>(row.size()));
+      for (std::size_t k = 0; k < parts.size(); ++k) lines[first + k][i] = parts[k];
+    }
+  }
+  return columns(lines);
 }
 
 std::string readable(const scenarios::Scenario& scenario, const scenarios::RunResult& result) {

@@ -62,7 +62,10 @@ std::string wrong_command(const CLI::App& app, const Words& unread) {
     const std::string option = wrong_option(app, unread);
     return option.empty() ? "a command is missing; there are: " + core::joined(commands) : option;
   }
-  return "there is no command '" + *word + "'" + allowed(*word, commands, "; there are: ");
+  std::string text = "there is no command '" + *word + "'" + allowed(*word, commands, "; there are: ");
+  if (word->ends_with(".yaml") || word->ends_with(".yml") || word->ends_with(".json"))
+    text += "; 'dualdamp run " + *word + "' runs a scenario file, also a stress test";
+  return text;
 }
 
 }  // namespace

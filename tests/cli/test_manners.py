@@ -70,6 +70,16 @@ class Manners(Case):
             with self.subTest(line):
                 self.assertIn(message, self.run_program(*line.split(), status=2).stderr)
 
+    def test_sentences_of_a_list_are_folded(self):
+        for analysis in ("stress_test", "identify"):
+            text = self.run_program("analyses", analysis).stdout
+            self.assertLess(max(len(line) for line in text.splitlines()), 160)
+            self.assertIn("viscous_saturating", text)
+
+    def test_a_scenario_in_place_of_a_command_is_told_how_it_runs(self):
+        for line in (["mine.yaml"], ["stress", "mine.yaml"]):
+            self.assertIn("'dualdamp run mine.yaml' runs a scenario file", self.run_program(*line, status=2).stderr)
+
     def test_the_help_has_no_words_of_the_library_that_parses_the_line(self):
         self.assertNotRegex(self.run_program("run", "--help").stdout, r"Excludes:\s+[^-\s]|FLOAT")
 
