@@ -37,11 +37,13 @@ using Json = StoredRun::Json;
                                           {}});
 }
 
-/// A number of a resolved scenario, converted from SI to the unit that the user wrote, if there is one.
+/// A number of a resolved scenario, converted from SI to the unit that the user wrote, if there is one. `si` is
+/// empty where the format does not know the key: that of a law whose plugin is not loaded.
 std::string with_unit(double value, const std::string& written, const std::string& si) {
   const std::optional<double> factor = written.empty() ? std::nullopt : core::unit_factor(written, si).value;
   const bool has_factor = factor && *factor > 0.0;
-  const std::string unit = has_factor ? written : si == "1" ? "" : si;
+  std::string unit = has_factor ? written : si == "1" ? "" : si;
+  if (si.empty() && !written.empty()) unit = core::is_si(written) ? written : "in SI";
   return core::format_number(has_factor ? value / *factor : value, 6) + (unit.empty() ? "" : " " + unit);
 }
 
@@ -73,6 +75,7 @@ void flatten(const Json& json, const std::string& path, const Json& written,
 /// The parts of a result that a comparison needs.
 struct Compared {
   std::string directory;
+  std::string analysis;
   std::string title;
   std::string started;
   std::string sha256;                         ///< of the resolved scenario
@@ -103,7 +106,7 @@ class Comparison {
       return Json{{"label", a.label}, {"unit", a.unit}, {"log", a.is_log}, {"whole", a.is_whole}};
     };
     Json json = {{"program", {{"name", "dualdamp"}, {"version", core::build_info().version}}},
-                 {"analysis", analysis_},
+                 {"analysis", analyses()},
                  {"title", chart_.title},
                  {"chart", {{"x", axis(chart_.x)}, {"y", axis(chart_.y)}, {"series", Json::array()}}},
                  {"results", Json::array()},
@@ -162,6 +165,7 @@ class Comparison {
     const Json provenance = run.document().value("provenance", Json::object());
     const Json units = provenance.value("written_units", Json::object());
     Compared one{.directory = shown(run.directory()),
+                 .analysis = analysis.is_string() ? analysis.get<std::string>() : "",
                  .title = title_of(run),
                  .started = provenance.value("started", ""),
                  .sha256 = provenance.value("scenario_sha256", "")};
@@ -184,6 +188,14 @@ class Comparison {
       return std::tie(chart.x, chart.y, chart.x_label, chart.y_label, chart.kind);
     };
     return drawn(first->chart) == drawn(second->chart);
+  }
+
+  /// Of the results, each once: "xy_curve, xy_branch".
+  [[nodiscard]] std::string analyses() const {
+    std::vector<std::string> names;
+    for (const Compared& one : compared_)
+      if (std::ranges::find(names, one.analysis) == names.end()) names.push_back(one.analysis);
+    return core::joined(names);
   }
 
   static std::string describe(const Chart& chart) {

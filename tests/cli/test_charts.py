@@ -137,6 +137,17 @@ class Charts(Case):
         self.compare("system.mass=1", "system.mass=2")
         self.assertIn("mass = 2 kg", self.drawing("both/compare.svg")[0])
 
+    def test_compare_without_the_plugin_of_a_law(self):
+        """The program then does not know the dimension of its parameters: only units without a factor are told."""
+        for name, kinetic in (("out1", "1 N"), ("out2", "0.25 lbf")):
+            self.run_program("run", "curve.yaml", "--set", f"system.friction.kinetic={kinetic}", "--out", name)
+            path = self.folder / name / "result.json"
+            path.write_text(path.read_text().replace('"coulomb"', '"law_of_a_plugin"'))
+        self.run_program("compare", "out1", "out2", "--out", "both")
+        texts, _ = self.drawing("both/compare.svg")
+        for text in ("kinetic = 1 N", "kinetic = 1.11206 in SI"):
+            self.assertIn(text, texts)
+
     def test_compare(self):
         self.compare("system.friction.kinetic=1 N", "system.friction.kinetic=3 N")
         texts, series = self.drawing("both/compare.svg")
@@ -308,6 +319,7 @@ class Charts(Case):
                 first, second = series.values()
                 self.assertEqual(first[0][0], second[0][0])
                 self.assertAlmostEqual(first[0][1] / second[0][1], 1.0, delta=1e-9)
+        self.assertIn('"analysis":"frequency_branch, frequency_response"', (self.folder / "two/compare.html").read_text())
         self.assertIn("another analysis", self.run_program("compare", "curve", "response", status=3).stderr)
 
     def test_results_of_different_kinds(self):
