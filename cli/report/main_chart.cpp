@@ -245,12 +245,12 @@ class ChartMaker {
   bool sweep() {
     const StoredTable points = run_.table("sweep");
     if (points.columns.empty()) return false;
-    const MainChart& spec = analysis_->chart;
-    const StoredTable rows = run_.table("sweep_" + std::string(spec.list));
-    const StoredColumn* x = spec.list.empty() ? nullptr : rows.find(spec.x);
-    const StoredColumn* y = spec.list.empty() ? nullptr : rows.find(spec.y);
-    const bool are_curves = x != nullptr && y != nullptr && spec.kind == MainChart::Kind::line;
-    return are_curves ? curves(points, rows, *x, *y) : numbers(points);
+    const std::optional<SweptCurves> drawn = swept_curves(run_);
+    if (!drawn) return numbers(points);
+    const StoredTable rows = run_.table(drawn->table);
+    const StoredColumn* x = rows.find(drawn->x);
+    const StoredColumn* y = rows.find(drawn->y);
+    return x != nullptr && y != nullptr ? curves(points, rows, *x, *y) : numbers(points);
   }
 
   /// The points whose curves are drawn, at most twelve: evenly spaced values of each key, all of them combined.
@@ -308,7 +308,8 @@ class ChartMaker {
     chart_.y.label = y->name;
     for (const Group& group : keys.size() == 2 ? groups_of(points, keys.back()) : std::vector<Group>()) {
       const StoredColumn& other = needed(points, keys.back());
-      add(keys.back().substr(keys.back().rfind('.') + 1) + " = " + group.label +
+      add(keys.back().substr(keys.back().rfind('.') + 1) + " = " +
+              core::format_number(other.numbers[group.rows.front()], 6) +
               (other.unit.empty() ? "" : " " + other.unit),
           x, *y, SeriesKind::line, group.rows, false);
     }
@@ -327,6 +328,15 @@ class ChartMaker {
 };
 
 }  // namespace
+
+std::optional<SweptCurves> swept_curves(const StoredRun& run) {
+  const scenarios::Analysis* analysis = scenarios::find_analysis(bench::analyses(), name_of_analysis(run));
+  if (analysis == nullptr || analysis->chart.list.empty() || analysis->chart.kind != MainChart::Kind::line)
+    return std::nullopt;
+  return SweptCurves{.table = "sweep_" + std::string(analysis->chart.list),
+                     .x = std::string(analysis->chart.x),
+                     .y = std::string(analysis->chart.y)};
+}
 
 std::optional<Chart> main_chart(const StoredRun& run, const StoredRun& units_of) {
   return ChartMaker(run, units_of).make();

@@ -2,6 +2,7 @@
 /// The main chart of a result directory, in the units that the user wrote in the scenario.
 
 #include <optional>
+#include <string>
 
 #include "cli/report/chart.hpp"
 #include "cli/report/stored_run.hpp"
@@ -12,6 +13,15 @@ namespace dualdamp::cli {
 /// `units_of`: the run whose written units are used, this one or the one that it is compared with. Other numbers
 /// are in SI. Nothing if the result has no chart.
 [[nodiscard]] std::optional<Chart> main_chart(const StoredRun& run, const StoredRun& units_of);
+
+/// The table of a sweep whose rows are a curve for each point, and the columns that are drawn.
+struct SweptCurves {
+  std::string table;
+  std::string x;
+  std::string y;
+};
+/// Nothing if the analysis that is swept draws no list of its result as a line.
+[[nodiscard]] std::optional<SweptCurves> swept_curves(const StoredRun& run);
 
 /// Why a result has no chart: its analysis has none, or the table with the data is missing.
 [[nodiscard]] core::Diagnostic without_chart(const StoredRun& run);

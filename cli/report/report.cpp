@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cli/report/assets.hpp"
+#include "cli/report/main_chart.hpp"
 #include "cli/report/page.hpp"
 #include "cli/report/stored_run.hpp"
 #include "scenarios/results/shown_units.hpp"
@@ -38,12 +39,14 @@ Json tables(const StoredRun& run) {
   return json;
 }
 
-/// The document with the units in which the page shows its numbers.
+/// The document with the units in which the page shows its numbers, and with the curves of a sweep.
 Json document(const StoredRun& run) {
   Json json = run.document();
   run.read([&] {
     for (const auto& [si, shown] : scenarios::shown_units(written_units(run)))
       json["shown_units"][si] = {{"unit", shown.unit}, {"factor", shown.factor}, {"asked", shown.is_asked}};
+    if (const auto curves = swept_curves(run); curves && json["result"].contains("sweep"))
+      json["swept_curves"] = {{"name", curves->table}, {"x", curves->x}, {"y", curves->y}};
   });
   return json;
 }

@@ -60,17 +60,6 @@ function mapOf({ name, unit, values: list }, keys) {
   });
 }
 
-/** Lists that are curves: their first column is a number that grows. */
-function curveTables() {
-  const swept = Object.keys(run.scenario.sweep).length;
-  return Object.entries(tables).filter(([name]) => name.startsWith("sweep_")).map(([name, { columns }]) => {
-    const [x, y] = columns.slice(swept + 1);
-    const point = columns[0].values;
-    const grows = x && y && !x.isText && !y.isText && x.values.every((v, i) => i === 0 || point[i] !== point[i - 1] || v >= x.values[i - 1]);
-    return grows && x.values.length >= 3 * distinct(point).length ? { name, x: x.name, y: y.name } : null;
-  }).filter(Boolean);
-}
-
 /** The points whose curves are drawn, at most twelve: evenly spaced values of each key, all of them combined. `points_drawn` of main_chart.cpp selects the same ones. */
 function pointsDrawn() {
   const [most, mostOfShorter] = [12, 3];
@@ -103,7 +92,8 @@ function sweepView() {
   if (!tables.sweep) return [];
   const keys = sweptKeys();
   const numbers = keys.length === 2 ? overTwoKeys(keys) : keys.length === 1 ? overOneKey(keys[0]) : [];
-  return [...curveTables().map(curvesOf), ...numbers];
+  const curves = run.swept_curves;
+  return curves && tables[curves.name] ? [curvesOf(curves), ...numbers] : numbers;
 }
 
 views.sweep = { charts: sweepView };

@@ -108,6 +108,23 @@ class Page(PageCase):
         self.assertIn("amplitude [cm]", dom)
         self.assertIn("excitation.amplitude [cm]", dom)
 
+    def test_a_sweep_of_steady_states_opens_with_the_amplitude(self):
+        """The sticks of a period are a list of each point, but no curve."""
+        out = self.folder / "swept_states"
+        (self.folder / "states.yaml").write_text("""schema: dualdamp/1
+system: {mass: 1 kg, stiffness: 100 N/m, damping: 0.2 N.s/m, friction: {law: coulomb, kinetic: 2 N}}
+excitation: {type: base_harmonic, frequency: 1 rad/s}
+analysis: {type: steady_state}
+sweep: {system.friction.static: [2 N, 2.5 N], excitation.amplitude: {from: 8 cm, to: 16 cm, count: 3, spacing: log}}
+""")
+        self.run_program("run", self.folder / "states.yaml", "--out", out, "--quiet", "--plot", self.folder / "states.svg")
+        sticks = [line for line in (out / "sweep_sticks.csv").read_text().splitlines() if line[0] != "#"]
+        self.assertGreater(len(sticks), 3 * 6, "many in a period")
+        dom, console = self.load(out / "report.html")
+        self.assertEqual(console, [])
+        self.assertNotIn("duration over start", dom)
+        self.assertIn("amplitude = 11.3137 cm", (self.folder / "states.svg").read_text())
+
     def test_charts_are_saved_as_files(self):
         svg, png, inside = self.ask("sweep_curves", """new Promise((done) => {
           const saved = {};
