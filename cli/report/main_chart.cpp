@@ -95,6 +95,38 @@ std::string name_of_analysis(const StoredRun& run) {
   return analysis.is_string() ? analysis.get<std::string>() : std::string();
 }
 
+std::vector<std::string> swept_keys(const StoredRun& run) {
+  const Json& sweep = run.document().at("scenario").at("sweep");
+  if (!sweep.is_object() || sweep.empty()) throw ChangedResult("the scenario of a sweep says what is swept");
+  std::vector<std::string> keys;
+  for (const auto& [key, values] : sweep.items()) keys.push_back(key);
+  return keys;
+}
+
+/// The points whose curves are drawn, at most twelve: evenly spaced values of each key, all of them combined.
+std::set<std::size_t> points_drawn(const StoredRun& run) {
+  constexpr std::size_t most = 12;
+  constexpr std::size_t most_of_shorter = 3;
+  std::vector<std::size_t> counts;
+  for (const std::string& key : swept_keys(run))
+    counts.push_back(std::max<std::size_t>(run.document()["scenario"]["sweep"][key].size(), 1));
+  counts.resize(2, 1);
+  std::vector<std::size_t> taken = counts;
+  if (counts[0] * counts[1] > most) {
+    const std::size_t shorter = counts[0] < counts[1] ? 0 : 1;
+    taken[shorter] = std::min(counts[shorter], most_of_shorter);
+    taken[1 - shorter] = std::min(counts[1 - shorter], most / taken[shorter]);
+  }
+  const auto place = [&](std::size_t key, std::size_t i) {  // the i-th value that is taken
+    const std::size_t gaps = taken[key] - 1;
+    return gaps == 0 ? 0 : (2 * i * (counts[key] - 1) + gaps) / (2 * gaps);
+  };
+  std::set<std::size_t> drawn;
+  for (std::size_t i = 0; i < taken[0]; ++i)
+    for (std::size_t j = 0; j < taken[1]; ++j) drawn.insert(place(0, i) * counts[1] + place(1, j));
+  return drawn;
+}
+
 class ChartMaker {
  public:
   ChartMaker(const StoredRun& run, const StoredRun& other)
@@ -218,18 +250,10 @@ class ChartMaker {
     return false;
   }
 
-  [[nodiscard]] std::vector<std::string> swept_keys() const {
-    const Json& sweep = run_.document().at("scenario").at("sweep");
-    if (!sweep.is_object() || sweep.empty()) throw ChangedResult("the scenario of a sweep says what is swept");
-    std::vector<std::string> keys;
-    for (const auto& [key, values] : sweep.items()) keys.push_back(key);
-    return keys;
-  }
-
   /// `point`: number of the point in the table of curves.
   [[nodiscard]] std::string label_of(const StoredTable& sweep, const std::string& point) const {
     std::string label;
-    for (const std::string& key : swept_keys()) {
+    for (const std::string& key : swept_keys(run_)) {
       const StoredColumn& column = needed(sweep, key);
       const double row = core::parse_number(point).value.value_or(-1.0);
       if (!(row >= 0.0 && row < static_cast<double>(column.numbers.size())))
@@ -250,39 +274,13 @@ class ChartMaker {
     const StoredTable rows = run_.table(drawn->table);
     const StoredColumn* x = rows.find(drawn->x);
     const StoredColumn* y = rows.find(drawn->y);
-    return x != nullptr && y != nullptr ? curves(points, rows, *x, *y) : numbers(points);
-  }
-
-  /// The points whose curves are drawn, at most twelve: evenly spaced values of each key, all of them combined.
-  /// `curvesOf` of sweep.js selects the same ones.
-  [[nodiscard]] std::set<std::size_t> points_drawn() const {
-    constexpr std::size_t most = 12;
-    constexpr std::size_t most_of_shorter = 3;
-    std::vector<std::size_t> counts;
-    for (const std::string& key : swept_keys())
-      counts.push_back(std::max<std::size_t>(run_.document()["scenario"]["sweep"][key].size(), 1));
-    counts.resize(2, 1);
-    std::vector<std::size_t> taken = counts;
-    if (counts[0] * counts[1] > most) {
-      const std::size_t shorter = counts[0] < counts[1] ? 0 : 1;
-      taken[shorter] = std::min(counts[shorter], most_of_shorter);
-      taken[1 - shorter] = std::min(counts[1 - shorter], most / taken[shorter]);
-    }
-    const auto place = [&](std::size_t key,
-                           std::size_t i) {  // the i-th value that is taken, rounded as Math.round does
-      const std::size_t gaps = taken[key] - 1;
-      return gaps == 0 ? 0 : (2 * i * (counts[key] - 1) + gaps) / (2 * gaps);
-    };
-    std::set<std::size_t> drawn;
-    for (std::size_t i = 0; i < taken[0]; ++i)
-      for (std::size_t j = 0; j < taken[1]; ++j) drawn.insert(place(0, i) * counts[1] + place(1, j));
-    return drawn;
+    return x != nullptr && y != nullptr ? curves(points, drawn->points, rows, *x, *y) : numbers(points);
   }
 
   /// A selection of the curves, if there are many.
-  bool curves(const StoredTable& points, const StoredTable& rows, const StoredColumn& x, const StoredColumn& y) {
+  bool curves(const StoredTable& points, const std::set<std::size_t>& drawn, const StoredTable& rows,
+              const StoredColumn& x, const StoredColumn& y) {
     const std::vector<Group> all = groups_of(rows, "point");
-    const std::set<std::size_t> drawn = points_drawn();
     for (const Group& group : all) {
       std::string label = label_of(points, group.label);
       if (drawn.contains(static_cast<std::size_t>(*core::parse_number(group.label).value)))
@@ -297,7 +295,7 @@ class ChartMaker {
   }
 
   bool numbers(const StoredTable& points) {
-    const std::vector<std::string> keys = swept_keys();
+    const std::vector<std::string> keys = swept_keys(run_);
     for (const std::string& key : keys) static_cast<void>(needed(points, key));
     static_cast<void>(needed(points, "status"));
     const auto answers = points.columns | std::views::drop(keys.size() + 1);
@@ -335,7 +333,8 @@ std::optional<SweptCurves> swept_curves(const StoredRun& run) {
     return std::nullopt;
   return SweptCurves{.table = "sweep_" + std::string(analysis->chart.list),
                      .x = std::string(analysis->chart.x),
-                     .y = std::string(analysis->chart.y)};
+                     .y = std::string(analysis->chart.y),
+                     .points = points_drawn(run)};
 }
 
 std::optional<Chart> main_chart(const StoredRun& run, const StoredRun& units_of) {

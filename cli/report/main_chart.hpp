@@ -1,7 +1,9 @@
 #pragma once
 /// The main chart of a result directory, in the units that the user wrote in the scenario.
 
+#include <cstddef>
 #include <optional>
+#include <set>
 #include <string>
 
 #include "cli/report/chart.hpp"
@@ -14,11 +16,12 @@ namespace dualdamp::cli {
 /// are in SI. Nothing if the result has no chart.
 [[nodiscard]] std::optional<Chart> main_chart(const StoredRun& run, const StoredRun& units_of);
 
-/// The table of a sweep whose rows are a curve for each point, and the columns that are drawn.
+/// The table of a sweep whose rows are a curve for each point, and what of it is drawn.
 struct SweptCurves {
   std::string table;
-  std::string x;
-  std::string y;
+  std::string x;  ///< column
+  std::string y;  ///< column
+  std::set<std::size_t> points;
 };
 /// Nothing if the analysis that is swept draws no list of its result as a line.
 [[nodiscard]] std::optional<SweptCurves> swept_curves(const StoredRun& run);

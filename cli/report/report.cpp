@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <ostream>
 #include <sstream>
 #include <vector>
@@ -45,8 +46,10 @@ Json document(const StoredRun& run) {
   run.read([&] {
     for (const auto& [si, shown] : scenarios::shown_units(written_units(run)))
       json["shown_units"][si] = {{"unit", shown.unit}, {"factor", shown.factor}, {"asked", shown.is_asked}};
-    if (const auto curves = swept_curves(run); curves && json["result"].contains("sweep"))
-      json["swept_curves"] = {{"name", curves->table}, {"x", curves->x}, {"y", curves->y}};
+    const auto curves = json.at("result").contains("sweep") ? swept_curves(run) : std::nullopt;
+    if (curves)
+      json["swept_curves"] = {
+          {"name", curves->table}, {"x", curves->x}, {"y", curves->y}, {"points", curves->points}};
   });
   return json;
 }

@@ -60,26 +60,11 @@ function mapOf({ name, unit, values: list }, keys) {
   });
 }
 
-/** The points whose curves are drawn, at most twelve: evenly spaced values of each key, all of them combined. `points_drawn` of main_chart.cpp selects the same ones. */
-function pointsDrawn() {
-  const [most, mostOfShorter] = [12, 3];
-  const counts = [...Object.values(run.scenario.sweep).map((list) => Math.max(list.length, 1)), 1].slice(0, 2);
-  const taken = [...counts];
-  if (counts[0] * counts[1] > most) {
-    const shorter = counts[0] < counts[1] ? 0 : 1;
-    taken[shorter] = Math.min(counts[shorter], mostOfShorter);
-    taken[1 - shorter] = Math.min(counts[1 - shorter], Math.floor(most / taken[shorter]));
-  }
-  const places = (key) => Array.from({ length: taken[key] }, (_, i) => (taken[key] === 1 ? 0 : Math.round((i * (counts[key] - 1)) / (taken[key] - 1))));
-  return new Set(places(0).flatMap((i) => places(1).map((j) => i * counts[1] + j)));
-}
-
 /** A selection of the curves, if there are many. */
-function curvesOf({ name, x, y }) {
+function curvesOf({ name, x, y, points }) {
   const swept = Object.keys(run.scenario.sweep);
   const all = distinct(values(name, "point"));
-  const drawn = pointsDrawn();
-  const shown = all.filter((point) => drawn.has(point));
+  const shown = all.filter((point) => points.includes(point));
   const label = (point) => swept.map((key) => `${key.split(".").pop()} = ${short(values("sweep", key)[point])} ${unitOf("sweep", key)}`.trim()).join(", ");
   return chart({
     title: `${y} over ${x}`, wide: true, note: shown.length < all.length ? `${shown.length} of ${all.length} curves; all are in ${name}.csv` : null,
