@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "bench/mechanism_study.hpp"
+#include "bench/mechanisms/study.hpp"
 #include "bench/truth.hpp"
 #include "core/numbers.hpp"
 #include "scenarios/format/common_keys.hpp"

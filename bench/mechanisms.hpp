@@ -2,7 +2,7 @@
 /// `mechanisms`: which mechanism explains that the estimates of zeta and F0 change as the upper x-Y data are left
 /// out.
 ///
-/// The run: mechanism_study.hpp.
+/// The run: mechanisms/study.hpp.
 
 #include <cmath>
 #include <cstddef>

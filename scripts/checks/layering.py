@@ -69,7 +69,8 @@ ROOMS = {
         "design": [".", "statistics", "methods"],
     },
     "bench": {
-        ".": ["score"],  # the campaign scores its cases, and the scores know its grid and predictions
+        ".": ["mechanisms", "score"],  # what both analyses run; the scores know the grid and the predictions
+        "mechanisms": ["."],
         "score": ["."],
         "contest": [".", "score"],
         "crosscheck": [],

@@ -1,4 +1,4 @@
-#include "bench/mechanism_answer.hpp"
+#include "bench/mechanisms/answer.hpp"
 
 #include <algorithm>
 #include <utility>

@@ -1,4 +1,4 @@
-#include "bench/mechanism_fit.hpp"
+#include "bench/mechanisms/fit.hpp"
 
 #include <Eigen/Core>
 #include <algorithm>

@@ -1,7 +1,7 @@
 // Which mechanism explains estimates that depend on the part of the data: a test made with one mechanism leads back
 // to it, the lines are those of the method, and without a mechanism the numbers of the study have closed forms.
 
-#include "bench/mechanism_study.hpp"
+#include "bench/mechanisms/study.hpp"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -11,7 +11,7 @@
 #include <string>
 
 #include "bench/analyses.hpp"
-#include "bench/mechanism_fit.hpp"
+#include "bench/mechanisms/fit.hpp"
 #include "identify/methods/amplitudes/resonance_least_squares.hpp"
 #include "scenarios/run.hpp"
 #include "sim/parallel.hpp"

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "bench/mechanism_fit.hpp"
 #include "bench/mechanisms.hpp"
+#include "bench/mechanisms/fit.hpp"
 #include "scenarios/format/json.hpp"
 #include "scenarios/results/table.hpp"
 

@@ -1,11 +1,11 @@
-#include "bench/mechanism_study.hpp"
+#include "bench/mechanisms/study.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 #include <vector>
 
-#include "bench/mechanism_answer.hpp"
+#include "bench/mechanisms/answer.hpp"
 #include "core/constants.hpp"
 #include "identify/methods/decays/free_decay.hpp"
 #include "sim/motion/free_decay.hpp"
