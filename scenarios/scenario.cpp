@@ -19,7 +19,7 @@
 #include "scenarios/results/motion.hpp"
 #include "scenarios/scenario_format.hpp"
 #include "scenarios/scenario_reading.hpp"
-#include "scenarios/sweep.hpp"
+#include "scenarios/sweep/sweep.hpp"
 #include "sim/engine/engine.hpp"
 #include "sim/law_host/loaded_contacts.hpp"
 #include "sim/orbits/steady_state.hpp"

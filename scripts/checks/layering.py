@@ -78,11 +78,12 @@ ROOMS = {
         "accuracy": [],
     },
     "scenarios": {
-        ".": ["format", "results", "measurements", "analyses"],  # loads and runs; the list of analyses
+        ".": ["format", "results", "measurements", "analyses", "sweep"],  # loads and runs; the list of analyses
         "format": [],
         "results": ["format"],
         "measurements": ["format"],
         "analyses": [".", "format", "results", "measurements"],
+        "sweep": [".", "format", "results", "analyses"],
     },
 }
 ANYWHERE = list(FOLDERS)

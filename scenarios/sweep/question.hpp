@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "scenarios/analysis.hpp"
-#include "scenarios/sweep_points.hpp"
+#include "scenarios/sweep/points.hpp"
 
 namespace dualdamp::scenarios {
 

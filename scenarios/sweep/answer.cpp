@@ -1,4 +1,4 @@
-#include "scenarios/sweep_answer.hpp"
+#include "scenarios/sweep/answer.hpp"
 
 #include <algorithm>
 #include <map>

@@ -1,4 +1,4 @@
-#include "scenarios/sweep.hpp"
+#include "scenarios/sweep/sweep.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -11,7 +11,7 @@
 #include "scenarios/scenario.hpp"
 #include "scenarios/scenario_format.hpp"
 #include "scenarios/scenario_reading.hpp"
-#include "scenarios/sweep_answer.hpp"
+#include "scenarios/sweep/answer.hpp"
 
 namespace dualdamp::scenarios {
 

@@ -1,4 +1,4 @@
-#include "scenarios/sweep.hpp"
+#include "scenarios/sweep/sweep.hpp"
 
 #include <algorithm>
 #include <map>
@@ -12,8 +12,8 @@
 #include "scenarios/format/checked_file.hpp"
 #include "scenarios/format/limits.hpp"
 #include "scenarios/format/values.hpp"
-#include "scenarios/sweep_points.hpp"
-#include "scenarios/sweep_question.hpp"
+#include "scenarios/sweep/points.hpp"
+#include "scenarios/sweep/question.hpp"
 
 namespace dualdamp::scenarios {
 

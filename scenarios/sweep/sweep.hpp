@@ -7,7 +7,7 @@
 ///
 /// The run is a campaign: finished points are kept in `points.jsonl` and can be resumed. The result is the list
 /// `sweep` of {values (SI, by path), status, result, and where there are any reason, warnings, verification}; see
-/// `sweep_answer.hpp` for the tables.
+/// `answer.hpp` for the tables.
 
 #include <string>
 

@@ -1,4 +1,4 @@
-#include "scenarios/sweep_question.hpp"
+#include "scenarios/sweep/question.hpp"
 
 #include <cerrno>
 #include <fstream>
