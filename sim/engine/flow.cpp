@@ -182,42 +182,42 @@ void Flow::move(std::span<const double> X, double t, double force, std::span<dou
   rates[1] = (driving(X[0], X[1], drive(t)) - force) / model_.oscillator.mass;
 }
 
-/// Differences of law i over a step from X, where its force is `base` and its rates are base_rates_: of the rates,
+/// Differences of the law over a step from X, where its rates are base_rates_: of the rates,
 /// in displaced_rates_, and of the force.
-Flow::Slope Flow::difference(std::size_t i, std::size_t column, double step, std::span<const double> X, double t,
-                             double base) const {
-  displaced_.assign(X.begin(), X.end());
-  displaced_[column] += step;
-  const double exact_step = displaced_[column] - X[column];
-  const double force = respond(i, displaced_, instant(i, displaced_, t), displaced_rates_);
-  for (std::size_t k = 0; k < count_[i]; ++k)
+Flow::Slope Flow::difference(const Derivative& d, double step) const {
+  displaced_.assign(d.X.begin(), d.X.end());
+  displaced_[d.column] += step;
+  const double exact_step = displaced_[d.column] - d.X[d.column];
+  const double force = respond(d.law, displaced_, instant(d.law, displaced_, d.t), displaced_rates_);
+  for (std::size_t k = 0; k < count_[d.law]; ++k)
     displaced_rates_[k] = (displaced_rates_[k] - base_rates_[k]) / exact_step;
-  return {(force - base) / exact_step, std::abs(force - base) > resolved * (std::abs(force) + std::abs(base))};
+  const double change = force - d.force;
+  return {change / exact_step, std::abs(change) > resolved * (std::abs(force) + std::abs(d.force))};
 }
 
-/// The slopes of all rates of law i, and behind them that of its force, from a difference to both sides.
-void Flow::slopes(std::size_t i, std::size_t column, double step, std::span<const double> X, double t, double base,
-                  std::vector<double>& of_rates_and_force) const {
-  of_rates_and_force.assign(count_[i] + 1, 0.0);
+/// The slopes of all rates of the law, and behind them that of its force, from a difference to both sides.
+void Flow::slopes(const Derivative& d, double step, std::vector<double>& of_rates_and_force) const {
+  const std::size_t count = count_[d.law];
+  of_rates_and_force.assign(count + 1, 0.0);
   for (const double change : {step, -step}) {
-    const double of_force = difference(i, column, change, X, t, base).value;
-    for (std::size_t k = 0; k < count_[i]; ++k) of_rates_and_force[k] += 0.5 * displaced_rates_[k];
-    of_rates_and_force[count_[i]] += 0.5 * of_force;
+    const double of_force = difference(d, change).value;
+    for (std::size_t k = 0; k < count; ++k) of_rates_and_force[k] += 0.5 * displaced_rates_[k];
+    of_rates_and_force[count] += 0.5 * of_force;
   }
 }
 
-/// The slopes of law i by a state: of the rates, in displaced_rates_, and of the force, returned. `slope` and
+/// The slopes of the law by a state: of the rates, in displaced_rates_, and of the force, returned. `slope` and
 /// displaced_rates_: those over `step`. After a long slip the bristles of dahl with an exponent other than 1 are
 /// closer to their limit than the usual step is long, and the slope over it is a multiple of the slope there. So
 /// each slope is that over the step at which a step ten times as long changes it least.
-double Flow::closer(std::size_t i, std::size_t column, double step, std::span<const double> X, double t,
-                    double base, double slope) const {
-  const double shortest = least_state * std::max(std::abs(X[column]), least_state * scales_[column]);
-  const std::size_t count = count_[i] + 1;
+double Flow::closer(const Derivative& d, double step, double slope) const {
+  const double shortest = least_state * std::max(std::abs(d.X[d.column]), least_state * scales_[d.column]);
+  const std::size_t rates = count_[d.law];
+  const std::size_t count = rates + 1;
   closest_slopes_.assign(displaced_rates_.begin(), displaced_rates_.end());
   closest_slopes_.push_back(slope);
   shorter_slopes_ = closest_slopes_;
-  slopes(i, column, ladder_of_states * step, X, t, base, last_slopes_);
+  slopes(d, ladder_of_states * step, last_slopes_);
   apart_.assign(count, std::numeric_limits<double>::infinity());
   for (;;) {
     bool are_equal = true;
@@ -225,7 +225,7 @@ double Flow::closer(std::size_t i, std::size_t column, double step, std::span<co
       const double found = shorter_slopes_[k];
       const double larger = std::max(std::abs(found), std::abs(last_slopes_[k]));
       const double apart = larger > 0.0 ? std::abs(found - last_slopes_[k]) / larger : 0.0;
-      const double value = k < count_[i] ? base_rates_[k] : base;
+      const double value = k < rates ? base_rates_[k] : d.force;
       if (apart < apart_[k] && (std::isinf(apart_[k]) || std::abs(found * step) > resolved * std::abs(value))) {
         apart_[k] = apart;
         closest_slopes_[k] = found;
@@ -235,33 +235,33 @@ double Flow::closer(std::size_t i, std::size_t column, double step, std::span<co
     step /= ladder_of_states;
     if (are_equal || !(step > shortest)) break;
     std::swap(last_slopes_, shorter_slopes_);
-    slopes(i, column, step, X, t, base, shorter_slopes_);
+    slopes(d, step, shorter_slopes_);
   }
-  std::ranges::copy_n(closest_slopes_.begin(), static_cast<std::ptrdiff_t>(count_[i]), displaced_rates_.begin());
+  std::ranges::copy_n(closest_slopes_.begin(), static_cast<std::ptrdiff_t>(rates), displaced_rates_.begin());
   return closest_slopes_.back();
 }
 
-/// The contribution of law i to one column of the Jacobian.
-void Flow::differentiate_law(std::size_t i, std::size_t column, std::span<const double> X, double t, double base,
-                             bool closely, std::span<double> columns) const {
-  const double own = std::abs(X[column]);
-  const bool affine = model_.friction[i].is_affine();
+/// The contribution of the law to one column of the Jacobian.
+void Flow::differentiate_law(const Derivative& d, bool closely, std::span<double> columns) const {
+  const bool by_speed = d.column == 1;
+  const double own = std::abs(d.X[d.column]);
+  const bool affine = model_.friction[d.law].is_affine();
   double step =
-      (affine ? affine_increment : increment) * (own + (column == 1 ? slow * scales_[1] : scales_[column]));
-  double slope = difference(i, column, step, X, t, base).value;
-  if (closely && column > 1 && !affine) slope = closer(i, column, step, X, t, base, slope);
+      (affine ? affine_increment : increment) * (own + (by_speed ? slow * scales_[1] : scales_[d.column]));
+  double slope = difference(d, step).value;
+  if (closely && d.column > 1 && !affine) slope = closer(d, step, slope);
   // Friction that depends on the logarithm of the speed is a steep dashpot at speeds far below the largest one. So
   // the step is shortened until the slope no longer grows.
   const double shortest = std::max(increment * own, least_speed * scales_[1]);
-  while (column == 1 && !affine && step > ladder * shortest) {
+  while (by_speed && !affine && step > ladder * shortest) {
     step = std::max(shortest, step / ladder);
-    const Slope steeper = difference(i, column, step, X, t, base);
+    const Slope steeper = difference(d, step);
     if (!steeper.resolved || !(std::abs(steeper.value) > 2.0 * std::abs(slope))) break;
     slope = steeper.value;
   }
-  const std::span<double> target = columns.subspan(column * size_, size_);
+  const std::span<double> target = columns.subspan(d.column * size_, size_);
   if (direction_ != Direction::none) target[1] -= slope / model_.oscillator.mass;
-  for (std::size_t k = 0; k < count_[i]; ++k) target[first_[i] + k] = displaced_rates_[k];
+  for (std::size_t k = 0; k < count_[d.law]; ++k) target[first_[d.law] + k] = displaced_rates_[k];
 }
 
 void Flow::jacobian(std::span<const double> X, double t, std::span<double> columns) const {
@@ -292,12 +292,15 @@ void Flow::differentiate(std::span<const double> X, double t, bool closely, std:
   for (std::size_t i = 0; i < first_.size(); ++i) {
     base_rates_.assign(count_[i], 0.0);
     displaced_rates_.assign(count_[i], 0.0);
-    const double base = respond(i, X, instant(i, X, t), base_rates_);
-    force += base;
+    const double of_law = respond(i, X, instant(i, X, t), base_rates_);
+    force += of_law;
     if (!rates.empty()) std::ranges::copy(base_rates_, rates.subspan(first_[i], count_[i]).begin());
-    for (const std::size_t column : {std::size_t{0}, std::size_t{1}})
-      differentiate_law(i, column, X, t, base, closely, columns);
-    for (std::size_t k = 0; k < count_[i]; ++k) differentiate_law(i, first_[i] + k, X, t, base, closely, columns);
+    const auto differentiate_by = [&](std::size_t column) {
+      differentiate_law({.law = i, .column = column, .X = X, .t = t, .force = of_law}, closely, columns);
+    };
+    differentiate_by(0);
+    differentiate_by(1);
+    for (std::size_t k = 0; k < count_[i]; ++k) differentiate_by(first_[i] + k);
   }
   if (!rates.empty()) move(X, t, force, rates);
 }

@@ -84,14 +84,18 @@ class Flow final : public VectorField {
     double value = 0.0;     ///< N per unit of the column
     bool resolved = false;  ///< beyond rounding
   };
-  Slope difference(std::size_t i, std::size_t column, double step, std::span<const double> X, double t,
-                   double base) const;
-  double closer(std::size_t i, std::size_t column, double step, std::span<const double> X, double t, double base,
-                double slope) const;
-  void slopes(std::size_t i, std::size_t column, double step, std::span<const double> X, double t, double base,
-              std::vector<double>& of_rates_and_force) const;
-  void differentiate_law(std::size_t i, std::size_t column, std::span<const double> X, double t, double base,
-                         bool closely, std::span<double> columns) const;
+  /// What is differentiated, by what, and where.
+  struct Derivative {
+    std::size_t law = 0;
+    std::size_t column = 0;  ///< the component of X that is displaced
+    std::span<const double> X;
+    double t = 0.0;      ///< local time [s]
+    double force = 0.0;  ///< of the law at X [N]
+  };
+  [[nodiscard]] Slope difference(const Derivative& d, double step) const;
+  [[nodiscard]] double closer(const Derivative& d, double step, double slope) const;
+  void slopes(const Derivative& d, double step, std::vector<double>& of_rates_and_force) const;
+  void differentiate_law(const Derivative& d, bool closely, std::span<double> columns) const;
   void move(std::span<const double> X, double t, double force, std::span<double> rates) const;
   void differentiate(std::span<const double> X, double t, bool closely, std::span<double> rates,
                      std::span<double> columns) const;
