@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+
+#include "identify/statistics/noise_level.hpp"
 
 namespace dualdamp::identify {
 
@@ -49,6 +52,29 @@ std::vector<WindowEnergy> energy_of(const PreparedHistory& motion, const KnownCo
     list.push_back(sum);
   }
   return list;
+}
+
+PreparedHistory sharply_prepared(const History& history, double cutoff) {
+  History full = history;
+  if (full.a.empty())
+    full.a = full.v.empty() ? sharp_second_difference(full.x, full.sample_rate)
+                            : sharp_difference(full.v, full.sample_rate);
+  if (full.v.empty()) full.v = sharp_difference(full.x, full.sample_rate);
+  return prepared_history(full, cutoff);
+}
+
+double speed_noise(const History& history, double cutoff) {
+  const double rate = history.sample_rate;
+  std::optional<ZeroPhaseFilter> filter;
+  if (cutoff > 0.0) filter.emplace(cutoff, rate);
+  const std::size_t middle = filter ? filter->edge() + 4 : 4;
+  std::vector<double> response(2 * middle + 1, 0.0);
+  response[middle] = 1.0;
+  if (filter) response = (*filter)(response);
+  if (history.v.empty()) response = sharp_difference(response, rate);
+  double squares = 0.0;
+  for (const double value : response) squares += value * value;
+  return noise_level(history.v.empty() ? history.x : history.v) * std::sqrt(squares);
 }
 
 }  // namespace dualdamp::identify

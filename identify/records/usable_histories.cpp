@@ -23,8 +23,8 @@ double mean_square(std::span<const double> signal) {
   return sum / static_cast<double>(signal.size());
 }
 
-/// Mean frequency of a motion [Hz]: that of a sine with the same rms of x and v. The differences use long steps,
-/// because noise dominates short ones.
+}  // namespace
+
 double mean_frequency(const History& history) {
   const std::size_t step = std::max<std::size_t>(1, history.x.size() / 2000);
   std::vector<double> thinned;
@@ -33,8 +33,6 @@ double mean_frequency(const History& history) {
   const double motion = mean_square(thinned);
   return motion > 0.0 ? std::sqrt(mean_square(central_difference(thinned, rate)) / motion) / core::two_pi : 0.0;
 }
-
-}  // namespace
 
 std::vector<double> cutoffs_for(const History& history, const FilterOptions& options) {
   if (!options.cutoffs.empty()) return options.cutoffs;

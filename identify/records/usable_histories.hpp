@@ -12,6 +12,10 @@
 
 namespace dualdamp::identify {
 
+/// Mean frequency of a motion [Hz]: that of a sine with the same rms of x and v; 0 if x is constant. The
+/// differences use long steps, because noise dominates short ones.
+[[nodiscard]] double mean_frequency(const History& history);
+
 /// Cut-offs to use [Hz]: those of the options; else, if velocity and acceleration were measured, the single cut-off
 /// 0 (no filter); else f, 0.6 f and 0.4 f. f is a twentieth of the sample rate or eight times the mean frequency of
 /// the motion, whichever is larger, but at most a fifth of the sample rate.

@@ -101,17 +101,38 @@ int periods_of(const std::vector<double>& x, double band) {
   return std::max(static_cast<int>(static_cast<double>(x.size()) / (2.0 * half_period)), 1);
 }
 
-/// Balances of windows of about a period each, filtered with the first cut-off. Windows in which the mass sticks
-/// hold noise alone and are left out.
+/// The shortest path of a window that counts. Noise adds to the path of a mass that stands still, and the filter
+/// rounds its stops: both weigh most where a motion is small. Such windows are at the end of the line that tells
+/// F0.
+double least_path(const std::vector<WindowEnergy>& windows, double noise_path) {
+  constexpr double times_noise = 10.0;
+  constexpr double of_largest = 0.1;
+  const double largest = std::ranges::max(windows, {}, &WindowEnergy::path).path;
+  return std::max(times_noise * noise_path, of_largest * largest);
+}
+
+/// The first cut-off; 0, no filter, if that is below four times the frequency of the motion. So it is with fewer
+/// than 20 samples in a period: the filter would take part of the motion, and so few samples need none.
+double cutoff_of(const History& history, const FilterOptions& options) {
+  constexpr double room = 4.0;
+  const double first = cutoffs_for(history, options).front();
+  return options.cutoffs.empty() && first < room * mean_frequency(history) ? 0.0 : first;
+}
+
+/// Balances of windows of about a period each, filtered with the first cut-off, where the mass moves.
 std::vector<EnergyTerms> accounts_of_histories(const Record& record, const KnownConstants& constants,
                                                const FilterOptions& options, Estimate& estimate) {
   std::vector<EnergyTerms> accounts;
   for (const NumberedHistory& item : usable_histories(record, options, estimate)) {
-    const PreparedHistory motion = prepared_history(*item.history, cutoffs_for(*item.history, options).front());
+    const double cutoff = cutoff_of(*item.history, options);
+    const PreparedHistory motion = sharply_prepared(*item.history, cutoff);
     constexpr double widest_noise = 10.0;  // standard deviations; of a million Gaussian ones it is 9.8
     const double band = widest_noise * noise_level(item.history->x);
-    for (const WindowEnergy& window : energy_of(motion, constants, periods_of(motion.x, band)))
-      if (window.path > 0.0 && window.range > band)
+    const std::vector<WindowEnergy> windows = energy_of(motion, constants, periods_of(motion.x, band));
+    const double still = std::sqrt(2.0 / pi) * speed_noise(*item.history, cutoff);
+    const double least = least_path(windows, still * windows.front().duration);
+    for (const WindowEnergy& window : windows)
+      if (window.path > 0.0 && window.path >= least && window.range > band)
         accounts.push_back({.work = window.input - window.stored,
                             .path = window.path,
                             .speed_square = window.square_speed,
@@ -128,7 +149,12 @@ Estimate of_histories(const Record& record, const KnownConstants& constants, con
   }
   const std::vector<EnergyTerms> accounts = accounts_of_histories(record, constants, options, estimate);
   std::vector<std::string> faults;
-  if (!estimate.outcome.ok() || !balance(accounts, constants, estimate, faults)) return estimate;
+  if (!estimate.outcome.ok()) return estimate;
+  if (accounts.size() < 2) {
+    refuse(estimate, "fewer than two periods have a motion that stands out of the noise of the sensor");
+    return estimate;
+  }
+  if (!balance(accounts, constants, estimate, faults)) return estimate;
   const auto repeated = std::ranges::unique(estimate.used);
   estimate.used.erase(repeated.begin(), repeated.end());
   conclude(estimate, faults,

@@ -10,7 +10,8 @@
 /// squares over levels and frequencies.
 ///
 /// If the record has no two states with phases, histories of y and x are read. Each period gives one balance: the
-/// work less the change of the stored energy. This needs the mass and allows any motion and any drive.
+/// work less the change of the stored energy. This needs the mass and allows any motion and any drive. Periods of
+/// low motion are left out: their path is that of noise, and the filter rounds the stops of the mass.
 ///
 /// If the mean square speed of a state was not measured, that of the fundamental is used, w^2 X_1^2/2; if X_1 was
 /// not measured, x is used. This biases c and F0 by one to two percent in opposite directions. The method computes
