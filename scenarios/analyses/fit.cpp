@@ -47,17 +47,12 @@ Section fit_keys() {
                .at_most(10'000)}};
 }
 
-struct Setup {
-  std::vector<FitQuestion::Candidate> candidates;
-  identify::Experiments data;
-  identify::Experiments validation;
-  std::vector<Json> excitations;  ///< of scenarios of each experiment of `data`
-  std::vector<std::string> warnings;
-};
-
-Setup setup_of(const Json& analysis, const Json& system, const Json& excitation, const sim::Model& model,
-               bool initial_is_known, const std::vector<DataFile>& files, std::vector<SetupFault>& faults) {
-  Setup setup;
+/// Faults are added to `faults`. The caller knows the options, the drive of the scenario, the marks and the
+/// warnings about files.
+FitQuestion::Setup setup_of(const Json& analysis, const Json& system, const Json& excitation,
+                            const sim::Model& model, bool initial_is_known, const std::vector<DataFile>& files,
+                            std::vector<SetupFault>& faults) {
+  FitQuestion::Setup setup;
   const Sought sought = sought_of(analysis, initial_is_known);
   std::vector<DataItem> data = items_of(analysis, files, "data");
   std::vector<DataItem> validation = items_of(analysis, files, "validate");
@@ -142,8 +137,8 @@ void check_fit(CheckedFile& file) {
 
 std::unique_ptr<const Question> ask_fit(CheckedValues&& values) {
   std::vector<SetupFault> faults;
-  Setup setup = setup_of(values.analysis, values.system, values.excitation, values.model, values.initial_is_stated,
-                         values.files, faults);
+  FitQuestion::Setup setup = setup_of(values.analysis, values.system, values.excitation, values.model,
+                                      values.initial_is_stated, values.files, faults);
   for (const std::string key : {"data", "validate"})
     refuse_other_drives(items_of(values.analysis, values.files, key), key, values.model, values.drive_start,
                         sought_of(values.analysis, false).free, faults);
@@ -152,13 +147,13 @@ std::unique_ptr<const Question> ask_fit(CheckedValues&& values) {
   for (const DataFile& file : values.files)
     for (const std::string& warning : file.data.warnings) warnings.push_back(file.name + ": " + warning);
   std::ranges::move(setup.warnings, std::back_inserter(warnings));
-  return std::make_unique<FitQuestion>(std::move(setup.candidates), std::move(setup.data),
-                                       std::move(setup.validation),
-                                       identify::FitOptions{.robust = values.analysis.value("robust", false),
-                                                            .profile = values.analysis.value("profile", true),
-                                                            .starts = values.analysis.value("starts", 0)},
-                                       values.excitation, std::move(setup.excitations),
-                                       marks_of_files(values.analysis, values.files), std::move(warnings));
+  setup.warnings = std::move(warnings);
+  setup.options = {.robust = values.analysis.value("robust", false),
+                   .profile = values.analysis.value("profile", true),
+                   .starts = values.analysis.value("starts", 0)};
+  setup.excitation = values.excitation;
+  setup.marks = marks_of_files(values.analysis, values.files);
+  return std::make_unique<FitQuestion>(std::move(setup));
 }
 
 /// `unit`: of the rms.
@@ -206,40 +201,43 @@ std::vector<std::size_t> ranked(const std::vector<identify::Fit>& fits) {
 }  // namespace
 
 Answer FitQuestion::run(const RunContext& /*context*/) const {
+  const identify::Experiments& data = setup_.data;
   std::vector<identify::Fit> fits;
-  for (const Candidate& candidate : candidates_)
-    fits.push_back(identify::fit_rig(candidate.rig, candidate.parameters, data_, options_));
-  identify::compare_fits(fits, options_.robust);
+  for (const Candidate& candidate : setup_.candidates)
+    fits.push_back(identify::fit_rig(candidate.rig, candidate.parameters, data, setup_.options));
+  identify::compare_fits(fits, setup_.options.robust);
   const std::vector<std::size_t> order = ranked(fits);
   const identify::Fit& best = fits[order.front()];
   if (!best.outcome.ok()) return failed(best.outcome.reason);
   Answer answer;
-  answer.warnings = warnings_;
+  answer.warnings = setup_.warnings;
   if (std::string weights = identify::warning_of_weights(fits); !weights.empty())
     answer.warnings.push_back(std::move(weights));
   answer.result["law"] = laws_text(best.rig);
-  add_fit(best, data_, answer);
+  add_fit(best, data, answer);
   answer.result["laws"] = nullptr;
-  answer.tables.push_back(law_table(fits, order, residual_unit(best, data_)));
-  add_curves(best, data_, "fit", answer);
-  if (!validation_.empty()) {
-    const identify::Prediction prediction = identify::predict_records(
-        best.rig, candidates_[order.front()].parameters, shared_uncertainty(best), validation_, options_);
+  answer.tables.push_back(law_table(fits, order, residual_unit(best, data)));
+  add_curves(best, data, "fit", answer);
+  if (!setup_.validation.empty()) {
+    const identify::Prediction prediction =
+        identify::predict_records(best.rig, setup_.candidates[order.front()].parameters, shared_uncertainty(best),
+                                  setup_.validation, setup_.options);
     answer.result["validation"] = validation_json(prediction);
     std::ranges::copy(prediction.warnings, std::back_inserter(answer.warnings));
-    if (prediction.outcome.ok()) add_curves(prediction.fit, validation_, "prediction", answer);
+    if (prediction.outcome.ok()) add_curves(prediction.fit, setup_.validation, "prediction", answer);
     answer.result["verdict"] = prediction.text;
   }
-  answer.result["fitted_readings"] = marks_;
-  answer.result["rig"] = rig_text(best, {laws_text(best.rig) + " fitted to " + data_.front()->label, excitation_});
+  answer.result["fitted_readings"] = setup_.marks;
+  answer.result["rig"] =
+      rig_text(best, {laws_text(best.rig) + " fitted to " + data.front()->label, setup_.excitation});
   std::vector<RigText> texts;
   answer.result["scenarios"] = Json::array();
-  for (std::size_t e = 0; e < data_.size(); ++e) {
-    texts.push_back({laws_text(best.rig) + " fitted to " + data_[e]->label, excitations_[e]});
-    answer.result["scenarios"].push_back(scenario_text(best, data_, e, texts.back()));
+  for (std::size_t e = 0; e < data.size(); ++e) {
+    texts.push_back({laws_text(best.rig) + " fitted to " + data[e]->label, setup_.excitations[e]});
+    answer.result["scenarios"].push_back(scenario_text(best, data, e, texts.back()));
   }
   answer.result["scenario"] = answer.result["scenarios"].front();
-  add_scenario_files(best, data_, texts, answer);
+  add_scenario_files(best, data, texts, answer);
   return answer;
 }
 

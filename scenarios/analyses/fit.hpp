@@ -1,6 +1,7 @@
 #pragma once
 /// `fit`: laws and constants of a rig fitted to measured records.
 
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -16,29 +17,24 @@ class FitQuestion final : public Question {
     std::vector<identify::FitParameter> parameters;
   };
 
-  FitQuestion(std::vector<Candidate> candidates, identify::Experiments data, identify::Experiments validation,
-              identify::FitOptions options, Json excitation, std::vector<Json> excitations,
-              std::vector<double> marks, std::vector<std::string> warnings)
-      : candidates_(std::move(candidates)),
-        data_(std::move(data)),
-        validation_(std::move(validation)),
-        options_(std::move(options)),
-        excitation_(std::move(excitation)),
-        excitations_(std::move(excitations)),
-        marks_(std::move(marks)),
-        warnings_(std::move(warnings)) {}
+  /// What is fitted to what.
+  struct Setup {
+    std::vector<Candidate> candidates;  ///< one for each law that is compared
+    identify::Experiments data;
+    identify::Experiments validation;
+    identify::FitOptions options;
+    Json excitation;                ///< of the scenario: the drive of records without their own
+    std::vector<Json> excitations;  ///< of scenarios of each experiment of `data`
+    std::vector<double> marks;      ///< of the readings that are fitted (`identify::marks_of`)
+    std::vector<std::string> warnings;
+  };
+
+  explicit FitQuestion(Setup setup) : setup_(std::move(setup)) {}
 
   [[nodiscard]] Answer run(const RunContext& context) const override;
 
  private:
-  std::vector<Candidate> candidates_;  ///< one for each law that is compared
-  identify::Experiments data_;
-  identify::Experiments validation_;
-  identify::FitOptions options_;
-  Json excitation_;                ///< of the scenario: the drive of records without their own
-  std::vector<Json> excitations_;  ///< of scenarios of each experiment of `data_`
-  std::vector<double> marks_;      ///< of the readings that are fitted (`identify::marks_of`)
-  std::vector<std::string> warnings_;
+  Setup setup_;
 };
 
 [[nodiscard]] const Analysis& fit_analysis();

@@ -239,31 +239,36 @@ std::unique_ptr<const Question> ask_predict(CheckedValues&& values) {
       rows_of(values.analysis, "covariance", parameters.size()),
       rows_of(values.analysis, "undetermined", parameters.size()).transpose()};
   std::ranges::copy(zeros, std::back_inserter(parameters));
-  return std::make_unique<PredictQuestion>(std::move(rig), std::move(parameters), std::move(uncertainty),
-                                           std::move(data), std::move(undriven), std::move(warnings),
-                                           assumed_drive(values, items), values.words);
+  return std::make_unique<PredictQuestion>(PredictQuestion::Setup{.rig = std::move(rig),
+                                                                  .parameters = std::move(parameters),
+                                                                  .uncertainty = std::move(uncertainty),
+                                                                  .data = std::move(data),
+                                                                  .undriven_data = std::move(undriven),
+                                                                  .warnings = std::move(warnings),
+                                                                  .assumed_drive = assumed_drive(values, items),
+                                                                  .words = values.words});
 }
 
 }  // namespace
 
 Answer PredictQuestion::run(const RunContext& /*context*/) const {
-  const bool is_driven = rig_.known.excitation.type != sim::ExcitationType::none;
-  const identify::Experiments& undriven = undriven_data_.size() == data_.size() ? undriven_data_ : data_;
+  const auto& [rig, parameters, uncertainty, data, undriven_data, warnings, assumed_drive, words] = setup_;
+  const bool is_driven = rig.known.excitation.type != sim::ExcitationType::none;
+  const identify::Experiments& undriven = undriven_data.size() == data.size() ? undriven_data : data;
   const auto refuses = [&](const identify::Fit& held) {
-    if (assumed_drive_.empty()) return std::string();
-    return is_driven ? undriven_text(rig_, held, undriven, assumed_drive_, words_)
-                     : driven_text(held, data_, words_);
+    if (assumed_drive.empty()) return std::string();
+    return is_driven ? undriven_text(rig, held, undriven, assumed_drive, words) : driven_text(held, data, words);
   };
-  identify::Prediction prediction = identify::predict_records(rig_, parameters_, uncertainty_, data_, {}, refuses);
+  identify::Prediction prediction = identify::predict_records(rig, parameters, uncertainty, data, {}, refuses);
   if (!prediction.outcome.ok()) return failed(prediction.outcome.reason);
-  if (!assumed_drive_.empty() && !std::isnan(prediction.error) && (is_driven || prediction.is_wrong))
-    prediction.text += "; this holds if the record had the drive of the fit, which was assumed: " + assumed_drive_;
+  if (!assumed_drive.empty() && !std::isnan(prediction.error) && (is_driven || prediction.is_wrong))
+    prediction.text += "; this holds if the record had the drive of the fit, which was assumed: " + assumed_drive;
   Answer answer;
-  answer.warnings = warnings_;
+  answer.warnings = warnings;
   std::ranges::move(prediction.warnings, std::back_inserter(answer.warnings));
   answer.result["validation"] = validation_json(prediction);
   answer.result["verdict"] = prediction.text;
-  add_curves(prediction.fit, data_, "prediction", answer);
+  add_curves(prediction.fit, data, "prediction", answer);
   return answer;
 }
 
