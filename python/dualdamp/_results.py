@@ -142,7 +142,7 @@ class Result:
                 return array
         if isinstance(numbers, dict) and name in numbers:
             return None
-        raise AttributeError(f"a result of {self.analysis} has no {name!r}; it has: {', '.join(self._names())}")
+        raise AttributeError(f"a result of {self.analysis} has no {name!r}; it has: {', '.join(self._names())}", name=name, obj=self)
 
     def _names(self):
         numbers = self._numbers

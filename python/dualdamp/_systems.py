@@ -29,7 +29,8 @@ class _Part:
     def __getattr__(self, name):
         if not name.startswith("_") and name in self._values:
             return plain(self._values[name])
-        raise AttributeError(f"this {type(self).__name__} has no {name!r}; it has: {', '.join(self._values)}")
+        # With the name and the object, Python itself adds a similar name, also of a method.
+        raise AttributeError(f"this {type(self).__name__} has no {name!r}; its keys are: {', '.join(self._values)}", name=name, obj=self)
 
     def __dir__(self):
         return [*super().__dir__(), *self._values]

@@ -5,6 +5,7 @@ import os
 import pickle
 import resource
 import signal
+import sys
 import threading
 import time
 import warnings
@@ -57,6 +58,13 @@ def test_a_part_is_checked_when_it_is_made():
         dd.law("kulomb")
     with pytest.raises(TypeError, match="excitation 'base_harmonic' has no key 'amplitud'; it has: amplitude"):
         dd.excitation("base_harmonic", amplitud=1)
+
+
+def test_python_proposes_a_method_that_is_spelt_wrongly(capsys):
+    with pytest.raises(AttributeError, match="this System has no 'steadystate'; its keys are: mass, stiffness, damping") as caught:
+        dd.System(mass=1, stiffness=1, damping=0).steadystate
+    sys.__excepthook__(caught.type, caught.value, caught.tb)
+    assert "Did you mean: 'steady_state'?" in capsys.readouterr().err
 
 
 def test_no_scenario():
