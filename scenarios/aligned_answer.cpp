@@ -1,4 +1,4 @@
-#include "scenarios/aligned_answer.hpp"
+#include "scenarios/verification/aligned_answer.hpp"
 
 #include <algorithm>
 #include <cmath>

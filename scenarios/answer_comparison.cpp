@@ -1,4 +1,4 @@
-#include "scenarios/answer_comparison.hpp"
+#include "scenarios/verification/answer_comparison.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,8 +8,8 @@
 
 #include "core/constants.hpp"
 #include "core/numbers.hpp"
-#include "scenarios/aligned_answer.hpp"
-#include "scenarios/telling_events.hpp"
+#include "scenarios/verification/aligned_answer.hpp"
+#include "scenarios/verification/telling_events.hpp"
 
 namespace dualdamp::scenarios {
 

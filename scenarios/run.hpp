@@ -13,7 +13,7 @@
 #include "core/provenance.hpp"
 #include "scenarios/results/table.hpp"
 #include "scenarios/scenario.hpp"
-#include "scenarios/verification.hpp"
+#include "scenarios/verification/verification.hpp"
 
 namespace dualdamp::scenarios {
 

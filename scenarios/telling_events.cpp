@@ -1,4 +1,4 @@
-#include "scenarios/telling_events.hpp"
+#include "scenarios/verification/telling_events.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "scenarios/verification.hpp"
+#include "scenarios/verification/verification.hpp"
 
 #include <algorithm>
 #include <cmath>

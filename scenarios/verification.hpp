@@ -4,9 +4,9 @@
 /// kind of steps does not confirm a result of the exact engine, the other kind computes it too, and one of both
 /// must agree. The reason: errors of many steps add up, and neither kind would repeat a fault of the exact engine.
 
-#include "scenarios/answer_comparison.hpp"
 #include "scenarios/results/answer.hpp"
 #include "scenarios/scenario.hpp"
+#include "scenarios/verification/answer_comparison.hpp"
 #include "sim/model.hpp"
 
 namespace dualdamp::scenarios {

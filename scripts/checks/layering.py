@@ -78,12 +78,13 @@ ROOMS = {
         "accuracy": [],
     },
     "scenarios": {
-        ".": ["format", "results", "measurements", "analyses", "sweep"],  # loads and runs; the list of analyses
+        ".": ["format", "results", "measurements", "analyses", "sweep", "verification"],  # loads and runs
         "format": [],
         "results": ["format"],
         "measurements": ["format"],
         "analyses": [".", "format", "results", "measurements"],
         "sweep": [".", "format", "results", "analyses"],
+        "verification": [".", "format", "results"],
     },
 }
 ANYWHERE = list(FOLDERS)

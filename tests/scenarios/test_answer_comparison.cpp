@@ -1,6 +1,6 @@
-/// Two answers to one question compared (`scenarios/answer_comparison.hpp`).
+/// Two answers to one question compared (`scenarios/verification/answer_comparison.hpp`).
 
-#include "scenarios/answer_comparison.hpp"
+#include "scenarios/verification/answer_comparison.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>

@@ -1,6 +1,6 @@
 /// Results computed again in another way (`numerics: {verify: true}`).
 
-#include "scenarios/verification.hpp"
+#include "scenarios/verification/verification.hpp"
 
 #include <algorithm>
 #include <catch2/catch.hpp>

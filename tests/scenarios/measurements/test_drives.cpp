@@ -9,7 +9,7 @@
 
 #include "core/random.hpp"
 #include "scenarios/run.hpp"
-#include "scenarios/verification.hpp"
+#include "scenarios/verification/verification.hpp"
 #include "sim/motion/simulate.hpp"
 #include "tests/scenarios/answers.hpp"
 #include "tests/scenarios/files.hpp"
