@@ -1,7 +1,7 @@
 #pragma once
 /// Executes the commands of the program. Results go to stdout or to files, messages to stderr.
 
-#include "cli/arguments.hpp"
+#include "cli/command_line/arguments.hpp"
 
 namespace dualdamp::cli {
 

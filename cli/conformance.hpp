@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "cli/arguments.hpp"
+#include "cli/command_line/arguments.hpp"
 
 namespace dualdamp::cli {
 

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "cli/option_text.hpp"
+#include "cli/command_line/option_text.hpp"
 #include "core/diagnostics.hpp"
 #include "scenarios/format/excitations.hpp"
 #include "scenarios/format/json_text.hpp"

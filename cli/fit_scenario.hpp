@@ -1,7 +1,7 @@
 #pragma once
 /// Translates the commands `fit` and `predict` to scenarios, so that checks, messages and results are the same.
 
-#include "cli/arguments.hpp"
+#include "cli/command_line/arguments.hpp"
 #include "scenarios/scenario.hpp"
 
 namespace dualdamp::cli {

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "cli/option_text.hpp"
+#include "cli/command_line/option_text.hpp"
 
 namespace dualdamp::cli {
 

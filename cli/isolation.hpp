@@ -2,7 +2,7 @@
 /// Executes a command against plugins that end the program: by a call of exit, or, in a child process, by a
 /// crash, a call of _exit or a call that does not return.
 
-#include "cli/arguments.hpp"
+#include "cli/command_line/arguments.hpp"
 
 namespace dualdamp::cli {
 

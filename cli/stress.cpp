@@ -3,7 +3,7 @@
 #include "bench/analyses.hpp"
 #include "bench/contest/contest.hpp"
 #include "bench/contest/export.hpp"
-#include "cli/option_text.hpp"
+#include "cli/command_line/option_text.hpp"
 #include "core/diagnostics.hpp"
 #include "scenarios/run.hpp"
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "cli/arguments.hpp"
+#include "cli/command_line/arguments.hpp"
 #include "scenarios/scenario.hpp"
 
 namespace dualdamp::cli {

@@ -1,4 +1,4 @@
-#include "cli/shared_options.hpp"
+#include "cli/command_line/shared_options.hpp"
 
 #include <CLI/CLI.hpp>
 #include <map>

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "cli/arguments.hpp"
+#include "cli/command_line/arguments.hpp"
 
 namespace CLI {
 class App;

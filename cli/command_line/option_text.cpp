@@ -1,4 +1,4 @@
-#include "cli/option_text.hpp"
+#include "cli/command_line/option_text.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "cli/arguments.hpp"
+#include "cli/command_line/arguments.hpp"
 
 #include <fmt/core.h>
 
@@ -8,8 +8,8 @@
 #include <sstream>
 #include <string_view>
 
-#include "cli/shared_options.hpp"
-#include "cli/usage_error.hpp"
+#include "cli/command_line/shared_options.hpp"
+#include "cli/command_line/usage_error.hpp"
 #include "core/build_info.hpp"
 #include "core/diagnostics.hpp"
 #include "core/numbers.hpp"

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "cli/arguments.hpp"
+#include "cli/command_line/arguments.hpp"
 #include "core/setting.hpp"
 #include "scenarios/scenario.hpp"
 
