@@ -27,13 +27,14 @@ double resolution_of(std::span<const double> signal, double range) {
 /// The height that a signal would still gain beyond a plateau, and how well the samples beside it tell this.
 struct Gain {
   double height = 0.0;
-  double error = 0.0;  ///< of one that follows from the slope, for noise of one
+  double error = 0.0;  ///< of one that follows from the slope
+  double most = 0.0;   ///< with errors of slope and curvature of two deviations each
 };
 
 /// The gain beyond the place where a signal reaches a plateau of `length` samples. `depths`: how far the samples
 /// before the plateau are below it, from the nearest on. A parabola through them gives the slope v at the plateau
-/// and the curvature c: v^2/(2 c), and v length/4 if it leaves as it came.
-Gain gain_by_parabola(std::span<const double> depths, std::size_t length) {
+/// and the curvature c: v^2/(2 c), and v length/4 if it leaves as it came. `noise`: of the depths.
+Gain gain_by_parabola(std::span<const double> depths, std::size_t length, double noise) {
   Eigen::MatrixXd columns(static_cast<Eigen::Index>(depths.size()), 3);
   for (Eigen::Index i = 0; i < columns.rows(); ++i) {
     const auto d = static_cast<double>(i + 1);
@@ -41,27 +42,33 @@ Gain gain_by_parabola(std::span<const double> depths, std::size_t length) {
   }
   const Eigen::VectorXd found =
       pivoted_least_squares(columns, Eigen::Map<const Eigen::VectorXd>(depths.data(), columns.rows()));
-  const Eigen::Matrix3d normal = columns.transpose() * columns;
+  const Eigen::Matrix3d inverse = (columns.transpose() * columns).inverse();
   const double by_slope = 0.25 * static_cast<double>(length);
-  Gain gain{0.0, by_slope * std::sqrt(normal.inverse()(1, 1))};
+  const double slope_error = noise * std::sqrt(inverse(1, 1));
+  const double curvature_error = 2.0 * noise * std::sqrt(inverse(2, 2));
+  const auto height = [by_slope](double slope, double curvature) {
+    if (!(slope > 0.0)) return 0.0;
+    return curvature > 0.0 ? std::min(by_slope * slope, 0.5 * slope * slope / curvature) : by_slope * slope;
+  };
   const double slope = found[1];
   const double curvature = 2.0 * found[2];
-  if (!(slope > 0.0)) return gain;
-  gain.height = by_slope * slope;
-  if (curvature > 0.0) gain.height = std::min(gain.height, 0.5 * slope * slope / curvature);
-  return gain;
+  constexpr double deviations = 2.0;
+  return {height(slope, curvature), by_slope * slope_error,
+          height(slope + deviations * slope_error, curvature - deviations * curvature_error)};
 }
 
 /// The least gain by parabolas through all `depths` and through the nearest ones alone, as few as tell it to
-/// `error` under this noise. A mass under a fast drive may turn around within the length of a long stick, and no
-/// parabola follows that; the last samples before the stick show that it arrives without speed.
-double lost_height(const std::vector<double>& depths, std::size_t length, double noise, double error) {
+/// an eighth of `least` under this noise, or that it is at most `least`. A mass under a fast drive may turn around
+/// within the length of a long stick, and no parabola follows that; the last samples before the stick show that it
+/// arrives without speed.
+double lost_height(const std::vector<double>& depths, std::size_t length, double noise, double least) {
+  constexpr double known = 0.125;
   constexpr std::size_t fewest = 3;
   if (depths.size() < fewest) return 0.0;
-  double height = gain_by_parabola(depths, length).height;
+  double height = gain_by_parabola(depths, length, noise).height;
   for (std::size_t count = fewest; count < depths.size(); count += count / 2) {
-    const Gain near = gain_by_parabola(std::span(depths).first(count), length);
-    if (noise * near.error <= error) height = std::min(height, near.height);
+    const Gain near = gain_by_parabola(std::span(depths).first(count), length, noise);
+    if (near.error <= known * least || near.most <= least) height = std::min(height, near.height);
   }
   return height;
 }
@@ -111,10 +118,9 @@ class Top {
 
   /// The smaller one of both sides. A record may begin or end on a plateau.
   [[nodiscard]] double height(std::size_t first, std::size_t end) const {
-    constexpr double known = 0.125;
     const std::size_t length = end - first;
     const auto beside = [&](std::size_t from, bool forwards) {
-      return lost_height(depths(from, forwards, length), length, rule_.noise, known * rule_.least);
+      return lost_height(depths(from, forwards, length), length, rule_.noise, rule_.least);
     };
     double least = range_;
     if (first > 0) least = std::min(least, beside(first, false));
