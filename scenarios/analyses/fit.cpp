@@ -139,11 +139,15 @@ std::unique_ptr<const Question> ask_fit(CheckedValues&& values) {
   std::vector<SetupFault> faults;
   FitQuestion::Setup setup = setup_of(values.analysis, values.system, values.excitation, values.model,
                                       values.initial_is_stated, values.files, faults);
-  for (const std::string key : {"data", "validate"})
-    refuse_other_drives(items_of(values.analysis, values.files, key), key, values.model, values.drive_start,
-                        sought_of(values.analysis, false).free, faults);
+  std::vector<DataItem> all;
+  for (const std::string key : {"data", "validate"}) {
+    std::vector<DataItem> items = items_of(values.analysis, values.files, key);
+    refuse_other_drives(items, key, values.model, values.drive_start, sought_of(values.analysis, false).free,
+                        faults);
+    std::ranges::move(items, std::back_inserter(all));
+  }
   refuse(faults);
-  std::vector<std::string> warnings = drive_warnings(values.model);
+  std::vector<std::string> warnings = drive_warnings(all, values.model);
   for (const DataFile& file : values.files)
     for (const std::string& warning : file.data.warnings) warnings.push_back(file.name + ": " + warning);
   std::ranges::move(setup.warnings, std::back_inserter(warnings));

@@ -13,6 +13,7 @@
 #include "core/numbers.hpp"
 #include "core/units.hpp"
 #include "friction_models/registry.hpp"
+#include "identify/experiments/finer_drive.hpp"
 #include "identify/statistics/noise_level.hpp"
 #include "scenarios/analyses/shared/record_drive.hpp"
 #include "scenarios/format/law_values.hpp"
@@ -201,9 +202,37 @@ void refuse_idle_drive(const std::vector<DataItem>& items, const sim::Model& mod
                                   (has_pairs ? ", and every reading has its own" : ", and no x-Y pairs")});
 }
 
-std::vector<std::string> drive_warnings(const sim::Model& model) {
+namespace {
+
+bool is_even(const std::vector<double>& times) {
+  constexpr double most = 0.01;  // of the distance of samples
+  const double width = times.back() / static_cast<double>(times.size() - 1);
+  for (std::size_t i = 1; i < times.size(); ++i)
+    if (std::abs(times[i] - times[i - 1] - width) > most * width) return false;
+  return true;
+}
+
+std::vector<std::string> spline_warnings(const sim::SampledSignal& samples) {
+  if (!is_even(samples.times())) return {};
+  const identify::SplineError error = identify::spline_error(samples.values());
+  // The mean of the error is 8/15 of that half way between samples: s^2 (1 - s)^2 has the mean 1/30.
+  const double mean = error.miss * 8.0 / 15.0;
+  constexpr double least = 1e-5;  // 22 samples in a period
+  if (!(mean > least) || !error.is_resolved()) return {};
+  return {
+      "cubics between the samples of the drive make it too small by " + core::percent(mean, 2) +
+      " on average, and the estimates may be wrong by as much or more: give the drive more samples, by a "
+      "band-limited interpolation; or state 'drive: y' or 'drive: force' for the data in place of 'excitation', "
+      "which puts samples between them"};
+}
+
+}  // namespace
+
+std::vector<std::string> drive_warnings(const std::vector<DataItem>& items, const sim::Model& model) {
   const auto& samples = model.excitation.samples;
-  if (!samples || samples->interpolation() != sim::Interpolation::linear) return {};
+  if (!samples || std::ranges::none_of(items, &DataItem::takes_drive_of_model)) return {};
+  if (samples->interpolation() == sim::Interpolation::cubic) return spline_warnings(*samples);
+  if (samples->interpolation() != sim::Interpolation::linear) return {};
   // The mean distance of a chord from a smooth curve is a twelfth of the second difference; noise also contributes
   // to it.
   const std::vector<double>& y = samples->values();
@@ -282,6 +311,13 @@ bool has_mass(const sim::Model& model, const std::vector<DataItem>& items, const
   return model.oscillator.mass > 0.0 || std::ranges::any_of(sought.free, is_mass);
 }
 
+/// Whether neither the pairs of an item nor the drive say at which frequency they were measured.
+bool lacks_frequency(const DataItem& item, double of_drive) {
+  const auto& pairs = item.data.record.pairs;
+  return pairs && std::isnan(of_drive) &&
+         std::ranges::any_of(pairs->pairs, [](const identify::Pair& pair) { return std::isnan(pair.omega); });
+}
+
 }  // namespace
 
 identify::Experiments experiments_from(const std::vector<DataItem>& items, const std::string& key,
@@ -310,6 +346,9 @@ identify::Experiments experiments_from(const std::vector<DataItem>& items, const
     std::string fault;
     identify::Experiments found = identify::experiments_of(items[i].data.record, options, fault);
     const std::string place = key + (items.size() > 1 ? "[" + std::to_string(i) + "]" : "");
+    if (!fault.empty() && lacks_frequency(items[i], options.frequency))
+      fault += ": " + items[i].words(core::Setting::frequency) + ", or " +
+               items[i].words(core::Setting::column, "omega", "NAME");
     if (!fault.empty()) faults.push_back({place, items[i].file + ": " + fault});
     if (std::string idle = idle_drive(items[i], model); !idle.empty()) faults.push_back({place, std::move(idle)});
     for (const std::size_t h : items[i].zeroed)

@@ -55,8 +55,9 @@ struct Sought {
 /// "coulomb + viscous_power"
 [[nodiscard]] std::string laws_text(const identify::Rig& rig);
 
-/// Warning about a drive that was sampled too coarsely for straight lines between its samples.
-[[nodiscard]] std::vector<std::string> drive_warnings(const sim::Model& model);
+/// Warning about a stated drive of histories that was sampled too coarsely for the straight lines or cubics between
+/// its samples.
+[[nodiscard]] std::vector<std::string> drive_warnings(const std::vector<DataItem>& items, const sim::Model& model);
 
 /// What is wrong with the statements of a fit.
 struct SetupFault {

@@ -10,6 +10,7 @@
 
 #include "core/numbers.hpp"
 #include "identify/experiments/drive_values.hpp"
+#include "identify/experiments/finer_drive.hpp"
 #include "identify/statistics/noise_level.hpp"
 #include "scenarios/analyses/shared/short_blows.hpp"
 #include "scenarios/format/excitations.hpp"
@@ -40,10 +41,10 @@ std::string other_clock(const History& history, const sim::Excitation& drive, do
   return begins + ", and the drive at t = " + seconds(start) + ": both must begin at the same time";
 }
 
-/// Times of the samples on the clock of the motion [s].
-std::vector<double> times_of(const History& history, std::size_t count) {
+/// Times of samples on the clock of the motion [s].
+std::vector<double> times_at(double rate, std::size_t count) {
   std::vector<double> times(count);
-  for (std::size_t i = 0; i < count; ++i) times[i] = static_cast<double>(i) / history.sample_rate;
+  for (std::size_t i = 0; i < count; ++i) times[i] = static_cast<double>(i) / rate;
   return times;
 }
 
@@ -62,7 +63,7 @@ Eigen::VectorXd centred(const std::vector<double>& values) {
 /// rms of the difference between the measured drive and that of the model, over the rms of the measured one.
 double difference(const sim::Model& model, const History& history, const std::vector<double>& measured,
                   bool phase_is_sought) {
-  const std::vector<double> times = times_of(history, measured.size());
+  const std::vector<double> times = times_at(history.sample_rate, measured.size());
   const Eigen::VectorXd here = centred(measured);
   Eigen::VectorXd there = centred(driven_by(model, history, times));
   if (phase_is_sought && model.excitation.is_harmonic()) {
@@ -182,11 +183,21 @@ RecordDrive drive_by(const std::string& column, std::shared_ptr<const sim::Sampl
           std::move(section)};
 }
 
-/// The drive from the samples of the history itself: those of a test among others, or of the part that was used.
+const std::vector<double>& samples_of(const History& history, const std::string& column) {
+  return column == "y" ? history.y : history.force;
+}
+
+/// The drive from the samples of the history itself: those of a test among others, or of the part that was used,
+/// or with others between them that a cubic spline needs (`finer_drive.hpp`).
 RecordDrive listed_drive(CheckedFile& file, const DataItem& item, const History& history,
                          const std::string& column) {
-  const std::vector<double>& values = column == "y" ? history.y : history.force;
-  std::vector<double> times = times_of(history, values.size());
+  std::vector<double> values = samples_of(history, column);
+  double rate = history.sample_rate;
+  if (std::optional<identify::FinerSamples> finer = identify::finer_samples(values)) {
+    values = std::move(finer->values);
+    rate *= finer->factor;
+  }
+  std::vector<double> times = times_at(rate, values.size());
   Json section = {{"type", column == "y" ? "base_table" : "force_table"},
                   {"times", times},
                   {"values", values},
@@ -201,16 +212,37 @@ RecordDrive listed_drive(CheckedFile& file, const DataItem& item, const History&
                             ": the text of the fitted scenario in the result names a file beside it, which is "
                             "written with fitted.yaml");
   }
-  return drive_by(column,
-                  std::make_shared<const sim::SampledSignal>(std::move(times), values, sim::Interpolation::cubic),
-                  std::move(section));
+  return drive_by(
+      column,
+      std::make_shared<const sim::SampledSignal>(std::move(times), std::move(values), sim::Interpolation::cubic),
+      std::move(section));
+}
+
+/// Whether a spline through the samples of the file would miss the drive between them.
+bool needs_more_samples(const History& history, const std::string& column) {
+  return identify::finer_samples(samples_of(history, column)).has_value();
+}
+
+/// Warns of samples that do not show the drive between them.
+void warn_of_coarse_samples(CheckedFile& file, const DataItem& item, const History& history,
+                            const std::string& column) {
+  constexpr double much = 0.01;
+  const identify::SplineError error = identify::spline_error(samples_of(history, column));
+  if (!(error.miss > much) || error.is_resolved()) return;
+  file.warnings.push_back(
+      item.file + ": the samples of " + column +
+      " do not show the drive between them: two ways to interpolate it " + "differ by " +
+      core::percent(error.miss, 2) +
+      " of the drive, and the drive itself may differ by more. A drive with jumps, with noise, or with less than five "
+      "samples in a period does so. The motion then holds what the model does not; a higher sample rate helps");
 }
 
 /// The drive of a history of several; its samples are those of its file, if it begins with the file.
 RecordDrive own_drive(CheckedFile& file, const DataItem& item, const std::string& place, const History& history,
                       const std::string& column) {
   const bool in_memory = file.data_place().texts.contains(item.file);
-  if (item.data.record.histories.size() > 1 || in_memory) return listed_drive(file, item, history, column);
+  if (item.data.record.histories.size() > 1 || in_memory || needs_more_samples(history, column))
+    return listed_drive(file, item, history, column);
   Json section = measured_section(item, column);
   const std::size_t warned = file.warnings.size();
   std::optional<identify::MeasuredSignal> signal = read_signal(file, place, section, column);
@@ -297,6 +329,7 @@ void take_recorded_drives(CheckedFile& file, bool is_open) {
     drives.resize(histories.size());
     for (std::size_t h = 0; h < histories.size(); ++h) {
       const std::string column = driving_column(stated, histories[h], is_open);
+      if (!column.empty()) warn_of_coarse_samples(file, item, histories[h], column);
       // A table in memory has no name by which a scenario could find it later.
       const bool alone = is_one && histories.size() == 1 && !file.data_place().texts.contains(item.file) &&
                          file.files[i].key == "data" && is_open &&
@@ -307,7 +340,8 @@ void take_recorded_drives(CheckedFile& file, bool is_open) {
         file.files[i].data.record.histories[h].force.clear();
       } else if (std::optional<RecordDrive> after = drive_after_blow(file, file.files[i], h, column)) {
         drives[h] = std::move(after);
-      } else if (!column.empty() && !(alone && take_as_excitation(file, item, histories[h], column))) {
+      } else if (!column.empty() && (!alone || needs_more_samples(histories[h], column) ||
+                                     !take_as_excitation(file, item, histories[h], column))) {
         drives[h] = own_drive(file, item, places[i], histories[h], column);
       }
     }
