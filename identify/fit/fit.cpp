@@ -250,14 +250,11 @@ void warn_of_search(const SearchResult& found, long most_work, Fit& result) {
         "not be the best. State values or bounds, or compare with a fit of more starts");
 }
 
-/// Lets a force at a speed be sought at the speed of the data, unless bounds hold for it. Of steady states the
-/// energy and the harmonic balance give starts for the force as it is.
-void seek_at_speed(const DataScale& scale, std::vector<FitParameter>& parameters) {
+/// Lets a force at a speed be sought at the speed of the data, unless bounds hold for it.
+void seek_at_speed(double speed, std::vector<FitParameter>& parameters) {
   for (FitParameter& parameter : parameters)
-    if (scale.friction > 0.0)
-      parameter.at_speed.reset();
-    else if (parameter.at_speed && parameter.at_speed->is_found() && !parameter.is_bounded())
-      parameter.at_speed->sought_at = scale.speed;
+    if (parameter.at_speed && parameter.at_speed->is_found() && !parameter.is_bounded())
+      parameter.at_speed->sought_at = speed;
 }
 
 /// Seeks the loads of contacts at the first samples, record after record.
@@ -279,7 +276,7 @@ Fit fit_rig(const Rig& rig, std::vector<FitParameter> parameters, const Experime
   Fit result;
   result.rig = rig;
   const DataScale scale = scale_of(rig, experiments);
-  seek_at_speed(scale, parameters);
+  seek_at_speed(scale.speed, parameters);
   const std::vector<double> sizes = sizes_of(parameters, scale);
   auto task = std::make_unique<FitTask>(rig, experiments, parameters, sizes, options.known);
   const FitProblem& problem = task->problem;

@@ -313,6 +313,21 @@ std::string coarse_samples_warning(const Signal& signal, const FittedSignal& fit
          signal.name + ")";
 }
 
+/// Few readings of a noise that is not known may pass every test although the fit is far from them. The share of
+/// the readings that amplitudes or extremes miss, if that is more than a measurement would; else zero.
+double unexplained_share(const Signal& signal, const FittedSignal& fitted, const Eigen::VectorXd& measured) {
+  constexpr double much = 0.05;
+  if (signal.is_sampled || signal.name != "x" || signal.noise > 0.0) return 0.0;
+  const double share = fitted.rms / std::sqrt(measured.squaredNorm() / static_cast<double>(measured.size()));
+  return share > much ? share : 0.0;
+}
+
+std::string unexplained_warning(double share, const std::string& subject) {
+  return subject + " are " + core::percent(share, 2) +
+         " of the readings: if these are more exact than that, the law is not that of the rig, a constant is wrong, or "
+         "the search missed the best fit (try more starts, bounds, stated values). State the noise (sigma_x)";
+}
+
 void warn_of_signal(const Experiments& experiments, bool robust, double zero_gain, const FittedSignal& fitted,
                     Fit& fit) {
   const Experiment& experiment = *experiments[fitted.rows.experiment];
@@ -343,6 +358,8 @@ void warn_of_signal(const Experiments& experiments, bool robust, double zero_gai
   const bool is_told = !signal.is_sampled && scatter == ScatterBesideStated::more;
   if ((!is_noise(fitted.p_value) && !is_told) || (is_far && is_slow(signal, fitted)))
     fit.warnings.push_back(not_noise_warning(experiment, experiments, fitted, fit, subject));
+  else if (const double share = unexplained_share(signal, fitted, measured); share > 0.0)
+    fit.warnings.push_back(unexplained_warning(share, subject));
 }
 
 }  // namespace

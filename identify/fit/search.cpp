@@ -121,7 +121,7 @@ std::optional<LeastSquaresFit> search_growing(std::vector<Eigen::VectorXd> point
 /// Steady states near the end of a search with their motion held as it was measured; nothing without steady states.
 std::vector<Eigen::VectorXd> balanced_starts(const std::vector<Eigen::VectorXd>& points, const FitProblem& problem,
                                              const SearchOptions& options) {
-  constexpr std::size_t tried = 6;
+  constexpr std::size_t tried = 40;
   constexpr std::size_t wanted = 1;
   const std::optional<FitProblem> balanced = problem.balanced();
   if (!balanced) return {};

@@ -66,6 +66,15 @@ identify::MeasuredRecord read_by_units(CheckedFile& file, const std::string& pat
   }
 }
 
+/// Whether a file that cannot be read with levels of a base motion can be read with levels of a force, Y [N].
+bool holds_force_levels(CheckedFile& file, const std::string& path, const std::string& name, const Json& section) {
+  try {
+    return read_by_units(file, path, name, section, true).record.pairs.has_value();
+  } catch (const core::InputError&) {
+    return false;
+  }
+}
+
 /// A text for each column that a data file may hold.
 Field for_columns(std::string name, std::string meaning, bool numbers_only) {
   Section columns;
@@ -251,7 +260,14 @@ void read_data_list(CheckedFile& file, const std::string& name) {
       if (is_checked) refuse_gross_faults(file, data, stated_frequency(file), data_name);
       file.files.push_back({data_name, name, i, std::move(data), {}, file.words()});
     } catch (const core::InputError& error) {
-      file.take_over(error.diagnostics());
+      if (!by_force && holds_force_levels(file, *path, data_name, list[i]))
+        file.complain(key,
+                      data_name +
+                          ": Y in a unit of a force is the amplitude of a driving force, and no force drives "
+                          "the steady states",
+                      file.words()(core::Setting::value, "excitation", "{type: force_harmonic}"));
+      else
+        file.take_over(error.diagnostics());
     }
   }
 }

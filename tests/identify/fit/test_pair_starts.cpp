@@ -174,3 +174,56 @@ TEST_CASE("fit: harmonic balance along measured amplitudes predicts them", "[ide
             Approx(experiments.front()->signals.front().measured[i]).epsilon(0.03));
   }
 }
+
+namespace {
+
+/// A rig of 5 mg at 800 Hz with drag, whose coefficient is the force at 1 m/s: 1600 times the force that the energy
+/// line shows.
+identify::Rig small_rig() {
+  constexpr double omega = 5026.548;
+  identify::Rig rig;
+  rig.known.oscillator = {.mass = 5e-6, .stiffness = 5e-6 * omega * omega, .damping = 1.508e-3};
+  rig.known.excitation.type = sim::ExcitationType::base_harmonic;
+  rig.laws.push_back({friction::find_law("viscous_power"), {{"coefficient", 0.06}, {"exponent", 2.0}}});
+  return rig;
+}
+
+/// Amplitudes and phases at these shares of the natural frequency and these levels [um].
+identify::Experiments states_of(const identify::Rig& rig, const std::vector<double>& shares,
+                                const std::vector<double>& micrometres) {
+  const double omega = sim::natural_frequency(rig.known.oscillator);
+  std::vector<std::pair<double, double>> levels;
+  for (const double share : shares)
+    for (const double level : micrometres) levels.emplace_back(1e-6 * level, share * omega);
+  std::string fault;
+  return identify::experiments_of(test::steady_states_of(rig, levels, 1.4e-8, 3e-3, 4), {.name = "pairs"}, fault);
+}
+
+}  // namespace
+
+TEST_CASE("fit: a force at a speed far from those of amplitudes and phases is found", "[identify][fit][pairs]") {
+  // The search had ended at a coefficient of zero, with residuals of 14 % of the readings.
+  const identify::Rig truth = small_rig();
+  const identify::Fit fit = fit_of(truth, states_of(truth, {0.97, 1.02}, {1.0, 1.7, 3.0}));
+  REQUIRE(fit.outcome.ok());
+  CHECK(fit.signals.front().rms < 3e-8);
+  CHECK(test::fitted(fit, "exponent").value == Approx(2.0).epsilon(0.1));
+  CHECK(test::fitted(fit, "coefficient").value == Approx(0.06).epsilon(0.4));
+}
+
+TEST_CASE("fit: residuals that no measurement has are told although few readings pass every test",
+          "[identify][fit][pairs]") {
+  // Coulomb friction leaves 13 % of the amplitudes under drag, in an order that looks like chance.
+  const identify::Experiments experiments = states_of(small_rig(), {0.97, 1.0, 1.03}, {1.0, 1.5, 2.2, 3.0});
+  identify::Rig rig = small_rig();
+  rig.laws.front() = {friction::find_law("coulomb"), {{"kinetic", 4e-5}}};
+  const auto tells = [](const identify::Fit& fit) {
+    return std::ranges::any_of(fit.warnings, [](const std::string& warning) {
+      return warning.find("of the readings: if these are more exact") != std::string::npos;
+    });
+  };
+  const identify::Fit wrong = fit_of(rig, experiments);
+  REQUIRE(wrong.outcome.ok());
+  CHECK(tells(wrong));
+  CHECK(!tells(fit_of(rig, states_of(rig, {0.97, 1.0, 1.03}, {1.0, 1.5, 2.2, 3.0}))));
+}

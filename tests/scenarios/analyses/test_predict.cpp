@@ -65,6 +65,31 @@ TEST_CASE("predict: steady states, of which nothing is free", "[scenarios][predi
   std::remove(file.c_str());
 }
 
+TEST_CASE("predict: what pairs lack is told with what states it", "[scenarios][predict]") {
+  const auto fault_of = [](const std::string& columns) -> std::string {
+    const std::string file = "predict_lacking.csv";
+    {
+      std::ofstream out(file);
+      out << columns << "\n4,27.27\n5,37.27\n6,47.27\n7,57.27\n";
+    }
+    std::string text;
+    try {
+      static_cast<void>(parse_scenario(
+          "schema: dualdamp/1\nsystem: {mass: 1 kg, stiffness: 1000 N/m, damping: 3 N.s/m, friction: {law: coulomb, "
+          "kinetic: 1 N}}\nanalysis: {type: predict, data: " +
+              file + "}\n",
+          "test.yaml"));
+    } catch (const core::InputError& error) {
+      text = error.what();
+    }
+    std::remove(file.c_str());
+    return text;
+  };
+  CHECK_THAT(fault_of("Y [mm],x [mm]"), Catch::Contains("forcing frequency") && Catch::Contains("omega"));
+  CHECK_THAT(fault_of("Y [N],x [mm]"),
+             Catch::Contains("amplitude of a driving force") && Catch::Contains("force_harmonic"));
+}
+
 TEST_CASE("predict: a drive that the file holds and the model lacks", "[scenarios][predict]") {
   const std::string file = "predict_driven.csv";
   {
