@@ -273,7 +273,7 @@ TEST_CASE("Parts of a matrix within a struct are columns, beside the sample rate
     CHECK(mentions(refusal([&] { return read_record(path, {.columns = {{"x", "rec.data(:,3)"}}}); }),
                    "beyond the last column"));
     CHECK(mentions(refusal([&] { return read_record(path, {.columns = {{"x", "other.data(:,1)"}}}); }),
-                   "holds no vector x"));
+                   "no vector with the name of a column"));
 
     Matlab beside("beside.mat", version);
     beside.add("y", second).add("Fs", {50.0}).add_struct_of_matrix("rec", table, 2, 100.0);
