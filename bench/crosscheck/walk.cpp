@@ -49,7 +49,13 @@ void take_samples(const sim::Interval& interval, double spacing, std::vector<sim
   }
 }
 
-/// A step of the smooth engine is short; an interval of the exact engine lasts from event to event.
+/// A step of the smooth engine is short; an interval of the exact engine lasts from event to event, and may be the
+/// whole walk.
+int pieces_of(const sim::Interval& interval, double spacing) {
+  constexpr double fewest = 8.0;
+  return static_cast<int>(std::clamp(std::ceil(interval.duration / spacing), fewest, double{walk_samples}));
+}
+
 void cut(const sim::Interval& interval, int count, std::vector<Piece>& pieces) {
   double before = std::abs(interval.at(0.0).v);
   for (int i = 1; i <= count; ++i) {
@@ -109,7 +115,6 @@ Walk walk(const sim::Model& model, const WalkOptions& options) {
   sim::EnergyAudit audit(model.oscillator);
   Extent size;
   const double spacing = options.duration / walk_samples;
-  const int pieces = engine->accuracy() > 0.0 ? 1 : 8;
   while (const sim::Interval* interval = engine->next(std::min(options.duration, options.until))) {
     if (options.with_energy) {
       audit.observe(*interval);
@@ -117,7 +122,7 @@ Walk walk(const sim::Model& model, const WalkOptions& options) {
       size.add(interval->at(interval->duration));
     }
     take_samples(*interval, spacing, result.samples);
-    cut(*interval, pieces, result.pieces);
+    cut(*interval, engine->accuracy() > 0.0 ? 1 : pieces_of(*interval, spacing), result.pieces);
     result.end = interval->end();
     if (interval->ending)
       result.events.push_back({interval->end(), *interval->ending, engine->position(), engine->velocity()});
