@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <utility>
 
 #include "core/constants.hpp"
@@ -60,9 +61,10 @@ bool is_same_place(const LeastSquaresFit& a, const LeastSquaresFit& b) {
 }
 
 /// The best of these points for `part`, after a few steps of a search; of those at one place the first, and none
-/// that is far worse than another one.
+/// that is far worse than another one. No more of them are tried when the problem has spent `most`.
 std::vector<Eigen::VectorXd> improved(std::vector<Eigen::VectorXd> points, std::size_t wanted,
-                                      const FitProblem& part, const SearchOptions& options) {
+                                      const FitProblem& part, const SearchOptions& options,
+                                      long most = std::numeric_limits<long>::max()) {
   constexpr int few = 8;
   constexpr double far_worse = 100.0;
   const WeightedSearch search(part, options);
@@ -70,6 +72,7 @@ std::vector<Eigen::VectorXd> improved(std::vector<Eigen::VectorXd> points, std::
   double least = infinity;
   std::vector<LeastSquaresFit> ends;
   for (const Eigen::VectorXd& q : points) {
+    if (part.spent() > most) break;
     LeastSquaresFit end = search.improve(q, rough, few);
     const auto is_there = [&](const LeastSquaresFit& other) { return is_same_place(other, end); };
     const bool has_motion = end.jacobian.rows() == part.readings().size();
@@ -118,14 +121,28 @@ std::optional<LeastSquaresFit> search_growing(std::vector<Eigen::VectorXd> point
   return search_whole(points, search, problem);
 }
 
-/// Steady states near the end of a search with their motion held as it was measured; nothing without steady states.
-std::vector<Eigen::VectorXd> balanced_starts(const std::vector<Eigen::VectorXd>& points, const FitProblem& problem,
-                                             const SearchOptions& options) {
-  constexpr std::size_t tried = 40;
+/// Steady states near the end of searches from the best of these points with their motion held as it was measured;
+/// nothing without steady states.
+std::vector<Eigen::VectorXd> balanced_starts(const std::vector<Eigen::VectorXd>& points, std::size_t tried,
+                                             const FitProblem& problem, const SearchOptions& options) {
   constexpr std::size_t wanted = 1;
+  constexpr long most_work = 10'000'000;  // seconds; a law without a memory takes a fortieth for 40 points
   const std::optional<FitProblem> balanced = problem.balanced();
   if (!balanced) return {};
-  return best_of(improved(points, tried, *balanced, options), WeightedSearch(*balanced, options), wanted);
+  return best_of(improved(points, tried, *balanced, options, problem.spent() + most_work),
+                 WeightedSearch(*balanced, options), wanted);
+}
+
+/// Whether steady states at `q` are far from the measured amplitudes.
+bool is_far_from_states(const FitProblem& problem, const Eigen::VectorXd& q) {
+  constexpr double far = 0.02;
+  Eigen::VectorXd outputs;
+  if (!problem.has_steady_states() || !problem.outputs(q, outputs)) return false;
+  const Eigen::VectorXd misses = problem.misses(outputs);
+  return std::ranges::any_of(problem.signals(), [&](const SignalRows& rows) {
+    return problem.experiment(rows).kind == ExperimentKind::steady_states && problem.signal(rows).name == "x" &&
+           problem.rms(misses, rows) > far * problem.rms(problem.measured(), rows);
+  });
 }
 
 /// Searches with the first parts of the motions. If two of them do not end at the same sum of squares and leave
@@ -150,10 +167,14 @@ std::optional<LeastSquaresFit> search_roughly(const std::vector<Eigen::VectorXd>
   if (options.scale.friction > 0.0 && std::ranges::find(starts, points.front()) == starts.end() &&
       std::isfinite(search.squares(points.front())))
     starts.push_back(points.front());
-  std::ranges::move(balanced_starts(points, problem, options), std::back_inserter(starts));
+  constexpr std::size_t tried = 6;
+  std::ranges::move(balanced_starts(points, tried, problem, options), std::back_inserter(starts));
   constexpr int few = 8;
   for (const Eigen::VectorXd& start : starts)
     take_better(search.improve(start, rough, starts.size() > 1 ? few : 100), search, problem, best);
+  if (best && is_far_from_states(problem, best->parameters))
+    for (const Eigen::VectorXd& start : balanced_starts(points, points.size(), problem, options))
+      take_better(search.improve(start, rough, few), search, problem, best);
   return best;
 }
 
