@@ -329,7 +329,6 @@ void take_recorded_drives(CheckedFile& file, bool is_open) {
     drives.resize(histories.size());
     for (std::size_t h = 0; h < histories.size(); ++h) {
       const std::string column = driving_column(stated, histories[h], is_open);
-      if (!column.empty()) warn_of_coarse_samples(file, item, histories[h], column);
       // A table in memory has no name by which a scenario could find it later.
       const bool alone = is_one && histories.size() == 1 && !file.data_place().texts.contains(item.file) &&
                          file.files[i].key == "data" && is_open &&
@@ -340,9 +339,11 @@ void take_recorded_drives(CheckedFile& file, bool is_open) {
         file.files[i].data.record.histories[h].force.clear();
       } else if (std::optional<RecordDrive> after = drive_after_blow(file, file.files[i], h, column)) {
         drives[h] = std::move(after);
-      } else if (!column.empty() && (!alone || needs_more_samples(histories[h], column) ||
-                                     !take_as_excitation(file, item, histories[h], column))) {
-        drives[h] = own_drive(file, item, places[i], histories[h], column);
+      } else if (!column.empty()) {
+        warn_of_coarse_samples(file, item, histories[h], column);
+        if (!alone || needs_more_samples(histories[h], column) ||
+            !take_as_excitation(file, item, histories[h], column))
+          drives[h] = own_drive(file, item, places[i], histories[h], column);
       }
     }
   }
