@@ -143,8 +143,8 @@ std::vector<std::string> loss_factor_warnings(const sim::Model& model) {
       "a constant loss factor is not causal: it describes steady vibrations, not motions in time"};
   if (!model.friction.empty() || !sim::is_linear(model.oscillator))
     result.emplace_back(
-        "the loss factor acts as a viscous damper eta k/w: it damps the harmonic of order n of this nonlinear "
-        "motion n times as much as a complex stiffness would");
+        "the loss factor acts as a viscous damper eta k/w: if the motion has a harmonic of order n, it is damped n "
+        "times as much as by a complex stiffness");
   return result;
 }
 

@@ -80,6 +80,15 @@ class Manners(Case):
         for line in (["mine.yaml"], ["stress", "mine.yaml"]):
             self.assertIn("'dualdamp run mine.yaml' runs a scenario file", self.run_program(*line, status=2).stderr)
 
+    def test_a_linear_motion_with_structural_damping_is_not_called_nonlinear(self):
+        self.write("tuned.yaml", "schema: dualdamp/1\n"
+                   "system: {mass: 10 kg, stiffness: 40 kN/m, damping: 0, loss_factor: 0.02, friction: {law: attached_mass, mass: 0.5 kg, stiffness: 1.8 kN/m}}\n"
+                   "excitation: {type: base_harmonic, amplitude: 1 mm}\n"
+                   "analysis: {type: frequency_response, frequencies: [9 Hz]}\n")
+        warnings = self.run_program("run", "tuned.yaml").stderr
+        self.assertIn("if the motion has a harmonic of order n", warnings)
+        self.assertNotIn("nonlinear", warnings)
+
     def test_the_help_has_no_words_of_the_library_that_parses_the_line(self):
         self.assertNotRegex(self.run_program("run", "--help").stdout, r"Excludes:\s+[^-\s]|FLOAT")
 
