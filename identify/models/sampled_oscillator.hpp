@@ -2,7 +2,8 @@
 /// The motion of  m x'' + c x' + k x + F0 sgn x' = k y(t) + f(t)  where y and f are known by samples, and its
 /// derivatives with respect to the parameters and the initial state.
 ///
-/// Between samples y and f are polynomials through the eight nearest samples. Under a polynomial the motion is a
+/// Between samples y and f are polynomials through the eight nearest samples; through the twelve nearest, if those
+/// of eight miss a smooth drive, as with fewer than 12 samples in its period. Under a polynomial the motion is a
 /// Taylor series that converges. It is summed to double precision: nothing is integrated in steps. Reversals, stops
 /// and releases are roots of that series. The exact engine (`sim/`) is not used here, because it takes harmonic
 /// drives and ramps alone, and a measured base motion is neither.

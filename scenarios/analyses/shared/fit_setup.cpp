@@ -13,7 +13,7 @@
 #include "core/numbers.hpp"
 #include "core/units.hpp"
 #include "friction_models/registry.hpp"
-#include "identify/experiments/finer_drive.hpp"
+#include "identify/statistics/finer_samples.hpp"
 #include "identify/statistics/noise_level.hpp"
 #include "scenarios/analyses/shared/record_drive.hpp"
 #include "scenarios/format/law_values.hpp"

@@ -10,7 +10,7 @@
 
 #include "core/numbers.hpp"
 #include "identify/experiments/drive_values.hpp"
-#include "identify/experiments/finer_drive.hpp"
+#include "identify/statistics/finer_samples.hpp"
 #include "identify/statistics/noise_level.hpp"
 #include "scenarios/analyses/shared/short_blows.hpp"
 #include "scenarios/format/excitations.hpp"
@@ -188,7 +188,7 @@ const std::vector<double>& samples_of(const History& history, const std::string&
 }
 
 /// The drive from the samples of the history itself: those of a test among others, or of the part that was used,
-/// or with others between them that a cubic spline needs (`finer_drive.hpp`).
+/// or with others between them that a cubic spline needs (`finer_samples.hpp`).
 RecordDrive listed_drive(CheckedFile& file, const DataItem& item, const History& history,
                          const std::string& column) {
   std::vector<double> values = samples_of(history, column);

@@ -22,7 +22,7 @@ void refuse_other_drives(const std::vector<DataItem>& items, const std::string& 
 /// without it y, the motion of the base, of a file without force, if nothing else drives histories (`is_open`). A
 /// single history makes its drive the excitation of the scenario. Each of several gets its own
 /// (`DataFile::drives`), and so does one that does not begin with its file, or whose samples are too far apart for
-/// cubics: it gets further samples between them (`identify/experiments/finer_drive.hpp`).
+/// cubics: it gets further samples between them (`identify/statistics/finer_samples.hpp`).
 void take_recorded_drives(CheckedFile& file, bool is_open);
 
 /// Whether the scenario states nothing that drives histories: no excitation, or the frequency of x-Y pairs alone.

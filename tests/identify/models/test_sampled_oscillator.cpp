@@ -62,6 +62,18 @@ TEST_CASE("A motion under a cubic spring and drag is that of another integrator"
   CHECK(off < 1e-5 * largest);
 }
 
+TEST_CASE("A motion under a smooth drive with seven samples in a period is that of another integrator") {
+  const auto swelling = [](double t) { return drive(t) * std::exp(-std::pow((t - 1.5) / 0.5, 2)); };
+  constexpr double few = 7.0 * 33.0 / (2.0 * std::numbers::pi);
+  const Motion motion = motion_of(rig(), swelling, 3.0, few);
+  History history = history_of(motion);
+  history.sample_rate = few;
+  Eigen::VectorXd x;
+  REQUIRE(SampledOscillator(history).run(parameters_of(rig()), {}, x, nullptr));
+  const Eigen::Map<const Eigen::VectorXd> true_x(motion.x.data(), x.size());
+  CHECK((x - true_x).lpNorm<Eigen::Infinity>() < 3e-5 * true_x.lpNorm<Eigen::Infinity>());
+}
+
 TEST_CASE("Derivatives beside forces that act are those of differences") {
   const Motion motion = motion_of(rig(), drive, 1.5, rate);
   const History history = history_of(motion);

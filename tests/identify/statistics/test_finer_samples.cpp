@@ -1,4 +1,4 @@
-#include "identify/experiments/finer_drive.hpp"
+#include "identify/statistics/finer_samples.hpp"
 
 #include <algorithm>
 #include <catch2/catch.hpp>

@@ -1,6 +1,5 @@
-#include "identify/experiments/finer_drive.hpp"
+#include "identify/statistics/finer_samples.hpp"
 
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <numeric>
@@ -12,34 +11,6 @@ namespace dualdamp::identify {
 
 namespace {
 
-/// Value of a polynomial through `Nodes` neighbouring samples, at a share of the interval in their middle.
-template <std::size_t Nodes>
-class MiddlePolynomial {
- public:
-  static constexpr std::size_t before = Nodes / 2 - 1;  ///< samples before the first one of the interval
-  static constexpr std::size_t after = Nodes / 2;
-
-  explicit MiddlePolynomial(double share) {
-    const double at = static_cast<double>(before) + share;
-    for (std::size_t i = 0; i < Nodes; ++i) {
-      weights_[i] = 1.0;
-      const auto own = static_cast<double>(i);
-      for (std::size_t j = 0; j < Nodes; ++j)
-        if (j != i) weights_[i] *= (at - static_cast<double>(j)) / (own - static_cast<double>(j));
-    }
-  }
-
-  /// Between samples `i` and `i` + 1. i >= before, and i + after is a sample.
-  [[nodiscard]] double between(const std::vector<double>& samples, std::size_t i) const {
-    const double* first = samples.data() + (i - before);
-    return std::inner_product(weights_.begin(), weights_.end(), first, 0.0);
-  }
-
- private:
-  std::array<double, Nodes> weights_{};
-};
-
-using Wide = MiddlePolynomial<12>;
 using Narrow = MiddlePolynomial<8>;
 
 sim::SampledSignal spline_through(const std::vector<double>& samples) {
@@ -70,12 +41,12 @@ SplineError spline_error(const std::vector<double>& samples) {
   if (!(size > 0.0)) return {};
   const sim::SampledSignal spline = spline_through(samples);
   constexpr double half = 0.5;
-  const Wide wide(half);
+  const WidePolynomial wide(half);
   const Narrow narrow(half);
   double miss = 0.0;
   double disagreement = 0.0;
   double count = 0.0;
-  for (std::size_t i = Wide::before; i + Wide::after < samples.size(); ++i) {
+  for (std::size_t i = WidePolynomial::before; i + WidePolynomial::after < samples.size(); ++i) {
     const double value = wide.between(samples, i);
     const double by_spline = value_at(spline.piece(static_cast<long>(i)), half) - value;
     const double by_narrow = narrow.between(samples, i) - value;
@@ -93,7 +64,7 @@ std::optional<FinerSamples> finer_samples(const std::vector<double>& samples) {
   constexpr double of_halves = 16.0;  // the error of the spline falls with the fourth power of the distance
   FinerSamples finer{.factor = error.miss > of_halves * least ? 4 : 2, .values = {}};
   std::vector<double> shares;
-  std::vector<Wide> polynomials;
+  std::vector<WidePolynomial> polynomials;
   for (int part = 1; part < finer.factor; ++part) {
     shares.push_back(static_cast<double>(part) / static_cast<double>(finer.factor));
     polynomials.emplace_back(shares.back());
@@ -102,7 +73,7 @@ std::optional<FinerSamples> finer_samples(const std::vector<double>& samples) {
   finer.values.reserve(static_cast<std::size_t>(finer.factor) * samples.size());
   for (std::size_t i = 0; i + 1 < samples.size(); ++i) {
     finer.values.push_back(samples[i]);
-    const bool is_inside = i >= Wide::before && i + Wide::after < samples.size();
+    const bool is_inside = i >= WidePolynomial::before && i + WidePolynomial::after < samples.size();
     for (std::size_t part = 0; part < shares.size(); ++part)
       finer.values.push_back(is_inside ? polynomials[part].between(samples, i)
                                        : value_at(spline.piece(static_cast<long>(i)), shares[part]));
