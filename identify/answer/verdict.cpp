@@ -58,6 +58,14 @@ std::string what_would_test(const Ledger& ledger) {
          ledger.entries.front().reason + ")";
 }
 
+/// With what to test friction over speed where an answer rests on it untested; empty otherwise.
+std::string what_would_test_friction(const Ledger& ledger) {
+  const LedgerEntry& entry = ledger.entry(Assumption::friction_velocity);
+  if (ledger.data.empty() || entry.standing != Standing::untested) return {};
+  const std::string means = means_to_show(entry.assumption, ledger.recorded);
+  return means.empty() ? "" : "; what would test " + std::string(name_of(entry.assumption)) + ": " + means;
+}
+
 std::string with_interval(double value, const std::optional<ParameterIntervals>& intervals,
                           Interval ParameterIntervals::* member, const std::string& unit) {
   std::string text = four_digits(value) + unit;
@@ -234,6 +242,7 @@ std::string why_preferred(const Identification& all) {
     text += ", and of " + std::to_string(rivals) + " such estimates its intervals are the narrowest";
   const std::vector<std::string> untested = names_of(all.ledger, Standing::untested);
   if (!all.ledger.data.empty() && !untested.empty()) text += "; untested: " + core::joined(untested, ", ");
+  text += what_would_test_friction(all.ledger);
   if (all.estimates[*all.answer].laws && all.ledger.violates_law())
     text += "; it is a range over laws, and what would narrow it: " + what_would_help(all.ledger);
   return text;

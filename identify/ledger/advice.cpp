@@ -93,6 +93,8 @@ bool has_times(const Recorded& recorded) { return recorded.times; }
 bool has_sweeps(const Recorded& recorded) { return recorded.sweeps; }
 bool has_drive(const Recorded& recorded) { return recorded.drive; }
 bool has_directions(const Recorded& recorded) { return recorded.histories || recorded.free; }
+bool is_not_free(const Recorded& recorded) { return !recorded.free; }
+bool is_not_driven(const Recorded& recorded) { return !recorded.histories || recorded.free; }
 bool has_second_sensor(const Recorded& recorded) { return recorded.second_sensor; }
 
 using enum Assumption;
@@ -111,7 +113,11 @@ constexpr std::array all_means = {
     Means{drive, "the history of the drive", has_drive},
     Means{stationarity, "repeated sweeps with their labels", has_sweeps},
     Means{stationarity, "a history", has_history},
-    Means{friction_velocity, "more levels, further apart", has_history},
+    Means{friction_velocity, "more levels, further apart", [](const Recorded& r) { return r.histories || r.free; }},
+    Means{friction_velocity,
+          "free vibrations of several sizes, after blows or releases, the largest twice the smallest or more",
+          is_not_free},
+    Means{friction_velocity, "records under drives of several sizes", is_not_driven},
     Means{friction_velocity, "a history", has_history},
     Means{friction_displacement, "phases", has_phases},
     Means{friction_displacement, "a second frequency", has_frequencies},
@@ -185,11 +191,16 @@ Recorded recorded_in(const Record& record) {
   return recorded;
 }
 
-std::string would_show(Assumption assumption, const Recorded& recorded) {
+std::string means_to_show(Assumption assumption, const Recorded& recorded) {
   std::vector<std::string> lacking;
   for (const Means& means : all_means)
     if (means.assumption == assumption && !means.is_there(recorded)) lacking.emplace_back(means.name);
-  return lacking.empty() ? "" : "; " + core::joined(lacking, " or ") + " would show it";
+  return core::joined(lacking, " or ");
+}
+
+std::string would_show(Assumption assumption, const Recorded& recorded) {
+  const std::string means = means_to_show(assumption, recorded);
+  return means.empty() ? "" : "; " + means + " would show it";
 }
 
 std::vector<const LedgerEntry*> harmless_beside(const LedgerEntry& violated, const Ledger& ledger) {

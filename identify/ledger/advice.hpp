@@ -18,7 +18,10 @@ namespace dualdamp::identify {
 /// For every departure that was found, and for everything that may be its cause.
 [[nodiscard]] std::string what_would_help(const Ledger& ledger);
 
-/// "; phases or a history would show it": what the record lacks to test an assumption; empty if it lacks nothing.
+/// "phases or a history": what the record lacks to test an assumption; empty if it lacks nothing.
+[[nodiscard]] std::string means_to_show(Assumption assumption, const Recorded& recorded);
+
+/// "; phases or a history would show it"; empty if the record lacks nothing.
 [[nodiscard]] std::string would_show(Assumption assumption, const Recorded& recorded);
 
 }  // namespace dualdamp::identify

@@ -38,6 +38,23 @@ TEST_CASE("Advice names nothing that the record has already") {
   CHECK(would_show(symmetry, {.states = true}) == "; a history or signed extremes would show it");
 }
 
+TEST_CASE("Where the range of speeds does not show friction over speed, another size of motion is advised") {
+  using enum Assumption;
+  const Recorded struck{.histories = true, .free = true, .times = true};
+  CHECK(mentions(would_show(friction_velocity, struck), "free vibrations of several sizes"));
+  CHECK(mentions(would_show(friction_velocity, {.free = true}), "free vibrations of several sizes"));
+  CHECK(mentions(would_show(friction_velocity, {.histories = true, .drive = true}), "drives of several sizes"));
+  CHECK(mentions(would_show(friction_velocity, {.states = true}), "more levels, further apart"));
+  // The answer that rests on it says so.
+  Ledger tested = ledger({});
+  tested.recorded = struck;
+  tested.joint = estimate("joint_fit", 0.1, 4.0, 0.1);
+  const auto reason = [&] { return concluded({*tested.joint}, tested).reason; };
+  CHECK_FALSE(mentions(reason(), "what would test"));
+  tested.entry(friction_velocity).standing = Standing::untested;
+  CHECK(mentions(reason(), "what would test friction_velocity: free vibrations of several sizes"));
+}
+
 TEST_CASE("Advice names a remedy for everything that explains a departure as well, harmful or not") {
   using enum Assumption;
   const auto advice = [](const Ledger& tested) {
