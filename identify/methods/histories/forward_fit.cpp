@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 #include <optional>
 #include <utility>
 
+#include "core/constants.hpp"
 #include "identify/methods/decays/free_decay.hpp"
 #include "identify/methods/histories/acceleration_velocity_displacement.hpp"
 #include "identify/models/force_parameters.hpp"
@@ -180,6 +182,20 @@ std::optional<Record> large_motion(const std::vector<ForwardTest>& tests, double
   return shorter ? std::optional(std::move(record)) : std::nullopt;
 }
 
+/// Whether a free vibration comes to rest within a few half swings. `share`: of the first swing, that friction
+/// holds.
+bool stops_soon(double zeta, double share) {
+  constexpr int few = 10;
+  if (zeta >= 1.0) return true;
+  const double decay = std::exp(-std::numbers::pi * zeta / std::sqrt(1.0 - zeta * zeta));
+  double swing = 1.0;
+  for (int i = 0; i < few; ++i) {
+    swing = decay * swing - share * (1.0 + decay);
+    if (swing < share) return true;
+  }
+  return false;
+}
+
 /// Why there is nothing to fit; empty otherwise.
 std::string fault_of_tests(const std::vector<ForwardTest>& tests, const KnownConstants& constants) {
   constexpr std::size_t most_samples = 300'000;  // each step of the fit goes through all of them
@@ -241,20 +257,44 @@ void ForwardFit::search(const Record& record, const KnownConstants& constants, c
 void ForwardFit::search_further(LeastSquaresProblem problem, const std::vector<Eigen::VectorXd>& starts) {
   if (!found_.outcome.ok()) return;
   const ForceParameters force = layout_->force(found_.parameters);
-  // A motion of few half swings: the place where it stops tells F0, and each number of half swings has a minimum.
+  // A motion of few half swings: the place where it stops tells F0, and each number of half swings has a minimum,
+  // with more damping and less friction or the other way round.
   constexpr double heavy = 0.25;
   const double zeta = force.c / critical_damping(force.m, force.k);
   const double share = force.F0 / (force.k * layout_->length());
   const bool all_free =
       std::ranges::none_of(tests_, [](const ForwardTest& test) { return test.history->has_drive(); });
-  const bool is_short = zeta > heavy || (all_free && share > 0.5 * heavy);
+  const bool is_short = zeta > heavy || (all_free && stops_soon(zeta, share));
   const bool without_friction = found_.parameters[1] <= problem.low[1];
   const std::size_t count = is_short ? 6 : without_friction ? 2 : 0;
-  for (std::size_t i = 0; i < std::min(count, starts.size()); ++i) {
-    problem.start = starts[i];
+  std::vector<Eigen::VectorXd> more(starts.begin(),
+                                    starts.begin() + static_cast<std::ptrdiff_t>(std::min(count, starts.size())));
+  if (is_short && all_free) std::ranges::copy(starts_beside(found_.parameters), std::back_inserter(more));
+  for (const Eigen::VectorXd& start : more) {
+    problem.start = start;
     LeastSquaresFit other = fit(problem);
     if (other.outcome.ok() && other.sum_of_squares < found_.sum_of_squares) found_ = std::move(other);
   }
+}
+
+std::vector<Eigen::VectorXd> ForwardFit::starts_beside(const Eigen::VectorXd& found) const {
+  const double unit = layout_->force(found).k * layout_->length() / layout_->shared()[1].scale;
+  std::vector<Eigen::VectorXd> list;
+  Eigen::VectorXd r;
+  for (const double share : {0.01, 0.02, 0.03, 0.045, 0.07, 0.1, 0.15}) {
+    double least = core::infinity;
+    Eigen::VectorXd best;
+    for (const double damping : {0.7, 0.8, 0.85, 0.9, 0.95, 1.0, 1.1, 1.25}) {
+      Eigen::VectorXd p = found;
+      p[0] *= damping;
+      p[1] = share * unit;
+      if (!residuals_->evaluate(p, r, nullptr) || !(r.squaredNorm() < least)) continue;
+      least = r.squaredNorm();
+      best = std::move(p);
+    }
+    if (best.size() > 0) list.push_back(std::move(best));
+  }
+  return list;
 }
 
 LeastSquaresProblem ForwardFit::set_up(const KnownConstants& constants, const ForceParameters& start) {

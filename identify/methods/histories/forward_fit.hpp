@@ -153,6 +153,10 @@ class ForwardFit {
   /// where the fit ended without Coulomb friction.
   void search_further(LeastSquaresProblem problem, const std::vector<Eigen::VectorXd>& starts);
 
+  /// Starting points with several friction forces, each with the damping that brings it nearest, from the initial
+  /// states of a fit.
+  [[nodiscard]] std::vector<Eigen::VectorXd> starts_beside(const Eigen::VectorXd& found) const;
+
   std::string problem_;
   std::vector<ForwardTest> tests_;
   std::unique_ptr<ForwardLayout> layout_;
