@@ -93,7 +93,8 @@ struct History {
   /// For messages: what gaps in the times have left out; why it gives no x-Y pair. Empty: nothing, or not asked.
   std::string gaps = {};
   std::string no_pair = {};
-  bool is_clipped = false;  ///< samples at the end of a sensor's range were found, and warned of
+  bool is_clipped = false;   ///< samples at the end of a sensor's range were found, and warned of
+  bool begins_free = false;  ///< a measured blow has ended: nothing pushes the mass from the first sample on
 
   /// A drive was measured; a history without one is of a free vibration, or of a drive that the constants state.
   [[nodiscard]] bool has_drive() const { return !y.empty() || !force.empty(); }

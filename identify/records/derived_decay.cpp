@@ -387,8 +387,8 @@ class DecayReader {
     if (begin > 0)
       result.warnings.push_back("the free vibration is taken from the end of its largest swing on, t = " +
                                 core::format_number(result.record.times[begin], 4) + " s");
-    // A blow may push the mass until the first extreme.
-    result.first = std::max(result.first, sample_of(result, begin));
+    // A blow that was not measured may push the mass until the first extreme.
+    if (begin > 0 || !history_.begins_free) result.first = std::max(result.first, sample_of(result, begin));
     cut(result, begin, end);
     return {};
   }

@@ -175,6 +175,7 @@ History part_of(const History& history, const FreeVibration& part, std::string& 
   History free = history;
   free.force.clear();
   kept = keep_free_motion(free, part.first, part.last);
+  free.begins_free = true;
   return free;
 }
 
