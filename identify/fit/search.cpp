@@ -138,10 +138,11 @@ bool is_far_from_states(const FitProblem& problem, const Eigen::VectorXd& q) {
   constexpr double far = 0.02;
   Eigen::VectorXd outputs;
   if (!problem.has_steady_states() || !problem.outputs(q, outputs)) return false;
-  const Eigen::VectorXd misses = problem.misses(outputs);
-  return std::ranges::any_of(problem.signals(), [&](const SignalRows& rows) {
-    return problem.experiment(rows).kind == ExperimentKind::steady_states && problem.signal(rows).name == "x" &&
-           problem.rms(misses, rows) > far * problem.rms(problem.measured(), rows);
+  const FitReadings& readings = problem.readings();
+  const Eigen::VectorXd misses = readings.misses(outputs);
+  return std::ranges::any_of(readings.signals(), [&](const SignalRows& rows) {
+    return readings.experiment(rows).kind == ExperimentKind::steady_states && readings.signal(rows).name == "x" &&
+           readings.rms(misses, rows) > far * readings.rms(readings.measured(), rows);
   });
 }
 
