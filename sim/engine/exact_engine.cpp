@@ -380,7 +380,7 @@ const Interval* ExactEngine::step(double left, bool to_period_end) {
   if (end.found) {
     const Ending ending = watches_[static_cast<std::size_t>(end.guard)].ending;
     if (const auto* guard = std::get_if<LawGuard>(&ending)) changed_law_ = guard->law;
-    interval_->ending = act(ending, stands && begin.v == 0.0);
+    interval_->ending = act(ending, (at_once || stands) && begin.v == 0.0);
   } else if (by_schedule) {
     interval_->ending = act_on_schedule(due);
   }

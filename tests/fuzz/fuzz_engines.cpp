@@ -50,7 +50,7 @@ bool is_suspect(const sim::Model& model, double duration) {
 }
 
 void require_steady(const sim::Model& model) {
-  const sim::SteadyState state = sim::steady_state(model, {.max_periods = 100});
+  const sim::SteadyState state = sim::steady_state(model, {.max_periods = 100, .most_work = most_work});
   require_reason(state.outcome);
   if (!state.outcome.ok()) return;
   for (const double value : {state.peak, state.trough, state.amplitude, state.fundamental, state.period,

@@ -321,6 +321,32 @@ TEST_CASE("A stiff bond at its limit that the mass relieves before it stretches 
   }
 }
 
+TEST_CASE("A mass that comes to rest on stiff contacts, with no force beyond rounding, goes the way of its jerk",
+          "[contacts]") {
+  // At t = 1.912197 s, after 16,600 events, all contacts stick. The sum of forces, within rounding, pointed in the
+  // direction of a slip that takes no time.
+  sim::Model model;
+  model.oscillator = {.mass = 776.7553416653757, .stiffness = 32190205.64196484, .damping = 101.17306020097054};
+  model.friction = {
+      test::law("contact_compliance", {{"kinetic", 65.14695308531381},
+                                       {"contact_stiffness", 118797530275453.58},
+                                       {"load_gradient", 0.9026503499738614}}),
+      test::law("contact_compliance", {{"kinetic", 1.9100548862219504},
+                                       {"static", 9.53241540777489},
+                                       {"contact_stiffness", 3066066223.725392}}),
+      test::law("contact_compliance", {{"kinetic", 4647770.021987614}, {"contact_stiffness", 245619412598.4142}})};
+  model.excitation = {.type = sim::ExcitationType::base_harmonic,
+                      .amplitude = 0.04644284130635965,
+                      .frequency = 0.21738849522211742,
+                      .phase = 2.268952420802238};
+  model.excitation.harmonics = {{3, 0.0006928329502128752, 3.0511975518590697}};
+  model.initial = {.position = 0.04335789458443854, .velocity = 30.358506398540896};
+  const sim::History history = sim::simulate(model, {.duration = 2.6});
+  INFO(history.outcome.reason);
+  CHECK(history.outcome.ok());
+  CHECK(history.final.t == Approx(2.6));
+}
+
 TEST_CASE("A contact too stiff for double precision is refused, with a stiffness that would do", "[contacts]") {
   // Of the standard system: a spring of 1e17 N/m is stretched by 2e-17 m at 0.2 m.
   const auto state = [](double stiffness, SolverKind kind) {
