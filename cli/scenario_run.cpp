@@ -18,6 +18,7 @@
 #include "cli/command_line/option_text.hpp"
 #include "cli/guarded.hpp"
 #include "cli/interrupt.hpp"
+#include "cli/isolation.hpp"
 #include "cli/print.hpp"
 #include "cli/report/result_directory.hpp"
 #include "core/cancellation.hpp"

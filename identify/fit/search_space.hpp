@@ -41,6 +41,7 @@ class SearchSpace {
 
   [[nodiscard]] const std::vector<FitParameter>& parameters() const { return parameters_; }
   /// The coordinate of parameter `i`.
+  [[nodiscard]] const SearchCoordinate& operator[](std::size_t i) const { return coordinates_[i]; }
   [[nodiscard]] const SearchCoordinate& operator[](Eigen::Index i) const {
     return coordinates_[static_cast<std::size_t>(i)];
   }
