@@ -21,7 +21,6 @@ struct SignalRows {
 
 class FitReadings {
  public:
-  FitReadings() = default;
   /// `holds_mass`: a law can make the mass stick; readings at which it was stuck then do not count. The experiments
   /// must outlive this.
   FitReadings(std::vector<const Experiment*> experiments, bool holds_mass);

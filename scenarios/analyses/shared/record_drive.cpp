@@ -231,8 +231,7 @@ void warn_of_coarse_samples(CheckedFile& file, const DataItem& item, const Histo
   if (!(error.miss > much) || error.is_resolved()) return;
   file.warnings.push_back(
       item.file + ": the samples of " + column +
-      " do not show the drive between them: two ways to interpolate it " + "differ by " +
-      core::percent(error.miss, 2) +
+      " do not show the drive between them: two ways to interpolate it differ by " + core::percent(error.miss, 2) +
       " of the drive, and the drive itself may differ by more. A drive with jumps, with noise, or with less than five "
       "samples in a period does so. The motion then holds what the model does not; a higher sample rate helps");
 }
