@@ -38,6 +38,7 @@ std::string data_of(const std::vector<std::string>& files, const RecordOptions& 
       if (!map.entries.empty()) item += std::string(", ") + map.key + ": " + map_of(map.entries);
     if (!command.decimal.empty()) item += ", decimal: " + in_quotes(command.decimal);
     if (command.no_header) item += ", no_header: true";
+    if (!command.sample_rate.empty()) item += ", sample_rate: " + in_quotes(command.sample_rate);
     if (command.loop) item += ", loop: true";
     if (!command.drive.empty()) item += ", drive: " + command.drive;
     for (const std::string& sigma : command.sigmas) {

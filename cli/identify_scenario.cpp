@@ -13,6 +13,7 @@ void set_file_keys(const FileOptions& command, scenarios::LoadOptions& options) 
   if (!command.decimal.empty())
     options.set.push_back({"analysis.decimal=" + in_quotes(command.decimal), "--decimal"});
   if (command.no_header) options.set.push_back({"analysis.no_header=true", "--no-header"});
+  set_keys({{"analysis.sample_rate", command.sample_rate, "--sample-rate"}}, options);
   for (const MapOption& map : map_options(command))
     for (const std::string& entry : map.entries) {
       const auto [name, value] = split_at_equals(entry);

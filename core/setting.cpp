@@ -17,6 +17,8 @@ std::string key_of_setting(Setting setting, std::string_view name, std::string_v
       return "decimal: '" + text + "'";
     case Setting::no_header:
       return "no_header: true";
+    case Setting::sample_rate:
+      return "sample_rate: " + text;
     case Setting::drive:
       return "'drive: " + key + "' beside 'file'";
     case Setting::loop:

@@ -89,6 +89,7 @@ struct FileOptions {
   std::vector<std::string> scales;        ///< x=2.5 mm/V
   std::string decimal;
   bool no_header = false;
+  std::string sample_rate;  ///< of a file without times
 };
 
 /// What `identify` and `next` take of a data file and its rig.

@@ -40,8 +40,11 @@ std::string in_quotes(const std::string& text) {
 std::string option_of_setting(core::Setting setting, std::string_view name, std::string_view value) {
   const std::string key(name);
   const std::string text(value);
-  const bool needs_quotes = text.find_first_of(" {}[]()$*") != std::string::npos && !text.starts_with('\'');
-  const std::string pair = key + "=" + (needs_quotes ? "'" + text + "'" : text);
+  const auto quoted = [](const std::string& word) {
+    const bool needs_quotes = word.find_first_of(" {}[]()$*") != std::string::npos && !word.starts_with('\'');
+    return needs_quotes ? "'" + word + "'" : word;
+  };
+  const std::string pair = key + "=" + quoted(text);
   switch (setting) {
     case core::Setting::unit:
       return "--unit " + pair;
@@ -53,6 +56,8 @@ std::string option_of_setting(core::Setting setting, std::string_view name, std:
       return "--decimal " + text;
     case core::Setting::no_header:
       return "--no-header";
+    case core::Setting::sample_rate:
+      return "--sample-rate " + quoted(text);
     case core::Setting::drive:
       return "--drive " + key;
     case core::Setting::loop:

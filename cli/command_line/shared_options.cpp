@@ -70,6 +70,9 @@ void add_file_options(CLI::App& command, FileOptions& options) {
       ->type_name("MARK");
   command.add_flag("--no-header", options.no_header,
                    "The CSV file begins with numbers; --column t=1 --column x=2 say which column is which");
+  command
+      .add_option("--sample-rate", options.sample_rate, "Sample rate of a file that has no times, such as '1 kHz'")
+      ->type_name("QUANTITY");
   command.footer(
       "Units are those of the file (x [mm], x (mm), x_mm, or a row of units below the names), else those of "
       "--unit, else\n"

@@ -102,6 +102,13 @@ double ColumnFactors::refuse(const core::Diagnostic& where, std::string message,
   return 1.0;
 }
 
+std::string ColumnFactors::scale_of_voltage(const KnownColumn& known, const std::string& unit) const {
+  if (!core::unit_factor(unit, "V", options_.coordinate).value) return {};
+  return "; a voltage of a sensor needs a scale, as " +
+         options_.words(core::Setting::scale, known.name,
+                        "2.5 " + core::unit_for(options_.coordinate, known.unit) + "/V");
+}
+
 double ColumnFactors::factor_of(KnownColumn known, const std::string& stated, const core::Diagnostic& where) {
   const std::string name(known.name);
   if (options_.force_levels && name == "Y") known.unit = "N";
@@ -135,7 +142,7 @@ double ColumnFactors::factor_of(KnownColumn known, const std::string& stated, co
                     (known.unit == "N" && name == "Y" ? ", the amplitude of the force" : "") + ": " + factor.fault,
                 core::describe_dimension(known.unit, options_.coordinate) + "; in the file as '" + name +
                     " [unit]', or as " + options_.words(core::Setting::unit, name, "UNIT") +
-                    other_reading(known, unit, options_.coordinate) +
+                    scale_of_voltage(known, unit) + other_reading(known, unit, options_.coordinate) +
                     (options_.coordinate_reason.empty() ? "" : "; " + options_.coordinate_reason),
                 factor.suggestion);
 }

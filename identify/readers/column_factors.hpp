@@ -46,6 +46,8 @@ class ColumnFactors {
   ColumnUnits take_units();
 
  private:
+  /// What a voltage needs; empty for other units.
+  [[nodiscard]] std::string scale_of_voltage(const KnownColumn& known, const std::string& unit) const;
   void assume(const std::string& name, const std::string& unit);
   double scaled(const KnownColumn& known, const std::string& scale, const std::string& unit,
                 const core::Diagnostic& where);

@@ -38,6 +38,20 @@ void refuse_without_numbers(const DataTable& table) {
 
 }  // namespace
 
+void add_times(DataTable& table, double sample_rate) {
+  std::vector<std::size_t> starts = table.restarts;
+  for (const LabelRun& run : table.sweeps) starts.push_back(run.first_row);
+  std::ranges::sort(starts);
+  DataColumn times{known_column("t"), std::vector<double>(table.rows())};
+  auto next = starts.begin();
+  std::size_t start = 0;
+  for (std::size_t row = 0; row < times.values.size(); ++row) {
+    for (; next != starts.end() && *next == row; ++next) start = row;
+    times.values[row] = static_cast<double>(row - start) / sample_rate;
+  }
+  table.columns.push_back(std::move(times));
+}
+
 void complain(const DataTable& table, const std::vector<std::size_t>& rows, std::string_view name,
               const std::string& message, const std::string& allowed, Problems& problems) {
   if (rows.empty()) return;

@@ -42,6 +42,10 @@ struct DataTable {
   [[nodiscard]] std::size_t rows() const { return columns.empty() ? 0 : columns.front().values.size(); }
 };
 
+/// Gives a table without times those of samples at this rate [1/s]. They begin at zero, and again where a label or
+/// a repeated header begins a test.
+void add_times(DataTable& table, double sample_rate);
+
 /// Complains of the times of `count` rows from `first` that are not after the row above: one problem for those that
 /// are equal to it, one for those that are before it. The table has times.
 void check_increasing(const DataTable& table, std::size_t first, std::size_t count, Problems& problems);

@@ -27,8 +27,12 @@ struct Part {
 
 class Assembly {
  public:
-  Assembly(DataTable table, bool is_imposed, Problems& problems, std::vector<std::string>& warnings)
-      : table_(std::move(table)), is_imposed_(is_imposed), problems_(problems), warnings_(warnings) {}
+  Assembly(DataTable table, const ReadOptions& options, Problems& problems, std::vector<std::string>& warnings)
+      : table_(std::move(table)),
+        is_imposed_(options.is_imposed),
+        words_(options.words),
+        problems_(problems),
+        warnings_(warnings) {}
 
   Record run() {
     Record record;
@@ -188,6 +192,20 @@ class Assembly {
             column.begin() + static_cast<std::ptrdiff_t>(end)};
   }
 
+  /// Extremes turn back at every row but where noise hides a turn or the mass has come to rest; samples seldom do.
+  void refuse_samples_without_times(const std::vector<double>& x) const {
+    constexpr std::size_t many = 40;
+    const std::size_t back = turns(x);
+    const bool are_samples = x.size() > 2 && (back == 0 || (x.size() >= many && 4 * back < x.size()));
+    if (!are_samples) return;
+    const std::string often =
+        back == 0 ? "never turns back"
+                  : "turns back at " + std::to_string(back) + " of " + std::to_string(x.size()) + " rows";
+    refuse_file(table_.file, "x is the only column and " + often + ": extremes of a free vibration alternate",
+                "signed extremes such as 5, -4, 3; or samples with their times t, or with their rate, as " +
+                    words_(core::Setting::sample_rate, {}, "1 kHz"));
+  }
+
   DecayRecord decay() {
     refuse_response_without_Y();
     warn_unused({"x", "t", "sweep"});
@@ -195,10 +213,7 @@ class Assembly {
     std::vector<DecayRecord> decays;
     for (std::size_t i = 0; i < runs.size(); ++i) {
       decays.push_back({cut(*values("x"), runs, i), {}});
-      if (decays.back().extremes.size() > 2 && turns(decays.back().extremes) == 0)
-        refuse_file(table_.file,
-                    "x is the only column and never turns back: extremes of a free vibration alternate",
-                    "signed extremes such as 5, -4, 3; or samples with their times t");
+      refuse_samples_without_times(decays.back().extremes);
       if (values("t") == nullptr) continue;
       decays.back().times = cut(*values("t"), runs, i);
       check_increasing(table_, runs[i].first_row, decays.back().times.size(), problems_);
@@ -214,7 +229,9 @@ class Assembly {
     if (values("t") == nullptr) {
       std::vector<std::string> names;
       for (const DataColumn& column : table_.columns) names.emplace_back(column.known->name);
-      refuse_file(table_.file, "signals need their times: there is no column t", std::string(allowed_columns),
+      refuse_file(table_.file, "signals need their times: there is no column t",
+                  std::string(allowed_columns) + "; or samples of one rate, with " +
+                      words_(core::Setting::sample_rate, {}, "1 kHz"),
                   "columns " + listed(names));
     }
     if (!check_signals()) return {};
@@ -406,14 +423,16 @@ class Assembly {
   std::vector<std::size_t> source_row_;  ///< if rows were left out: the row in the file of each row
   std::vector<std::pair<std::size_t, std::size_t>> clipped_;  ///< rows that may be clipped
   bool is_imposed_;
+  core::SettingWords words_;
   Problems& problems_;
   std::vector<std::string>& warnings_;
 };
 
 }  // namespace
 
-Record record_of(DataTable table, bool is_imposed, Problems& problems, std::vector<std::string>& warnings) {
-  return Assembly(std::move(table), is_imposed, problems, warnings).run();
+Record record_of(DataTable table, const ReadOptions& options, Problems& problems,
+                 std::vector<std::string>& warnings) {
+  return Assembly(std::move(table), options, problems, warnings).run();
 }
 
 }  // namespace dualdamp::identify

@@ -11,8 +11,8 @@ namespace dualdamp::identify {
 
 /// Pairs, if there is a column Y; a decay, if all rows are extremes, which alternate; else histories, one for each
 /// label, or for each part whose times begin anew. Faults are added to `problems`. `warnings` says what is left
-/// out. `is_imposed`: a drive moves the mass along `x`, and may stop anywhere.
-[[nodiscard]] Record record_of(DataTable table, bool is_imposed, Problems& problems,
+/// out. `options`: `is_imposed` and `words`.
+[[nodiscard]] Record record_of(DataTable table, const ReadOptions& options, Problems& problems,
                                std::vector<std::string>& warnings);
 
 }  // namespace dualdamp::identify

@@ -187,15 +187,29 @@ void check_magnitudes(const DataTable& table, Problems& problems) {
   }
 }
 
+/// Samples of a file without times get those of the stated rate.
+void add_stated_times(DataTable& table, const ReadOptions& options) {
+  if (options.sample_rate == 0.0 || table.columns.empty()) return;
+  for (const auto& [name, what] : {std::pair{"t", "times t"}, {"Y", "amplitudes Y, which are no samples"}})
+    if (table.find(name) != nullptr)
+      refuse_file(
+          options.name,
+          options.words(core::Setting::sample_rate, {}, core::format_number(options.sample_rate, 6) + " Hz") +
+              " is stated, and the file has " + what,
+          "no such statement, or a file of samples without times");
+  add_times(table, options.sample_rate);
+}
+
 MeasuredRecord assemble(TableFile file, const ReadOptions& options, Problems& problems,
                         std::vector<std::string> warnings) {
   refuse_unused(file, options, problems);
   check_magnitudes(file.table, problems);
+  add_stated_times(file.table, options);
   MeasuredRecord result;
   result.warnings = std::move(warnings);
   result.units = file.table.units;
   result.ignored = file.table.ignored;
-  result.record = record_of(std::move(file.table), options.is_imposed, problems, result.warnings);
+  result.record = record_of(std::move(file.table), options, problems, result.warnings);
   problems.throw_if_any();
   result.sha256 = std::move(file.sha256);
   return result;
@@ -228,17 +242,19 @@ void warn_of_gaps(const std::vector<double>& t, std::vector<std::string>& warnin
 }
 
 /// The signal from a table that was read with the option `only`.
-MeasuredSignal signal_of(TableFile file, std::string_view column, const std::string& name, Problems& problems,
+MeasuredSignal signal_of(TableFile file, std::string_view column, const ReadOptions& options, Problems& problems,
                          std::vector<std::string> warnings) {
   problems.throw_if_any();
+  add_stated_times(file.table, options);
   for (const std::string_view wanted : {std::string_view("t"), column})
     if (file.table.find(wanted) == nullptr)
-      refuse_file(name, "there is no column " + std::string(wanted),
-                  "a column of that name, or a statement of its name in the file");
+      refuse_file(options.name, "there is no column " + std::string(wanted),
+                  "a column of that name, or a statement of its name in the file" +
+                      (wanted == "t" ? "; or " + options.words(core::Setting::sample_rate, {}, "...") : ""));
   if (file.table.sweeps.size() > 1 || !file.table.restarts.empty())
-    refuse_file(name, "the file holds several tests", "one signal over its times");
+    refuse_file(options.name, "the file holds several tests", "one signal over its times");
   if (file.table.rows() < 2)
-    refuse_file(name, "the signal has too few samples", "two or more", std::to_string(file.table.rows()));
+    refuse_file(options.name, "the signal has too few samples", "two or more", std::to_string(file.table.rows()));
   check_increasing(file.table, 0, file.table.rows(), problems);
   check_magnitudes(file.table, problems);
   problems.throw_if_any();
@@ -287,7 +303,7 @@ MeasuredSignal read_signal(const std::string& path, std::string_view column, con
   Problems problems;
   std::vector<std::string> warnings;
   TableFile file = read_table(path, chosen, problems, warnings);
-  return signal_of(std::move(file), column, chosen.name, problems, std::move(warnings));
+  return signal_of(std::move(file), column, chosen, problems, std::move(warnings));
 }
 
 MeasuredSignal parse_signal(std::string_view text, std::string_view column, const ReadOptions& options) {
@@ -295,7 +311,7 @@ MeasuredSignal parse_signal(std::string_view text, std::string_view column, cons
   Problems problems;
   std::vector<std::string> warnings;
   TableFile file = parse_table(text, chosen, problems, warnings);
-  return signal_of(std::move(file), column, chosen.name, problems, std::move(warnings));
+  return signal_of(std::move(file), column, chosen, problems, std::move(warnings));
 }
 
 }  // namespace dualdamp::identify

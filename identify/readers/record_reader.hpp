@@ -7,9 +7,9 @@
 /// columns decide the kind of the record:
 /// * Y and x: x-Y pairs, with the other columns of a pair if there are any;
 /// * x alone, or t and x where x turns back at four rows of five or more: extremes of a free vibration;
-/// * t and any of x, y, v, a, force: histories, one for each label of `sweep`. Times must be evenly spaced, within
-///   the rounding of the printed numbers and 1 % of a step. Gaps, bursts and jitter are handled with a warning, or
-///   refused (identify/readers/time_base.hpp).
+/// * t, or a stated sample rate, and any of x, y, v, a, force: histories, one for each label of `sweep`. Times must
+///   be evenly spaced, within the rounding of the printed numbers and 1 % of a step. Gaps, bursts and jitter are
+///   handled with a warning, or refused (identify/readers/time_base.hpp).
 ///
 /// Errors: `core::InputError` with the places of the first 20 problems. Cost: linear, about 0.1 us a number. Files
 /// above 1 GiB or 20 million rows are refused before all of them is read.
@@ -40,6 +40,8 @@ struct ReadOptions {
   bool force_levels = false;           ///< Y is the amplitude of a force [N]
   bool is_imposed = false;  ///< a drive moves the mass along x, and may stop anywhere: no stop is called clipped
   bool no_header = false;   ///< the first row of a CSV file holds numbers; `columns` has the number of each column
+  double sample_rate =
+      0.0;  ///< 1/s, of a file without times: the rows of each test are samples from t = 0; 0: none
   /// Names of the columns to be read, without aliases; others are not read. Empty: all.
   std::vector<std::string> only = {};
   /// Name of the file in messages; empty: its path.

@@ -14,7 +14,7 @@ from ._scenario import flow, plain
 from ._systems import as_mapping
 
 # What may be said of a record, as keywords of `fit` and `predict`: of all records.
-OF_RECORDS = ("drive", "loop", "units", "columns", "scale", "decimal", "no_header", "sigma_x", "sigma_v", "sigma_a", "sigma_force", "sigma_phase")
+OF_RECORDS = ("drive", "loop", "units", "columns", "scale", "decimal", "no_header", "sample_rate", "sigma_x", "sigma_v", "sigma_a", "sigma_force", "sigma_phase")
 
 
 def fit(

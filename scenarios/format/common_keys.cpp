@@ -58,7 +58,8 @@ std::vector<Field> signal_file(const std::string& column, const std::string& si)
           text("time_unit", "unit of the times if the file states none, such as ms; default: s"),
           text("scale", "factor of the numbers, such as the sensitivity of a sensor: 2.5 " + si + "/V"),
           words("decimal", {".", ","}, "decimal mark of a CSV file"),
-          boolean("no_header", "the CSV file has no header: its columns are named by their numbers")};
+          boolean("no_header", "the CSV file has no header: its columns are named by their numbers"),
+          quantity("sample_rate", {"1/s"}, "sample rate of a file that has no times").above(0)};
 }
 
 Field optional(Field field) {

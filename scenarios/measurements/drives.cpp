@@ -182,6 +182,7 @@ std::optional<identify::MeasuredSignal> read_signal(CheckedFile& file, const std
   take("scale", options.scales, name);
   if (section.contains("decimal")) options.decimal = section.at("decimal").get<std::string>().front();
   options.no_header = section.value("no_header", false);
+  options.sample_rate = section.value("sample_rate", 0.0);
   const auto target = path_of_data(file, path + ".file", options.name);
   if (!target) return std::nullopt;
   try {

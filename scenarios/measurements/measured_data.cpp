@@ -34,6 +34,7 @@ identify::ReadOptions read_options(const Json& section, core::Coordinate coordin
       for (const auto& [column, text] : section.at(key).items()) map->emplace(column, text.get<std::string>());
   if (section.contains("decimal")) options.decimal = section.at("decimal").get<std::string>().front();
   options.no_header = section.value("no_header", false);
+  options.sample_rate = section.value("sample_rate", 0.0);
   options.is_imposed = section.value("loop", false);
   return options;
 }
@@ -169,7 +170,8 @@ std::vector<Field> reading_fields() {
                   "and a plain factor, {force: \"35.15\"}, are possible too",
                   true),
       words("decimal", {".", ","}, "decimal mark of a CSV file"),
-      boolean("no_header", "the CSV file has no header; 'columns' holds the numbers of the columns")};
+      boolean("no_header", "the CSV file has no header; 'columns' holds the numbers of the columns"),
+      quantity("sample_rate", {"1/s"}, "sample rate of a file that has no times").above(0)};
 }
 
 }  // namespace
@@ -306,7 +308,7 @@ void check_frequency(CheckedFile& file, const identify::Record& record) {
 
 void read_data(CheckedFile& file) {
   if (!file.has("analysis", "data")) {
-    for (const char* key : {"units", "columns", "scale", "decimal", "no_header"})
+    for (const char* key : {"units", "columns", "scale", "decimal", "no_header", "sample_rate"})
       if (file.stands_in_file("analysis", key))
         file.complain(std::string("analysis.") + key,
                       std::string("'analysis.") + key + "' says how to read a data file, and there is none");

@@ -8,7 +8,7 @@
 namespace dualdamp::scenarios {
 
 /// `data`, and the keys for information that the file does not contain: `units`, `columns`, `scale`, `decimal`,
-/// `no_header`.
+/// `no_header`, `sample_rate`.
 [[nodiscard]] std::vector<Field> data_fields();
 
 /// A list of data files `analysis.NAME`, each with the same keys, whether it is a friction loop, and the noise of

@@ -253,6 +253,7 @@ OF_RECORDS = {
     **{name: "Mapping[str, str]" for name in ("units", "columns", "scale")},
     "decimal": 'Literal[".", ","]',
     "no_header": "bool",
+    "sample_rate": "Quantity",
     **{f"sigma_{signal}": "Quantity" for signal in ("x", "v", "a", "force", "phase")},
 }
 

@@ -116,6 +116,15 @@ class FittedScenarios(case.Case):
         with open(self.folder / table) as file:
             return float(next(row["value"] for row in csv.DictReader(line for line in file if not line.startswith("#")) if row["name"] == name))
 
+    def test_of_samples_without_times(self):
+        path = self.record("run.csv", 4.0)
+        path.write_text("\n".join(line.split(",", 1)[1] for line in path.read_text().splitlines()) + "\n")
+        options = ("run.csv", "--sample-rate", "250 Hz", *CONSTANTS, "--no-profile", "--out", "fit")
+        scenario = json.loads(self.run_program("fit", "coulomb", *options, "--json").stdout)["result"]["scenario"]
+        self.assert_gives_the_fitted_curve("fit", "fitted.yaml", "fit_0_x.csv")
+        self.write("named.yaml", scenario)
+        self.assert_gives_the_fitted_curve(".", "named.yaml", "fit/fit_0_x.csv")
+
     def test_of_a_driving_torque(self):
         path = self.record("data/turn.csv", 4.0, "coordinate: angle, ", "force [N.m]", 5.0)
         self.run_program("fit", "coulomb", path, "--mass", "1 kg.m^2", "--stiffness", "1000 N.m/rad", "--drive", "force", "--no-profile", "--out", "fit")

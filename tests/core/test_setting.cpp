@@ -10,6 +10,7 @@ TEST_CASE("Messages name a setting by the keys of a scenario, or in the words of
   CHECK(keys(Setting::column, "x", "'data(:,2)'") == "columns: {x: 'data(:,2)'}");
   CHECK(keys(Setting::decimal, {}, ",") == "decimal: ','");
   CHECK(keys(Setting::no_header) == "no_header: true");
+  CHECK(keys(Setting::sample_rate, {}, "500 Hz") == "sample_rate: 500 Hz");
   CHECK(keys(Setting::noise, "x", "2 um") == "sigma_x: 2 um");
   CHECK(keys(Setting::value, "system.mass", "2 kg") == "system.mass: 2 kg");
   const SettingWords others(+[](Setting, std::string_view name, std::string_view value) {

@@ -168,7 +168,7 @@ Json measured_section(const DataItem& item, const std::string& column) {
   take("scale", "scale", column);
   take("time_column", "columns", "t");
   take("time_unit", "units", "t");
-  for (const char* key : {"decimal", "no_header"})
+  for (const char* key : {"decimal", "no_header", "sample_rate"})
     if (item.keys.is_object() && item.keys.contains(key)) drive[key] = item.keys.at(key);
   return drive;
 }

@@ -122,3 +122,33 @@ TEST_CASE("time stamps: a gap in the samples of a drive is told") {
   CHECK(mentions(one[0], "the samples have 1 gap from t = 0.198 s to 0.208 s, 5 usual steps"));
   CHECK(gaps_of([](int i) { return i < 100 || i > 140; }, 0.0005).size() == 1);
 }
+
+TEST_CASE("time stamps: a stated sample rate takes the place of times that the file lacks") {
+  const auto rows = [](const std::string& ahead, int from) {
+    std::string text;
+    for (int i = from; i < from + 100; ++i) text += ahead + print("%.6f\n", vibration(i / 50.0));
+    return text;
+  };
+  const ReadOptions options{.sample_rate = 50.0, .name = "data.csv"};
+  const auto read_all = [&](const std::string& text) { return parse_record(text, options).record; };
+
+  const identify::Record one = read_all("x [mm]\n" + rows("", 0));
+  REQUIRE(one.histories.size() == 1);
+  CHECK(one.histories[0].start == 0.0);
+  CHECK(one.histories[0].sample_rate == Approx(50.0));
+  CHECK(one.histories[0].x.size() == 100);
+
+  const identify::Record two = read_all("sweep,x [mm]\n" + rows("a,", 0) + rows("b,", 30));
+  REQUIRE(two.histories.size() == 2);
+  for (const identify::History& history : two.histories) CHECK(history.start == 0.0);
+  CHECK(two.histories[1].x[0] == Approx(1e-3 * vibration(30 / 50.0)).margin(1e-9));
+
+  const identify::MeasuredSignal drive = parse_signal("y [mm]\n" + rows("", 0), "y", options);
+  CHECK(drive.times[99] == Approx(99 / 50.0));
+
+  CHECK(mentions(refusal([&] { (void)read_all(recorded(50.0, nothing)); }), "the file has times t"));
+  CHECK(mentions(refusal([&] { (void)read_all("Y [mm],x [mm]\n1,5\n2,9\n"); }), "the file has amplitudes Y"));
+  CHECK(mentions(refusal([&] { (void)parse_signal("t [s],y [mm]\n0,1\n1,2\n", "y", options); }), "times t"));
+  CHECK(mentions(refusal([&] { (void)read("x [mm]\n" + rows("", 0)); }),
+                 "or with their rate, as sample_rate: 1 kHz"));
+}
