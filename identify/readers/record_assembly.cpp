@@ -152,7 +152,7 @@ class Assembly {
     if (values("t") == nullptr) return true;
     for (std::size_t i = 0; i < runs.size(); ++i) {
       const std::vector<double> part = cut(*x, runs, i);
-      if (part.size() > 2 && 5 * turns(part) < 4 * (part.size() - 2)) return false;
+      if (part.size() > 2 && turn_too_seldom(part)) return false;
     }
     return true;
   }
@@ -162,6 +162,11 @@ class Assembly {
     std::size_t count = 0;
     for (std::size_t i = 2; i < x.size(); ++i) count += (x[i] - x[i - 1]) * (x[i - 1] - x[i - 2]) < 0.0 ? 1 : 0;
     return count;
+  }
+
+  /// Whether x turns back at less than four of five rows, with three rows or more.
+  [[nodiscard]] static bool turn_too_seldom(const std::vector<double>& x) {
+    return 5 * turns(x) < 4 * (x.size() - 2);
   }
 
   /// Refuses amplitudes of a response without the excitation: they are no extremes.
@@ -192,11 +197,12 @@ class Assembly {
             column.begin() + static_cast<std::ptrdiff_t>(end)};
   }
 
-  /// Extremes turn back at every row but where noise hides a turn or the mass has come to rest; samples seldom do.
+  /// Extremes turn back at every row but where noise hides a turn or the mass has come to rest. Samples of a motion
+  /// seldom do, and those of noise at two rows of three.
   void refuse_samples_without_times(const std::vector<double>& x) const {
     constexpr std::size_t many = 40;
     const std::size_t back = turns(x);
-    const bool are_samples = x.size() > 2 && (back == 0 || (x.size() >= many && 4 * back < x.size()));
+    const bool are_samples = x.size() > 2 && (back == 0 || (x.size() >= many && turn_too_seldom(x)));
     if (!are_samples) return;
     const std::string often =
         back == 0 ? "never turns back"

@@ -151,4 +151,7 @@ TEST_CASE("time stamps: a stated sample rate takes the place of times that the f
   CHECK(mentions(refusal([&] { (void)parse_signal("t [s],y [mm]\n0,1\n1,2\n", "y", options); }), "times t"));
   CHECK(mentions(refusal([&] { (void)read("x [mm]\n" + rows("", 0)); }),
                  "or with their rate, as sample_rate: 1 kHz"));
+  std::string at_rest;  // a noise that turns back at two rows of three
+  for (int i = 0; i < 300; ++i) at_rest += print("%.6f\n", 1e-3 * std::sin(7.0 * i * i));
+  CHECK(mentions(refusal([&] { (void)read("x [mm]\n" + rows("", 0) + at_rest); }), "or with their rate"));
 }
