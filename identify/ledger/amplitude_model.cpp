@@ -96,7 +96,7 @@ class SteadyStates {
 
   /// Linearised at the parameters and at the true amplitudes of the last call; then updates these amplitudes.
   /// Columns of relaxations that are not wanted are zero.
-  Rows linearise(const SteadyParameters& at, const Deviations& deviations, const Taken& wanted) {
+  Rows linearise(SteadyParameters at, const Deviations& deviations, const Taken& wanted) {
     Rows rows;
     const Eigen::Index count = amplitudes() + phases();
     rows.residuals.resize(count);
@@ -147,20 +147,22 @@ class SteadyStates {
     return sum;
   }
 
-  /// Column of a parameter: the derivative of the needed drive.
-  template <typename Change>
+  /// Column of `parameter`, a number of `at`, which is moved and put back: the derivative of the needed drive.
   [[nodiscard]] Asked column(const SteadyPoint& point, const SteadyParameters& at, double x, double step,
-                             const Change& change) const {
-    return slope(
+                             double& parameter) const {
+    const double here = parameter;
+    const Asked found = slope(
         [&](double h) {
-          SteadyParameters moved = at;
-          change(moved, h);
-          return drive(point, moved, x);
+          parameter = here + h;
+          return drive(point, at, x);
         },
         step);
+    parameter = here;
+    return found;
   }
 
-  void add_state(std::size_t i, const SteadyParameters& at, const Deviations& deviations, Eigen::Index phase_row,
+  /// `at` is as before, afterwards.
+  void add_state(std::size_t i, SteadyParameters& at, const Deviations& deviations, Eigen::Index phase_row,
                  const Taken& wanted, Rows& rows) {
     const SteadyPoint& point = points_[i];
     double& xi = true_x_[i];
@@ -191,13 +193,11 @@ class SteadyStates {
     const Eigen::Matrix2d L = factor.matrixL();
     rows.readings[i] = {ReadingKind::amplitude, point.number, by_x[0] == 0.0 ? 0.0 : -L(0, 0) / by_x[0]};
     if (has_phase) rows.readings[static_cast<std::size_t>(phase_row)] = {ReadingKind::phase, point.number, L(1, 1)};
-    put(column(point, at, xi, small * std::max(at.friction.zeta, 1e-3),
-               [](SteadyParameters& p, double h) { p.friction.zeta += h; }),
-        rows.base.col(0));
-    put(column(point, at, xi, small, [](SteadyParameters& p, double h) { p.friction.x_f += h; }), rows.base.col(1));
+    put(column(point, at, xi, small * std::max(at.friction.zeta, 1e-3), at.friction.zeta), rows.base.col(0));
+    put(column(point, at, xi, small, at.friction.x_f), rows.base.col(1));
     for (const std::size_t number : wanted) {
       const auto j = static_cast<Eigen::Index>(number);
-      put(column(point, at, xi, small, [j](SteadyParameters& p, double h) { p.g[j] += h; }), rows.relaxed.col(j));
+      put(column(point, at, xi, small, at.g[j]), rows.relaxed.col(j));
     }
     const Asked solved = factor.solve(residual);
     xi = std::max(point.x + x_variance * by_x.dot(solved), 1e-3 * point.x);
@@ -218,8 +218,9 @@ struct AmplitudeFit {
   SteadyParameters at;
   Deviations deviations;
   Rows rows;
-  double deviance = core::infinity;  ///< -2 log-likelihood
-  double scatter = 1.0;              ///< of the amplitudes about a smooth curve, over their deviation
+  std::optional<SteadyStates> states;  ///< what gives the rows with the columns of all relaxations
+  double deviance = core::infinity;    ///< -2 log-likelihood
+  double scatter = 1.0;                ///< of the amplitudes about a smooth curve, over their deviation
 };
 
 /// The noise of one channel: what a smooth curve leaves of its residuals. A departure is smooth, so it is not taken
@@ -280,12 +281,22 @@ AmplitudeFit fit_with(SteadyStates states, const SteadyParameters& begin, const 
       fit.deviations.Y = known.sigma_Y;
     }
   }
-  Taken all(static_cast<std::size_t>(fit.at.g.size()));
-  std::iota(all.begin(), all.end(), 0);
-  fit.rows = states.linearise(fit.at, fit.deviations, all);
+  fit.states = states;
+  fit.rows = states.linearise(fit.at, fit.deviations, taken);
   const Eigen::MatrixXd columns = free_columns(fit.rows.base, fit.rows.relaxed, taken);
   const double left = left_beside(columns, fit.rows.residuals).squaredNorm();
   fit.deviance = left + 2.0 * fit.rows.log_variances;
+  return fit;
+}
+
+/// The fit with the columns of all relaxations, which cost as much as its search: those of the best fit alone are
+/// read.
+AmplitudeFit with_all_columns(AmplitudeFit fit) {
+  if (!fit.states) return fit;
+  Taken all(static_cast<std::size_t>(fit.at.g.size()));
+  std::iota(all.begin(), all.end(), 0);
+  fit.rows = fit.states->linearise(fit.at, fit.deviations, all);
+  fit.states.reset();
   return fit;
 }
 
@@ -293,8 +304,9 @@ AmplitudeFit fit_with(SteadyStates states, const SteadyParameters& begin, const 
 /// equal relative accuracy, with a factor of three as one standard deviation. At one frequency without phases the
 /// record does not determine it at all, because the gain of Y on x hardly varies: only x has errors then.
 AmplitudeFit best_fit(const SteadyStates& states, const SteadyParameters& begin, const Taken& taken) {
-  if (is_stated(states.known())) return fit_with(states, begin, taken, 1.0);
-  if (states.frequencies() < 2 && states.phases() == 0) return fit_with(states, begin, taken, 0.0);
+  if (is_stated(states.known())) return with_all_columns(fit_with(states, begin, taken, 1.0));
+  if (states.frequencies() < 2 && states.phases() == 0)
+    return with_all_columns(fit_with(states, begin, taken, 0.0));
   const double deviation = std::log(3.0);
   AmplitudeFit best;
   double least = core::infinity;
@@ -306,7 +318,7 @@ AmplitudeFit best_fit(const SteadyStates& states, const SteadyParameters& begin,
       least = deviance;
     }
   }
-  return best;
+  return with_all_columns(std::move(best));
 }
 
 /// Leaves out the terms that amplitudes alone do not show. At resonance the drive is in quadrature with the motion,

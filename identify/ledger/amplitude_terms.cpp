@@ -20,10 +20,23 @@ namespace {
 
 constexpr Complex i{0.0, 1.0};
 
+/// The functions of Den Hartog's form. Most calls in a row differ in x or x_f alone: the slopes of a fit need three
+/// zeta at each frequency, and all states of a frequency share them.
+sim::analytic::DenHartog functions_at(double zeta, double r) {
+  thread_local std::array<sim::analytic::DenHartog, 4> known{};
+  thread_local std::size_t oldest = 0;
+  for (const sim::analytic::DenHartog& one : known)
+    if (one.zeta == zeta && one.r == r) return one;
+  sim::analytic::DenHartog& found = known.at(oldest);
+  oldest = (oldest + 1) % known.size();
+  found = sim::analytic::den_hartog(zeta, r);
+  return found;
+}
+
 }  // namespace
 
 Complex plain_drive(const PlainFriction& friction, double x, double r) {
-  const sim::analytic::DenHartog d = sim::analytic::den_hartog(friction.zeta, r);
+  const sim::analytic::DenHartog d = functions_at(friction.zeta, r);
   const double x_f = friction.x_f;
   const Complex stiffness((1.0 - r) * (1.0 + r), 2.0 * friction.zeta * r);
   // The drive that the closed form needs, counted from the turning point, and the fundamental of x under it.

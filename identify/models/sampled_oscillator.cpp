@@ -282,10 +282,13 @@ double SampledOscillator::rest(double begin, double end) const {
     const Balance here = balance(at);
     return std::abs(here.pull) - here.limit;
   };
+  const bool changes =
+      !acting_.empty() || std::any_of(drive_.begin() + 1, drive_.end(), [](double c) { return c != 0.0; });
   double low = begin;
   for (int i = 1; i <= parts; ++i) {
     const double high = begin + (end - begin) * i / parts;
     if (excess(high) > 0.0) return excess(low) > 0.0 ? low : root(excess, low, high);
+    if (!changes) break;
     low = high;
   }
   return end;
