@@ -115,7 +115,9 @@ def next(  # noqa: A001, of the package it is dualdamp.next, as the command is
     --------
     >>> import dualdamp as dd
     >>> pairs = {"Y [mm]": [4.5, 5.0, 5.5, 6.0, 6.5], "x [mm]": [4.70, 7.21, 9.76, 12.25, 14.82]}
-    >>> advice = dd.next(pairs, mass="1.042 kg", stiffness="1568 N/m", frequency="6.17 Hz", sigma_x="20 um")
+    >>> advice = dd.next(pairs, mass="1.042 kg", stiffness="1568 N/m", frequency="6.17 Hz")
+    >>> advice.candidates[0].measurement
+    'the same states at levels twice as high, with phases'
     """
     refuse_twice("next", options, ("type", "data"))
     analysis = {"type": "design", "units": units, "columns": columns, "scale": scale, **options}

@@ -104,20 +104,18 @@ class Benchmark(unittest.TestCase):
             self.assertEqual(([Path(f"{path}~").read_text() for path in mine], said.count("is kept as")), (["mine"] * 4, 4))
         self.assertEqual(len({json.loads((self.folder / name / "key.json").read_text())["seed"] for name in ("first", "second")}), 2)
 
-    def reentered(self):
+    def reentered(self, export):
         """Answers of resonance_least_squares to the exported files, by the program's own command."""
         rows = []
-        for known in table(self.export / "constants.csv"):
-            data = self.export / "cases" / f"{int(known['case']):06d}.csv"
-            result = subprocess.run([PROGRAM, "identify", str(data), "--mass", known["mass [kg]"] + " kg", "--stiffness",
+        for known in table(export / "constants.csv"):
+            result = subprocess.run([PROGRAM, "identify", str(export / f"cases/{int(known['case']):06d}.csv"), "--mass", known["mass [kg]"] + " kg", "--stiffness",
                                      known["stiffness [N/m]"] + " N/m", "--frequency", known["frequency [rad/s]"] + " rad/s", "--method",
                                      "resonance_least_squares", "--json", "--out", str(self.folder / "identified")],
                                     capture_output=True, text=True, timeout=PATIENCE * 60)
             estimates = json.loads(result.stdout)["result"]["estimates"]
             if not estimates or estimates[0].get("zeta") is None:
                 continue
-            estimate = estimates[0]
-            interval = estimate.get("interval95") or {}
+            estimate, interval = estimates[0], estimates[0].get("interval95") or {}
             # The method's own test; what `identify` says beside asks the ledger of assumptions too.
             lack = estimate["diagnostics"]["lack_of_fit"]
             row = {"case": known["case"], "zeta": estimate["zeta"], "F0": estimate["F0"], "p_value": lack["p_value"], "usable": not lack["fired"]}
@@ -134,12 +132,14 @@ class Benchmark(unittest.TestCase):
         self.assertNotIn("seed", told)
 
     def test_a_built_in_method_that_enters_as_a_program_scores_as_itself(self):
-        answers = self.write("answers.csv", self.reentered(), ["usable", "case", "zeta", "F0", "zeta_low", "zeta_high", "F0_low", "F0_high", "p_value"])
-        out, _ = self.score(f"outside={answers}")
+        few = [SCENARIO, "--set", "analysis.seeds=2", "--set", "expect=[{value: cases.all, equals: 20}]"]  # two of each tell that as well as four
+        export, out = self.folder / "few", self.folder / "scored"
+        self.call("stress", "export", *few, "--out", export, "--seed", 7)
+        answers = self.write("answers.csv", self.reentered(export), ["usable", "case", "zeta", "F0", "zeta_low", "zeta_high", "F0_low", "F0_high", "p_value"])
+        self.call("stress", "score", *few, "--key", export / "key.json", "--answers", f"outside={answers}", "--out", out, "--quiet")
         for name in ("scores", "families", "ranking"):
             rows = table(out / f"{name}.csv")
-            inside = [plain(row) for row in rows if row["method"] == "resonance_least_squares"]
-            outside = [plain(row) for row in rows if row["method"] == "outside"]
+            inside, outside = ([plain(row) for row in rows if row["method"] == method] for method in ("resonance_least_squares", "outside"))
             self.assertGreater(len(inside), 0)
             self.assertEqual(inside, outside)
         difference = [row for row in table(out / "differences.csv") if {row["better"], row["worse"]} == {"outside", "resonance_least_squares"}]

@@ -34,7 +34,9 @@ def test_a_truth_may_be_a_number():
 
 
 def test_a_method_of_the_program_scores_as_itself():
-    scored = dd.benchmark(SMALL, {"again": again}, seed=11)
+    """In each cell of the campaign: two records of each tell as much as four, since the scores are the same numbers."""
+    changes = {"analysis.seeds": 2, "expect": [{"value": "cases.all", "equals": 20}]}
+    scored = dd.benchmark(SMALL, {"again": again}, changes=changes, seed=11)
     inside, outside = ({k: v for k, v in row.items() if k != "method"} for name in (INSIDE, "again") for row in scored.result.ranking if row.method == name)
     assert inside == outside
 

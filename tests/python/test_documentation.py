@@ -1,6 +1,7 @@
 """The examples of the pages and of every docstring give what they say; signatures and stub follow the tables."""
 
 import doctest
+import functools
 import inspect
 import keyword
 import re
@@ -14,6 +15,23 @@ from dualdamp import _analyses, _tables
 
 ROOT = Path(__file__).resolve().parents[2]
 OPTIONS = doctest.NORMALIZE_WHITESPACE | doctest.ELLIPSIS
+
+
+@pytest.fixture(scope="module", autouse=True)
+def advice_once():
+    """The page and the docstring ask for the same advice, which takes seconds: it is computed once for both."""
+    compute, known = dd.next, {}
+
+    @functools.wraps(compute)
+    def advice(data, **options):
+        key = repr(([(name, *map(float, column)) for name, column in data.items()], options))
+        if key not in known:
+            known[key] = compute(data, **options)
+        return known[key]
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(dd, "next", advice)
+        yield
 
 
 def run_examples(text, name):

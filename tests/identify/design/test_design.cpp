@@ -12,6 +12,7 @@
 #include "identify/departures/departures.hpp"
 #include "sim/orbits/steady_state.hpp"
 #include "tests/identify/methods/any_law/advice_rates.hpp"
+#include "tests/identify/methods/any_law/law_laboratory.hpp"
 #include "tests/identify/records.hpp"
 
 using namespace dualdamp;
@@ -23,11 +24,6 @@ namespace {
 constexpr double mass = 1.042;
 constexpr double stiffness = 1568.0;
 const double natural = std::sqrt(stiffness / mass);
-
-/// Laws whose fits take most of the time. The tests that leave them out do not speak of them.
-const std::vector<std::string> slow_laws = {
-    "bouc_wen", "dahl",  "elasto_plastic",  "friction_lag", "generalized_maxwell_slip",
-    "iwan",     "lugre", "normal_vibration"};
 
 /// Eight amplitudes, without phases, of a rig with a compliant contact; at resonance, or spread over `spread` of
 /// the frequency about it. `noise`: over the amplitude in the middle.
@@ -101,8 +97,13 @@ TEST_CASE(
 }
 
 TEST_CASE("design: no measurement is expected to widen the ranges, however different the laws fit the record") {
-  // The paper's points: a film fits far better than the contacts that are allowed beside it.
-  const auto found = design_after(pairs(subset_trend), soft_spring, {}, {.largest_severity = 1.0});
+  // The paper's points: a film fits far better than the contacts that are allowed beside it. Of the slow laws those
+  // take part that the second bound is about.
+  std::vector<std::string> others = slow_laws;
+  std::erase(others, "iwan");
+  std::erase(others, "lugre");
+  const auto found =
+      design_after(pairs(subset_trend), soft_spring, {}, {.largest_severity = 1.0, .without = others});
   REQUIRE(std::holds_alternative<Design>(found));
   const Design& design = std::get<Design>(found);
   constexpr double rounding = 1.01;

@@ -228,7 +228,7 @@ TEST_CASE("smooth engine: explicit steps give up a motion that is too sharp, imp
   const sim::SteadyState automatic = sim::steady_state(model);
   REQUIRE(automatic.outcome.ok());
   CHECK(automatic.stops_per_cycle == 0);
-  model.solver = {.kind = sim::SolverKind::implicit_steps, .tolerance = 1e-13};
+  model.solver = {.kind = sim::SolverKind::implicit_steps, .tolerance = 1e-12};
   CHECK(automatic.amplitude == Approx(sim::steady_state(model).amplitude).epsilon(1e-9));
   model.solver.kind = sim::SolverKind::explicit_steps;
   const sim::SteadyState state = sim::steady_state(model);

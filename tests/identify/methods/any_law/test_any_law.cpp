@@ -110,8 +110,8 @@ TEST_CASE("any_law: a compliant contact rejects plain friction, and the hull hol
   CHECK(law_of(estimate, "contact_compliance").severity == Approx(0.2).margin(0.08));
   CHECK(estimate.laws->inflation == 1.0);
   // A stated bound below the true severity contradicts the data.
-  const Estimate bounded =
-      any_law(states("contact_compliance", 0.2, true, normal), known, {.largest_severity = 0.02});
+  const Estimate bounded = any_law(states("contact_compliance", 0.2, true, normal), known,
+                                   {.largest_severity = 0.02, .without = slow_laws});
   REQUIRE(bounded.outcome.ok());
   CHECK(std::abs(law_of(bounded, "contact_compliance").severity) <= 0.02);
 }
@@ -122,7 +122,7 @@ TEST_CASE(
     Normal normal(12);
     // Twice the force of the damper at the reference speed.
     const Record record = states("quadratic_drag", 2.0, phases, normal);
-    const Estimate estimate = any_law(record, known);
+    const Estimate estimate = any_law(record, known, {.without = slow_laws});
     REQUIRE(estimate.outcome.ok());
     CAPTURE(phases);
     CHECK(law_of(estimate, "coulomb_viscous").rejected);
@@ -134,7 +134,8 @@ TEST_CASE(
     CHECK(holds(estimate.laws->zeta_hull, zeta));
     CHECK(holds(estimate.laws->F0_hull, F0));
     // A severity that the user states is a bound; a warning names the laws that end there.
-    const Estimate bounded = any_law(record, known, {.largest_severity = 0.3});
+    const Estimate bounded = any_law(
+        record, known, {.largest_severity = 0.3, .without = phases ? std::vector<std::string>() : slow_laws});
     REQUIRE(bounded.outcome.ok());
     for (const LawAnswer& law : bounded.laws->laws) CHECK(std::abs(law.severity) <= 0.3);
     CHECK_FALSE(bounded.warnings.empty());
@@ -155,7 +156,8 @@ TEST_CASE("any_law: a law that the user leaves out is not in the library") {
 TEST_CASE("any_law: amplitudes alone allow more laws than amplitudes and phases") {
   const auto allowed = [](bool phases) {
     Normal normal(13);
-    const Estimate estimate = any_law(states("contact_compliance", 0.15, phases, normal), known);
+    const Estimate estimate =
+        any_law(states("contact_compliance", 0.15, phases, normal), known, {.without = slow_laws});
     REQUIRE(estimate.outcome.ok());
     CHECK(holds(estimate.laws->zeta_hull, zeta));
     CHECK_FALSE(estimate.laws->aliases.empty());
