@@ -21,7 +21,7 @@ PAIRS = "Y [mm],x [mm]\n4,27.1\n5,37.2\n6,47.2\n7,57.3\n"
 NEXT = """schema: dualdamp/1
 system: {mass: 1 kg, stiffness: 1000 N/m}
 excitation: {type: base_harmonic, frequency: 302 rpm}
-analysis: {type: design, data: pairs.csv, without: [bouc_wen, contact_compliance, dahl, elasto_plastic, friction_lag, generalized_maxwell_slip, lugre]}
+analysis: {type: design, data: pairs.csv, without: [bouc_wen, contact_compliance, dahl, elasto_plastic, friction_lag, generalized_maxwell_slip, iwan, lugre, normal_vibration]}
 """
 
 
