@@ -137,6 +137,7 @@ ExactEngine::~ExactEngine() = default;
 void ExactEngine::begin_motion() {
   drive_.reset(0.0);
   instant_scale_ = 0.0;
+  follows_at_once_ = false;
   changed_law_.reset();
   if (tracking_) reset_sensitivity();
 }
@@ -191,21 +192,26 @@ Direction ExactEngine::leaves_limit(double tolerance) {
   return direction;
 }
 
-/// If no law holds the mass here, it stays at rest only if nothing ever moves it. Beside a fast decay the Taylor
-/// coefficients of a slow drive are within rounding, so the pull is evaluated after longer and longer times.
+/// If no law holds the mass here, it stays at rest only if nothing ever moves it.
 Direction ExactEngine::moved_later(const ModeFunction& pull, double tolerance) const {
+  return friction::direction_of(clear_of_rounding(pull, tolerance).value);
+}
+
+/// Beside a fast decay the Taylor coefficients of a slow drive are within rounding, so `f` is evaluated after
+/// longer and longer times, up to the first at which it is known.
+ExactEngine::Later ExactEngine::clear_of_rounding(const ModeFunction& f, double tolerance) const {
   constexpr int doublings = 60;
   const core::ExponentialBasis& basis = mode_->basis();
   double s = basis.fastest() > 0.0 ? 1.0 / basis.fastest() : 1.0;
   for (int i = 0; i < doublings; ++i, s *= 2.0) {
     core::ExponentialBasis::Values values;
     basis.evaluate(s, values);
-    const double later = core::evaluate(basis, pull, values);
+    const double later = core::evaluate(basis, f, values);
     if (!std::isfinite(later)) break;
-    const double known = rounding * core::bound(basis, pull, values, s, 0.0) + tolerance;
-    if (std::abs(later) > known) return friction::direction_of(later);
+    const double error = rounding * core::bound(basis, f, values, s, 0.0) + tolerance;
+    if (std::abs(later) > error) return {later, error};
   }
-  return Direction::none;
+  return {};
 }
 
 void ExactEngine::jumped(std::size_t law, const friction::Memory& before, friction::Trigger trigger) {
@@ -370,6 +376,7 @@ const Interval* ExactEngine::step(double left, bool to_period_end) {
   instant_scale_ = at_once ? std::max(instant_scale_, force_scale_) : force_scale_;
   const bool stands = !at_once && end.found && end.s * mode_->basis().fastest() < still;
   if (!comes_to_an_end(at_once || left == 0.0 || stands)) return nullptr;
+  follows_at_once_ = at_once || stands;
   describe_interval(begin.t);
   const bool ends = end.found || by_schedule;
   if (tracking_) track_motion(begin, end.s);

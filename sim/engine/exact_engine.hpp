@@ -74,6 +74,11 @@ class ExactEngine final : public Engine {
     std::vector<double> transients;
     std::vector<double> decays;
   };
+  /// A function that is within rounding of zero at the start, at the first time at which it is not.
+  struct Later {
+    double value = 0.0;  ///< 0: it stays within rounding
+    double error = 0.0;  ///< its rounding then
+  };
   class ExactInterval;
 
   /// Speed and its rate in a slip, from the first guard: velocity and acceleration times the direction.
@@ -103,6 +108,8 @@ class ExactEngine final : public Engine {
   [[nodiscard]] Balance balance() override;
   friction::Direction leaves_limit(double tolerance);
   [[nodiscard]] friction::Direction moved_later(const core::ModeFunction& pull, double tolerance) const;
+  [[nodiscard]] Later clear_of_rounding(const core::ModeFunction& f, double tolerance) const;
+  bool lift_speed(core::Guard& guard, double tolerance) const;
   [[nodiscard]] double pull_now() const;
   void jumped(std::size_t law, const friction::Memory& before, friction::Trigger trigger) override;
   void track_begin(const friction::Instant& begin, bool at_once);
@@ -130,7 +137,8 @@ class ExactEngine final : public Engine {
   std::array<Total, 3> totals_;    ///< by direction
   Total* total_ = totals_.data();  ///< of the present interval
   double force_scale_ = 0.0;
-  double instant_scale_ = 0.0;  ///< largest force scale of all intervals that meet at this instant
+  bool follows_at_once_ = false;  ///< the interval before took no time
+  double instant_scale_ = 0.0;    ///< largest force scale of all intervals that meet at this instant
   core::ModeFunction motion_;
   std::vector<core::Guard> guards_;
   std::vector<Watch> watches_;

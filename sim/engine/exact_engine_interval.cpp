@@ -276,6 +276,20 @@ core::Germ ExactEngine::start_germ(const core::Guard& guard, const Watch& watch,
   return from_zero.sign > 0 ? from_zero : germ;
 }
 
+/// No examined derivative says whether the speed of a slip rises: rounding would end the slip at once, or begin one
+/// in the other direction, without end where a contact lets go each time. If the speed does rise later, it is taken
+/// to be larger by its rounding until then, so that the slip goes on. False: it does not rise.
+bool ExactEngine::lift_speed(core::Guard& guard, double tolerance) const {
+  const Later later = clear_of_rounding(guard.value, tolerance);
+  if (!(later.value > 0.0)) return false;
+  ModeFunction rounding_of_speed;
+  mode_->represent({.polynomial = {later.error}}, rounding_of_speed);
+  core::accumulate(mode_->basis(), 1.0, rounding_of_speed, guard.value);
+  core::prepare_with_slope(mode_->basis(), guard);
+  guard.known_zeros = 0;
+  return true;
+}
+
 /// Counts the zeros of each guard at the start. True if a guard is negative just after it; crossing_ has its index.
 bool ExactEngine::find_violated() {
   const core::ExponentialBasis& basis = mode_->basis();
@@ -299,6 +313,7 @@ bool ExactEngine::find_violated() {
       basis.evaluate(0.0, crossing_.values);
       return true;
     }
+    if (germ.sign == 0 && follows_at_once_ && is<SlipEnd>(watch.ending) && lift_speed(guard, tolerance)) continue;
     guard.known_zeros = std::min(germ.zeros, 3);
     if (germ.sign == 0 && direction_ == Direction::none) drop_guard(--i);
   }

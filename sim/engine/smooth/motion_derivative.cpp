@@ -81,7 +81,7 @@ void MotionDerivative::reset(const std::vector<friction::Memory>& memories, fric
   // A mass that sticks stops again at once, over a distance of second order.
   if (direction == friction::Direction::none) columns_.row(1).setZero();
   lead_ = Eigen::RowVectorXd::Zero(n);
-  mode_lead_ = {};
+  event_lead_ = {};
   others_.clear();
   course_.length = 0.0;
   changes_.clear();
@@ -153,7 +153,8 @@ bool MotionDerivative::forgets_speed(const SmoothStep& step) const {
   std::vector<double> state(step.begin.size());
   for (int i = 0; i <= parts; ++i) {
     step.stepper.at(static_cast<double>(i) / parts, state);
-    if (!(friction::sign(step.flow.direction()) * state[1] > 0.0)) return false;
+    const double speed = friction::sign(step.flow.direction()) * state[1];
+    if (speed < 0.0 || (i > 0 && speed == 0.0)) return false;
   }
   return true;
 }
@@ -162,7 +163,7 @@ bool MotionDerivative::forgets_speed(const SmoothStep& step) const {
 void MotionDerivative::lead_near_stop(const SmoothStep& step) {
   if (step.flow.direction() == friction::Direction::none) return;
   std::vector<double> rates(step.begin.size());
-  step.flow.evaluate(step.begin, step.t, rates);
+  rates_of_motion(step.flow, step.begin, step.t, rates);
   if (!(std::abs(step.begin[1]) < near_stop * shortest_period_ * std::abs(rates[1])) || forgets_speed(step)) return;
   const Eigen::RowVectorXd ahead = columns_.row(1) / rates[1];
   columns_ -= as_vector(rates) * ahead;
@@ -240,7 +241,7 @@ void MotionDerivative::enter(const Guards& guards, std::size_t guard, const Smoo
       (by_time * lead_ - by_state.row(static_cast<Eigen::Index>(guard)) * columns_) / rate;
   std::vector<double> rates(step.end.size());
   step.flow.evaluate(step.end, t, rates);
-  if (is<LawGuard>(guards.ending(guard))) mode_lead_ = {-ahead, as_vector(rates), columns_, lead_};
+  event_lead_ = {-ahead, as_vector(rates), columns_, lead_};
   columns_ += as_vector(rates) * ahead;
   lead_ -= ahead;
 }
@@ -281,11 +282,11 @@ Eigen::VectorXd MotionDerivative::through(const Change& change, const friction::
   return (as_vector(above) - as_vector(below)) / (2.0 * step);
 }
 
-/// The delay of a mode change is taken back where it leaves the rates as they are:
-/// it may be long, and the variational equation would have to tell the perturbation as a small difference of the
-/// delay and of what the columns make of it.
+/// The delay of an event is taken back where it leaves the rates as they are, as many mode changes do, and
+/// reversals that no law's force sees: it may be long, and the variational equation would have to tell the
+/// perturbation as a small difference of the delay and of what the columns make of it.
 void MotionDerivative::leave(const Present& present, std::span<const double> sizes) {
-  const ModeLead added = std::exchange(mode_lead_, {});
+  const EventLead added = std::exchange(event_lead_, {});
   const Eigen::MatrixXd at_crossing = added.time.size() > 0 ? columns_ : Eigen::MatrixXd();
   carry_through_changes(present, sizes);
   if (added.time.size() == 0) return;
@@ -301,7 +302,7 @@ void MotionDerivative::leave(const Present& present, std::span<const double> siz
 /// when a mass is released that has long been at rest, the delay is so long that its rounding is more than the lead
 /// that was there before. So states that the mode change leaves alone are changed by the difference of the rates
 /// alone.
-void MotionDerivative::take_back(const ModeLead& added, const Eigen::MatrixXd& at_crossing,
+void MotionDerivative::take_back(const EventLead& added, const Eigen::MatrixXd& at_crossing,
                                  const Eigen::VectorXd& rates, std::span<const double> sizes) {
   lead_ = added.lead_before;
   if (columns_.rows() != at_crossing.rows() || columns_ != at_crossing) {

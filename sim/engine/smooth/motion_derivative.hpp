@@ -83,8 +83,8 @@ class MotionDerivative {
     friction::Trigger trigger;
     friction::Direction direction;
   };
-  /// What the crossing of a law's guard added to lead_, to be taken back behind it.
-  struct ModeLead {
+  /// What the crossing of a guard added to lead_, to be taken back behind it.
+  struct EventLead {
     Eigen::RowVectorXd time;  ///< of each column [s]; empty: there is none
     Eigen::VectorXd rates_before;
     Eigen::MatrixXd columns_before;
@@ -108,7 +108,7 @@ class MotionDerivative {
   void lead_near_stop(const SmoothStep& step);
   [[nodiscard]] Eigen::MatrixXd gradients(const Guards& guards, const SmoothStep& step) const;
   void note_others(const Guards& guards, std::size_t guard, const Eigen::MatrixXd& gradients);
-  void take_back(const ModeLead& added, const Eigen::MatrixXd& at_crossing, const Eigen::VectorXd& rates,
+  void take_back(const EventLead& added, const Eigen::MatrixXd& at_crossing, const Eigen::VectorXd& rates,
                  std::span<const double> sizes);
   void carry_through_changes(const Present& present, std::span<const double> sizes);
   [[nodiscard]] Eigen::VectorXd through(const Change& change, const friction::Instant& now, Eigen::Index column,
@@ -120,7 +120,7 @@ class MotionDerivative {
   double shortest_period_;
   Eigen::MatrixXd columns_;
   Eigen::RowVectorXd lead_;  ///< of each column: the time by which its motion is ahead, beside columns_ [s]
-  ModeLead mode_lead_;
+  EventLead event_lead_;
   std::vector<Others> others_;  ///< of the crossings at the present instant
   Course course_;
   std::vector<Change> changes_;  ///< at the event that ends the interval

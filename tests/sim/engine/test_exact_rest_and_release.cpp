@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "friction_models/laws/contact_compliance.hpp"
+#include "sim/motion/simulate.hpp"
 #include "tests/sim/engine/exact_motions.hpp"
 #include "tests/support/make_law.hpp"
 #include "tests/support/random.hpp"
@@ -303,4 +304,37 @@ TEST_CASE("A reversal within the rounding of a stiff bond is one reversal, or a 
   // 205 half periods of the drive, and one where the start has died out.
   CHECK(reversals == 206);
   CHECK(farthest < 1e-6);
+}
+
+TEST_CASE("A mass at rest on contacts, of which one lets go, goes the way in which its speed rises later",
+          "[exact]") {
+  // At t = 1449.2 s, after 1,266 intervals, all forces balance within the rounding of the stiff contact. Rounding
+  // ended a slip forward at once, and one backward too, as soon as an element of `iwan` had let go.
+  sim::Model model;
+  model.oscillator = {
+      .mass = 0.021092059714183455, .stiffness = 0.015138181678868512, .damping = 0.00014685876900637717};
+  const friction::ParameterValues fluctuation{
+      {"ratio", 0.22596349562906304}, {"correlation_time", 15.157028516874073}, {"seed", 918.0}};
+  const std::vector<friction::ParameterValues> elements = {
+      {{"stiffness", 14.097360687799355}, {"limit", 7.948135291698683e-10}},
+      {{"stiffness", 10.057042792289858}, {"limit", 1.164122830528149e-09}},
+      {{"stiffness", 105.16209917497538}, {"limit", 1.4766909138316512e-10}}};
+  model.friction = {
+      test::law("contact_compliance", {{"kinetic", 1.706388685545006e-05},
+                                       {"contact_stiffness", 228941.62884550265},
+                                       {"fluctuation", std::vector<friction::ParameterValues>{fluctuation}}}),
+      test::law("contact_compliance", {{"kinetic", 4.82106907189599e-07},
+                                       {"contact_stiffness", 0.016708318131719517},
+                                       {"contact_damping", 1212.8768171895676}}),
+      test::law("iwan", {{"elements", elements}})};
+  model.excitation = {.type = sim::ExcitationType::base_harmonic,
+                      .amplitude = 0.001139380864530453,
+                      .frequency = 0.004461953685347324,
+                      .phase = 2.8386239056635807};
+  model.excitation.harmonics = {{2, 0.0001489625929948891, 3.2510879135977926}};
+  model.initial = {.position = -0.008001988745562048, .velocity = 0.0};
+  const sim::History history = sim::simulate(model, {.duration = 2000.0});
+  INFO(history.outcome.reason);
+  CHECK(history.outcome.ok());
+  CHECK(history.final.t == Approx(2000.0));
 }

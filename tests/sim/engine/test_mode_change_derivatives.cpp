@@ -1,4 +1,4 @@
-/// Monodromy matrices of the smooth engine over mode changes of laws.
+/// Monodromy matrices of the smooth engine over mode changes of laws and reversals.
 
 #include <catch2/catch.hpp>
 #include <vector>
@@ -75,4 +75,32 @@ TEST_CASE("smooth engine: a guard that reaches zero at no rate leaves the lead o
   CHECK(monodromy(2, 0) == Approx(-5.469999).epsilon(1e-5));
   CHECK(monodromy(1, 1) == Approx(0.03631848).epsilon(1e-5));
   CHECK(monodromy(2, 2) == Approx(1.232527e-4).epsilon(1e-4));
+}
+
+TEST_CASE("smooth engine: a reversal that alters no force delays nothing", "[sim][smooth][derivative]") {
+  // A bond that never breaks and a dashpot forget a displacement within 7 us. The mass reverses 7 us after the
+  // begin of the period at 2e-5 m/s^2: a displacement of 1 m would delay that by 2e9 s, and the rounding of this
+  // delay alone made -0.15 of the second entry. The motion is linear: the expected values are its matrix
+  // exponential in 60 digits.
+  sim::Model model;
+  model.oscillator = {.mass = 6.862230199196253, .stiffness = 634020.5226166677, .damping = 28531178.949056655};
+  model.excitation = {.type = sim::ExcitationType::base_harmonic,
+                      .amplitude = 0.005538342733748107,
+                      .frequency = 164.9274509788931};
+  model.friction = {
+      test::law("reset_integrator",
+                {{"kinetic", 1537919.537188363}, {"stiffness", 4274741511720.224}, {"damping", 83.8891116587536}}),
+      test::law("attached_mass", {{"mass", 0.050103880195353105}, {"stiffness", 5878.299140719173}})};
+  sim::PeriodMap map(model);
+  (void)map.from_start(0.029056242548207212, 0.0, sim::Monodromy::without);
+  (void)map.next(sim::Monodromy::without);
+  const Eigen::MatrixXd monodromy = map.from(map.engine().state(), sim::Monodromy::with).monodromy;
+  CAPTURE(monodromy);
+  CHECK(monodromy(0, 0) == Approx(1.446492e-12).epsilon(1e-4));
+  CHECK(monodromy(1, 0) == Approx(9.56033e-10).epsilon(1e-4));
+  CHECK(monodromy(0, 3) == Approx(1.21951e-9).epsilon(1e-4));
+  CHECK(monodromy(1, 3) == Approx(-2.176445e-7).epsilon(1e-4));
+  CHECK(monodromy(3, 0) == Approx(0.001056539).epsilon(1e-4));
+  CHECK(monodromy(4, 0) == Approx(0.6944104).epsilon(1e-4));
+  CHECK(monodromy(4, 3) == Approx(-158.9671).epsilon(1e-6));
 }

@@ -3,9 +3,12 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <memory>
+#include <numbers>
+#include <vector>
 
 #include "friction_models/laws/coulomb.hpp"
 #include "sim/engine/engine.hpp"
+#include "sim/motion/simulate.hpp"
 #include "tests/support/make_law.hpp"
 
 using namespace dualdamp;
@@ -65,4 +68,30 @@ TEST_CASE("a motion beside a fast decay leaves the range of double precision at 
   const double growth =
       (-rig.damping + std::sqrt(rig.damping * rig.damping - 4.0 * rig.mass * rig.stiffness)) / (2.0 * rig.mass);
   CHECK(shorter->velocity() / shorter->position() == Approx(growth).epsilon(1e-9));
+}
+
+TEST_CASE("A mass that enters a stiff stop at high speed does not leave it at once by rounding", "[exact]") {
+  // Negative damping: at 1e15 m the two positions of the stop are within rounding of one. In the stop the speed
+  // grows in each half turn by exp(-c/(2 m) pi/w), w^2 = (k + kc)/m - (c/(2 m))^2.
+  sim::Model model;
+  model.oscillator = {.mass = 537.0738972389337, .stiffness = 19503600.44648999, .damping = -762101.6871458865};
+  model.friction = {test::law("gap_spring", {{"stiffness", 9232883926.624079}, {"gap", 0.013356579743242492}})};
+  model.excitation = {.type = sim::ExcitationType::force_harmonic,
+                      .amplitude = 4277111.6159095755,
+                      .frequency = 2.9162033631650153,
+                      .phase = 0.9265619075038918};
+  const sim::History history = sim::simulate(model, {.duration = 0.3});
+  INFO(history.outcome.reason);
+  REQUIRE(history.outcome.ok());
+  const double growth = 762101.6871458865 / (2.0 * 537.0738972389337);
+  const double half_turn =
+      std::numbers::pi / std::sqrt((19503600.44648999 + 9232883926.624079) / 537.0738972389337 - growth * growth);
+  std::vector<sim::Event> turns;
+  for (const sim::Event& event : history.events)
+    if (event.kind == sim::EventKind::reversal && event.t > 0.1) turns.push_back(event);
+  CHECK(turns.size() == static_cast<std::size_t>(std::lround(0.2 / half_turn)));
+  for (std::size_t i = 1; i < turns.size(); ++i) {
+    CHECK(turns[i].t - turns[i - 1].t == Approx(half_turn).epsilon(1e-9));
+    CHECK(turns[i].x / turns[i - 1].x == Approx(-std::exp(growth * half_turn)).epsilon(1e-9));
+  }
 }
