@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "bench/crosscheck/motions.hpp"
 #include "bench/crosscheck/patience.hpp"
 #include "friction_models/state_sizes.hpp"
 #include "sim/orbits/transient.hpp"
@@ -40,14 +41,6 @@ Eigen::VectorXd sizes(const sim::Model& model, const State& state, double length
     }
   }
   return Eigen::Map<const Eigen::VectorXd>(list.data(), static_cast<Eigen::Index>(list.size()));
-}
-
-/// Where the mass creeps less far than steps resolve at this drive, a difference quotient is one of their errors.
-bool is_below_steps(const sim::Model& model, double length, double accuracy) {
-  constexpr double small_motion = 1e-3;  // the size that the engine takes for that of a motion that has none yet
-  const double amplitude = model.excitation.amplitude;
-  const double drive = model.excitation.moves_base() ? amplitude : amplitude / model.oscillator.stiffness;
-  return length < small_motion * accuracy * drive;
 }
 
 struct Quotient {

@@ -219,9 +219,11 @@ void ExactEngine::jumped(std::size_t law, const friction::Memory& before, fricti
 }
 
 /// Keeps the rounding of x and v at the end of an interval, as in the search (core/crossing/first_crossing.hpp),
-/// and of the time of the event. The amplitudes may be far larger than those of the next interval.
+/// and of the time of the event. The amplitudes may be far larger than those of the next interval. An interval
+/// shorter than the rounding of the event before it begins and ends at one instant.
 void ExactEngine::keep_rounding(double s) {
-  x_rounding_ = v_rounding_ = time_rounding_ = 0.0;
+  x_rounding_ = v_rounding_ = 0.0;
+  if (s > time_rounding_) time_rounding_ = 0.0;
   const core::ExponentialBasis& basis = mode_->basis();
   const double part = rounding + std::numeric_limits<double>::epsilon() * basis.turning() * s;
   if (crossing_.found) {

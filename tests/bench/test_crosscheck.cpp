@@ -12,6 +12,7 @@
 #include "bench/crosscheck/campaign.hpp"
 #include "bench/crosscheck/case.hpp"
 #include "bench/crosscheck/differences.hpp"
+#include "bench/crosscheck/motions.hpp"
 #include "bench/crosscheck/random_scenario.hpp"
 #include "bench/crosscheck/variants.hpp"
 #include "bench/crosscheck/walk.hpp"
@@ -268,6 +269,22 @@ TEST_CASE("crosscheck: a mass that has crept to rest within one interval of the 
     CHECK((finding.verdict == Verdict::agreed || finding.verdict == Verdict::exception));
     if (finding.verdict == Verdict::exception) CHECK_THAT(finding.text, Catch::Contains("at rest"));
   }
+}
+
+TEST_CASE("crosscheck: a creep that steps do not resolve is named, and not compared", "[crosscheck]") {
+  // Friction is 130 times the drive: the mass creeps by 1e-20 m, the drive would stretch the spring by 2.3 mm.
+  const crosscheck::CaseReport report =
+      crosscheck::check_case(crosscheck::random_scenario(141101, 1181), 141101, 1181);
+  for (const crosscheck::Finding& finding : report.findings) {
+    INFO(finding.comparison << ": " << finding.text);
+    CHECK(finding.verdict != Verdict::disagree);
+    if (finding.comparison == "mirror") CHECK_THAT(finding.text, Catch::Contains("less far than steps resolve"));
+  }
+  sim::Model model;
+  model.oscillator = {.mass = 1.0, .stiffness = 100.0};
+  model.excitation = {.type = sim::ExcitationType::force_harmonic, .amplitude = 1.0, .frequency = 1.0};
+  CHECK(crosscheck::is_below_steps(model, 0.9e-16, 1e-11));
+  CHECK_FALSE(crosscheck::is_below_steps(model, 1.1e-16, 1e-11));
 }
 
 TEST_CASE("crosscheck: a turn of a ringing that positions do not resolve is named, one that they resolve is not",
