@@ -81,7 +81,7 @@ class FrictionLoop final : public Experiment {
     constexpr long samples_of_unit = 8;
     *work += static_cast<long>(x_.size()) / samples_of_unit;
     for (const friction::Law& law : model.friction)
-      if (!add(law, offset, of_record[RecordParameter::travel], force)) return false;
+      if (!add(law, offset, of_record[RecordParameter::travel], model.solver.tolerance, force)) return false;
     bridge(force);
     for (std::size_t i = 0; i < force.size(); ++i) {
       if (o.mass > 0.0) force[i] += o.mass * a_[i];
@@ -124,7 +124,9 @@ class FrictionLoop final : public Experiment {
     for (const friction::Law& law : model.friction) {
       if (!filter_ || turns_.empty() || !law.has_memory()) continue;
       has_any = true;
-      if (!add(law, of_record[RecordParameter::offset], of_record[RecordParameter::travel], force)) return 0;
+      if (!add(law, of_record[RecordParameter::offset], of_record[RecordParameter::travel], model.solver.tolerance,
+               force))
+        return 0;
     }
     const auto [low, high] = std::ranges::minmax(force);
     if (!has_any || !(high > low)) return 0;
@@ -270,13 +272,16 @@ class FrictionLoop final : public Experiment {
   }
 
   /// Adds the force of a law. A law without memory needs no path between the samples.
-  [[nodiscard]] bool add(const friction::Law& law, double offset, double travel, std::vector<double>& force) const {
+  [[nodiscard]] bool add(const friction::Law& law, double offset, double travel, double tolerance,
+                         std::vector<double>& force) const {
     if (!depends_on_past(law)) {
       for (std::size_t i = 0; i < force.size(); ++i)
         force[i] += law.force({}, instant(i, offset), direction_of(law_v_[i]));
       return true;
     }
     sim::LawHost host = sim::loaded_host(law, on_path(0, offset), travel);
+    host.leave_out_energy();
+    host.set_tolerance(tolerance);
     host.limit_steps(std::min(most_steps(), sim::WorkLimit::most()));
     if (const Direction first = direction_of(path_v_[0]); travel == 0.0 || first != host.direction())
       host.change_direction(first);

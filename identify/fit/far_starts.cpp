@@ -59,7 +59,8 @@ std::vector<std::size_t> open_parameters(const FitProblem& problem, const std::v
     const FitParameter& parameter = parameters[i];
     const auto at = static_cast<Eigen::Index>(i);
     const bool is_logarithm = problem.space()[i].logarithmic;
-    const bool is_missed = parameter.above || (is_speed(parameter) && is_logarithm);
+    // Along a loop no law comes to rest one half swing earlier or later: the level at rest has no false minima.
+    const bool is_missed = (parameter.above && !problem.has_loops_only()) || (is_speed(parameter) && is_logarithm);
     if (parameter.owner != Owner::law || problem.is_stepped(at) || !is_missed) continue;
     if (deviations[at] > known * (is_logarithm ? 1.0 : end.place.q[at])) open.push_back(i);
   }

@@ -269,6 +269,27 @@ void seek_loads(std::unique_ptr<FitTask>& task, SearchResult& found, double leng
   }
 }
 
+SearchOptions search_options(const Request& request, const DataScale& scale) {
+  const bool all_stated = std::ranges::none_of(
+      request.parameters, [](const FitParameter& parameter) { return std::isnan(parameter.stated); });
+  const int starts = request.options.starts;
+  return {.points = starts > 0   ? starts
+                    : all_stated ? 8
+                                 : 40,
+          .most_starts = all_stated ? 2U : 3U,
+          .robust = request.options.robust,
+          .scale = scale,
+          .elements = ParallelElements::of(request.rig, request.parameters, request.experiments)};
+}
+
+/// Tells the elements of laws in the order in which they slip.
+void sort_elements(const std::vector<ParallelElements>& all, const FitProblem& problem, SearchResult& found) {
+  if (all.empty()) return;
+  Eigen::VectorXd values = problem.space().values(found.coordinates);
+  for (const ParallelElements& elements : all) elements.sort(values);
+  found.coordinates = problem.space().point(values);
+}
+
 }  // namespace
 
 Fit fit_rig(const Rig& rig, std::vector<FitParameter> parameters, const Experiments& experiments,
@@ -290,11 +311,8 @@ Fit fit_rig(const Rig& rig, std::vector<FitParameter> parameters, const Experime
                                : "")};
     return result;
   }
-  const bool all_stated =
-      std::ranges::none_of(parameters, [](const FitParameter& parameter) { return std::isnan(parameter.stated); });
-  result.starts = options.starts > 0 ? options.starts : all_stated ? 8 : 40;
-  const SearchOptions search{
-      .points = result.starts, .most_starts = all_stated ? 2U : 3U, .robust = options.robust, .scale = scale};
+  const SearchOptions search = search_options({rig, parameters, experiments, options}, scale);
+  result.starts = search.points;
   problem.limit(options.most_work);
   task->problem.set_stepped(
       stepped_parameters(problem, problem.space().point(Eigen::Map<const Eigen::VectorXd>(
@@ -317,6 +335,7 @@ Fit fit_rig(const Rig& rig, std::vector<FitParameter> parameters, const Experime
   constexpr int most_rounds = 4;
   for (int round = 1;; ++round) {
     Fit described = result;
+    sort_elements(search.elements, task->problem, *found);
     const std::optional<Eigen::VectorXd> lower =
         describe(task->problem, {rig, task->parameters, experiments, options}, *found, described);
     if (!lower) return described;

@@ -24,8 +24,11 @@ using core::infinity;
 std::vector<Eigen::VectorXd> start_points(const FitProblem& problem, const std::vector<FitParameter>& parameters,
                                           const std::vector<double>& sizes, const SearchOptions& options) {
   std::vector<Eigen::VectorXd> points;
-  for (int i = 0; i < options.points; ++i)
-    points.push_back(problem.space().point(start_of(parameters, sizes, i, options.scale)));
+  for (int i = 0; i < options.points; ++i) {
+    Eigen::VectorXd start = start_of(parameters, sizes, i, options.scale);
+    for (const ParallelElements& elements : options.elements) elements.begin(start, i);
+    points.push_back(problem.space().point(start));
+  }
   return points;
 }
 
@@ -171,8 +174,11 @@ std::optional<LeastSquaresFit> search_roughly(const std::vector<Eigen::VectorXd>
   constexpr std::size_t tried = 6;
   std::ranges::move(balanced_starts(points, tried, problem, options), std::back_inserter(starts));
   constexpr int few = 8;
-  for (const Eigen::VectorXd& start : starts)
+  for (const Eigen::VectorXd& start : starts) {
     take_better(search.improve(start, rough, starts.size() > 1 ? few : 100), search, problem, best);
+    // The samples of a loop tell whether anything is left to find.
+    if (best && problem.has_loops_only() && !holds_motion(search.result(*best), problem)) break;
+  }
   if (best && is_far_from_states(problem, best->parameters))
     for (const Eigen::VectorXd& start : balanced_starts(points, points.size(), problem, options))
       take_better(search.improve(start, rough, few), search, problem, best);

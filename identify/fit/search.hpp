@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "identify/experiments/starts.hpp"
+#include "identify/fit/parallel_elements.hpp"
 #include "identify/fit/problem.hpp"
 
 namespace dualdamp::identify {
@@ -28,6 +29,7 @@ struct SearchOptions {
   DataScale scale = {};  ///< of the data, for the spread of the starts
   /// Of each signal, at which the search begins: those of an earlier search. Empty: from the data.
   std::vector<double> deviations = {};
+  std::vector<ParallelElements> elements = {};  ///< of laws
 };
 
 struct SearchResult {

@@ -3,7 +3,7 @@
 ///
 /// The force of a loop under `free_play` is on or off at each sample: over the play it is a staircase, whose
 /// derivative is zero or a jump of a single sample. Such a parameter is found without a law's name: over a part of
-/// its range the readings change, but nowhere there by a change of 1e-9 of it.
+/// its range the readings change, by more than rounding, but nowhere there by a change of 1e-9 of it.
 ///
 ///   scan     all of its range in steps of 15 %, with the other parameters fitted at each; places with the same
 ///            readings count once

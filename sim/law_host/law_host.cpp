@@ -18,27 +18,37 @@ using friction::Trigger;
 namespace {
 
 constexpr int max_jumps = 32;
-constexpr double tolerance = 1e-12;
+/// Of their largest value so far: guards below zero by less are at zero.
+constexpr double rounding_of_guards = 1e-12;
 constexpr int max_events = 1000;  ///< within one call of move_along
 
-/// The states of a law over their scales, followed by work and heat.
+/// The states of a law over their scales, followed by work and heat, unless these are left out.
 class StatesOnPath final : public VectorField {
  public:
-  StatesOnPath(const friction::Law& law, Memory memory, Direction direction, const Path& path)
-      : law_(law), memory_(std::move(memory)), direction_(direction), path_(path), scales_(memory_.state.size()) {
+  StatesOnPath(const friction::Law& law, Memory memory, Direction direction, const Path& path, bool has_energy)
+      : law_(law),
+        memory_(std::move(memory)),
+        direction_(direction),
+        path_(path),
+        has_energy_(has_energy),
+        scales_(memory_.state.size()) {
     law_.scales(memory_, scales_);
     // States whose size depends on the motion.
     std::ranges::replace(scales_, 0.0, 1.0);
     std::ranges::replace(scales_, friction::size_of_velocity, 1.0);
   }
 
-  [[nodiscard]] std::size_t size() const override { return scales_.size() + 2; }
+  [[nodiscard]] std::size_t size() const override { return scales_.size() + (has_energy_ ? 2 : 0); }
   void evaluate(std::span<const double> y, double t, std::span<double> rates) const override {
     const Instant now = path_(t);
     unscale(y, memory_);
     const std::size_t n = scales_.size();
-    rates[n] = law_.respond(memory_, now, direction_, rates.first(n)) * now.v;
-    rates[n + 1] = law_.dissipation(memory_, now, direction_);
+    if (has_energy_) {
+      rates[n] = law_.respond(memory_, now, direction_, rates.first(n)) * now.v;
+      rates[n + 1] = law_.dissipation(memory_, now, direction_);
+    } else {
+      law_.rates(memory_, now, direction_, rates);
+    }
     for (std::size_t i = 0; i < n; ++i) rates[i] /= scales_[i];
   }
   /// Of the states by differences; work and heat follow from the states.
@@ -74,21 +84,22 @@ class StatesOnPath final : public VectorField {
   mutable Memory memory_;
   Direction direction_;
   const Path& path_;
+  bool has_energy_;
   std::vector<double> scales_;
 };
 
 }  // namespace
 
 LawHost::LawHost(const friction::Law& law, const Instant& start)
-    : law_(law), memory_(law.start(start)), now_(start), first_velocity_(start.v) {
-  now_.past_velocity = start.v;
+    : law_(law), place_{.memory = law.start(start), .now = start}, first_velocity_(start.v) {
+  place_.now.past_velocity = start.v;
   settle();
 }
 
 /// The path; for a law with a delay with the past velocity.
 Path LawHost::with_past(const Path& path) {
   if (!(law_.delay() > 0.0)) return path;
-  strokes_.push_back({now_.t, path});
+  strokes_.push_back({place_.now.t, path});
   return [this, path](double t) {
     Instant now = path(t);
     const double then = t - law_.delay();
@@ -100,104 +111,142 @@ Path LawHost::with_past(const Path& path) {
 
 std::vector<double> LawHost::guards() const {
   std::vector<double> values;
-  if (law_.has_memory()) law_.guards(memory_, now_, direction_, values);
+  if (law_.has_memory()) law_.guards(place_.memory, place_.now, direction_, values);
   return values;
 }
 
 void LawHost::change_direction(Direction direction) {
   for (const Direction next : {Direction::none, direction}) {
     direction_ = next;
-    if (law_.has_memory()) law_.jump(memory_, {}, now_, direction_);
+    if (law_.has_memory()) law_.jump(place_.memory, {}, place_.now, direction_);
     settle();
   }
 }
 
 void LawHost::move_along(double end, const Path& path) {
   const Path extended = with_past(path);
-  for (int events = 0; now_.t < end && !broken_; ++events) {
+  for (int events = 0; place_.now.t < end && !place_.broken; ++events) {
     if (events > max_events) return give_up("there is no end of events within one step");
-    const double scheduled = law_.next_change(memory_);
+    const double scheduled = law_.next_change(place_.memory);
     const double stop = std::min(end, scheduled);
     go_to_violation(stop, extended);
     if (const int guard = worst_guard(); guard >= 0) {
-      law_.jump(memory_, {guard}, now_, direction_);
-    } else if (now_.t == scheduled) {
-      law_.jump(memory_, {Trigger::scheduled}, now_, direction_);
-      if (!(law_.next_change(memory_) > now_.t))
+      law_.jump(place_.memory, {guard}, place_.now, direction_);
+    } else if (place_.now.t == scheduled) {
+      law_.jump(place_.memory, {Trigger::scheduled}, place_.now, direction_);
+      if (!(law_.next_change(place_.memory) > place_.now.t))
         return give_up("a scheduled change is not followed by a later one");
     } else {
       continue;
     }
     ++events_;
-    last_event_ = now_;
+    last_event_ = place_.now;
     settle();
   }
 }
 
 void LawHost::move_to(double x) {
-  const Instant from = now_;
+  const Instant from = place_.now;
   const double length = x - from.x;
   change_direction(friction::direction_of(length));
   move_along(from.t + 1.0, [from, length](double t) { return Instant{t, from.x + length * (t - from.t), length}; });
-  now_.x = x;
+  place_.now.x = x;
+}
+
+/// How far the lowest guard is above zero, as far as rounding allows: below zero, a guard is violated. Far beyond
+/// the zero of its guard a formula may overflow: minus infinity.
+double LawHost::depth_now() {
+  const bool is_violated = worst_guard() >= 0;
+  if (place_.broken) return -std::numeric_limits<double>::infinity();
+  const double least = guards_.empty() ? place_.guard_size : *std::ranges::min_element(guards_);
+  const double depth = least + rounding_of_guards * place_.guard_size;
+  constexpr double smallest = std::numeric_limits<double>::min();
+  return is_violated ? std::min(depth, -smallest) : std::max(depth, smallest);
+}
+
+/// The first time at which a guard is violated; `depth`: at `end`, below zero. By the secant with a
+/// weight at the end that stays (Illinois), and by halves where that is slow. Leaves the motion where it is.
+double LawHost::time_of_violation(double end, double depth, const Path& path) {
+  const Place begin = place_;
+  constexpr int most_rounds = 240;  // a third of them halve the bracket
+  double low = begin.now.t;
+  double high = end;
+  double at_low = std::max(0.0, depth_now());
+  double at_high = depth;
+  int side = 0;
+  double last_width = high - low;
+  for (int round = 0; round < most_rounds; ++round) {
+    const double width = high - low;
+    const bool is_slow = round % 3 == 0 && round > 0 && width > 0.5 * last_width;
+    if (round % 3 == 0) last_width = width;
+    double t = low + width * at_low / (at_low - at_high);
+    if (is_slow || !(at_low > 0.0) || !std::isfinite(at_high)) t = low + 0.5 * width;
+    // To the last bit: the time must not depend on the sizes of guards that are not violated.
+    const double first = std::nextafter(low, high);
+    if (!(first < high)) break;
+    t = std::clamp(t, first, std::nextafter(high, low));
+    place_ = begin;
+    go(t, path);
+    const double there = depth_now();
+    if (steps_ > most_steps_) break;
+    if (there < 0.0) {
+      high = t;
+      at_high = there;
+      if (side < 0) at_low *= 0.5;
+      side = -1;
+    } else {
+      low = t;
+      at_low = there;
+      if (side > 0) at_high *= 0.5;
+      side = 1;
+    }
+  }
+  place_ = begin;
+  return high;
 }
 
 /// Moves to the first time at which a guard is below zero, or to `end`. A guard that is above zero at `end` counts
 /// as above zero until then.
 void LawHost::go_to_violation(double end, const Path& path) {
   if (!law_.has_memory()) return go(end, path);
-  const auto try_to = [&](LawHost& trial, double t) {
-    trial.go(t, path);
-    steps_ = trial.steps_;
-    // Far beyond the zero of its guard a formula may overflow.
-    return trial.worst_guard() >= 0 || trial.broken();
-  };
-  LawHost whole = *this;
-  if (!try_to(whole, end)) {
-    *this = std::move(whole);
-    return;
-  }
-  const auto violated = [&](double t) {
-    LawHost trial = *this;
-    return try_to(trial, t);
-  };
-  double low = now_.t;
-  double high = end;
-  for (int i = 0; i < 80; ++i) {
-    const double t = (low + high) / 2.0;
-    (violated(t) ? high : low) = t;
-  }
-  go(high, path);
+  const Place begin = place_;
+  go(end, path);
+  const double depth = depth_now();
+  if (!(depth < 0.0) || steps_ > most_steps_) return;
+  place_ = begin;
+  go(time_of_violation(end, depth, path), path);
 }
 
 void LawHost::go(double end, const Path& path) {
   if (law_.is_affine()) {
-    const Instant before = now_;
+    const Instant before = place_.now;
     const double force_before = force();
-    now_ = path(end);
-    law_.advance(memory_, before, now_, end - before.t, direction_);
-    work_ += (force_before + force()) / 2.0 * (now_.x - before.x);
+    place_.now = path(end);
+    law_.advance(place_.memory, before, place_.now, end - before.t, direction_);
+    place_.work += (force_before + force()) / 2.0 * (place_.now.x - before.x);
   } else {
     integrate(end, path);
-    now_ = path(end);
+    place_.now = path(end);
   }
 }
 
 /// Integrates the states, relative to their scales: by explicit steps, and by implicit ones once stability limits
 /// those.
 void LawHost::integrate(double end, const Path& path) {
-  const StatesOnPath field(law_, memory_, direction_, path);
-  auto stepper = make_explicit_stepper();
+  const StatesOnPath field(law_, place_.memory, direction_, path, has_energy_);
+  if (!explicit_.stepper) explicit_.stepper = make_explicit_stepper();
+  std::unique_ptr<Stepper> implicit;
+  Stepper* stepper = explicit_.stepper.get();
   StiffSteps stiff_steps;
-  std::vector<double> y = field.scaled(memory_);
+  std::vector<double> y = field.scaled(place_.memory);
   std::vector<double> next(y.size());
   std::vector<double> error(y.size());
   std::vector<double> allowed(y.size());
-  double t = now_.t;
+  double t = place_.now.t;
   double h = end - t;
   while (t < end) {
     if (++steps_ > most_steps_) return give_up("its states change too fast to be integrated");
-    for (std::size_t i = 0; i < y.size(); ++i) allowed[i] = tolerance * (1.0 + std::abs(y[i]));
+    for (std::size_t i = 0; i < y.size(); ++i) allowed[i] = tolerance_ * (1.0 + std::abs(y[i]));
     const bool is_last = h >= end - t;
     if (is_last) h = end - t;
     double excess = 0.0;
@@ -211,29 +260,32 @@ void LawHost::integrate(double end, const Path& path) {
       y.swap(next);
       stiff_steps.add(stepper->stiffness());
       if (stiff_steps.are_many()) {
-        stepper = make_implicit_stepper();
+        implicit = make_implicit_stepper();
+        stepper = implicit.get();
         stiff_steps = {};
       }
-    } else if (h < 1e-12 * (end - now_.t)) {
+    } else if (h < 1e-12 * (end - place_.now.t)) {
       return give_up("its states are not finite, or cannot be integrated");
     }
     h *= std::clamp(0.9 * std::pow(excess, -1.0 / (stepper->order() + 1)), 0.1, 5.0);
   }
-  field.unscale(y, memory_);
-  work_ += y[y.size() - 2];
-  heat_ += y.back();
+  field.unscale(y, place_.memory);
+  if (!has_energy_) return;
+  place_.work += y[y.size() - 2];
+  place_.heat += y.back();
 }
 
 /// The guard that is farthest below zero, by more than rounding; -1: none.
 int LawHost::worst_guard() {
-  const std::vector<double> values = guards();
+  guards_.clear();
+  if (law_.has_memory()) law_.guards(place_.memory, place_.now, direction_, guards_);
   int worst = -1;
   double least = 0.0;
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    guard_size_ = std::max(guard_size_, std::abs(values[i]));
-    if (!std::isfinite(values[i])) give_up("a guard is not finite");
-    if (values[i] < std::min(least, -1e-12 * guard_size_)) {
-      least = values[i];
+  for (std::size_t i = 0; i < guards_.size(); ++i) {
+    place_.guard_size = std::max(place_.guard_size, std::abs(guards_[i]));
+    if (!std::isfinite(guards_[i])) give_up("a guard is not finite");
+    if (guards_[i] < std::min(least, -rounding_of_guards * place_.guard_size)) {
+      least = guards_[i];
       worst = static_cast<int>(i);
     }
   }
@@ -244,14 +296,14 @@ void LawHost::settle() {
   for (int i = 0; i <= max_jumps; ++i) {
     const int guard = worst_guard();
     if (guard < 0) return;
-    law_.jump(memory_, {guard}, now_, direction_);
+    law_.jump(place_.memory, {guard}, place_.now, direction_);
   }
   give_up("jumps do not end within 32 repeats");
 }
 
 void LawHost::give_up(const std::string& fault) {
-  faults_.push_back(fault);
-  broken_ = true;
+  place_.faults.push_back(fault);
+  place_.broken = true;
 }
 
 }  // namespace dualdamp::sim
