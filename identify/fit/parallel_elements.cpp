@@ -33,6 +33,9 @@ struct LinearLoop {
   Eigen::Index free = 0;
 };
 
+/// Numbers of columns among those that must be positive, with their coefficients.
+using Chosen = std::vector<std::pair<Eigen::Index, double>>;
+
 /// The columns that leave least of the force, among which all that may be negative.
 class BestColumns {
  public:
@@ -56,16 +59,33 @@ class BestColumns {
   }
 
   /// Numbers and coefficients of the columns that were chosen, in ascending order.
-  [[nodiscard]] std::vector<std::pair<Eigen::Index, double>> chosen() const {
-    const Eigen::VectorXd factors = solution(set_);
-    std::vector<std::pair<Eigen::Index, double>> list;
-    for (auto k = static_cast<std::size_t>(loop_.free); k < set_.size(); ++k)
-      list.emplace_back(set_[k] - loop_.free, factors[static_cast<Eigen::Index>(k)]);
+  [[nodiscard]] Chosen chosen() const { return chosen(set_); }
+
+  /// The same with one column after the other replaced by two beside it, as far as their coefficients are positive.
+  [[nodiscard]] std::vector<Chosen> split() const {
+    constexpr Eigen::Index beside = 2;
+    std::vector<Chosen> all;
+    for (auto k = static_cast<std::size_t>(loop_.free); k < set_.size(); ++k) {
+      std::vector<Eigen::Index> both = set_;
+      both[k] -= beside;
+      both.push_back(set_[k] + beside);
+      const bool is_inside = both[k] >= loop_.free && both.back() < loop_.with.size();
+      const bool is_new = std::ranges::count(both, both[k]) == 1 && std::ranges::count(both, both.back()) == 1;
+      if (is_inside && is_new && gain(both) > 0.0) all.push_back(chosen(both));
+    }
+    return all;
+  }
+
+ private:
+  [[nodiscard]] Chosen chosen(const std::vector<Eigen::Index>& set) const {
+    const Eigen::VectorXd factors = solution(set);
+    Chosen list;
+    for (auto k = static_cast<std::size_t>(loop_.free); k < set.size(); ++k)
+      list.emplace_back(set[k] - loop_.free, factors[static_cast<Eigen::Index>(k)]);
     std::ranges::sort(list);
     return list;
   }
 
- private:
   [[nodiscard]] Eigen::VectorXd solution(const std::vector<Eigen::Index>& set) const {
     return DefiniteMatrix(loop_.products(set, set)).solve(loop_.with(set));
   }
@@ -206,10 +226,17 @@ void ParallelElements::look_at(const Rig& rig, const std::vector<FitParameter>& 
   const std::vector<double> distances = slip_distances(length);
   const std::optional<LinearLoop> loop = linear_loop(rig, parameters, loops, distances);
   if (!loop || !loop->products.allFinite()) return;
-  BestColumns best(*loop);
-  if (!best.choose(stiffness_.size())) return;
-  for (const auto& [number, stiffness] : best.chosen())
-    found_.push_back({stiffness, stiffness * distances[static_cast<std::size_t>(number)]});
+  const std::size_t count = stiffness_.size();
+  std::vector<Chosen> all;
+  if (BestColumns best(*loop); best.choose(count)) all.push_back(best.chosen());
+  // An element may stand for what the law has beside its elements, and another one for two of them.
+  if (BestColumns fewer(*loop); count > 1 && fewer.choose(count - 1))
+    for (Chosen& split : fewer.split()) all.push_back(std::move(split));
+  for (const Chosen& chosen : all) {
+    found_.emplace_back();
+    for (const auto& [number, stiffness] : chosen)
+      found_.back().push_back({stiffness, stiffness * distances[static_cast<std::size_t>(number)]});
+  }
 }
 
 std::vector<ParallelElements::Element> ParallelElements::elements(const Eigen::VectorXd& values) const {
@@ -230,11 +257,11 @@ void ParallelElements::set(const std::vector<Element>& elements, Eigen::VectorXd
     values[static_cast<Eigen::Index>(limits_[i])] = elements[i].limit;
 }
 
-void ParallelElements::set_found(Eigen::VectorXd& values) const {
-  if (!are_shares_) return set(found_, values);
-  const double level = std::accumulate(found_.begin(), found_.end(), 0.0,
+void ParallelElements::set_found(const std::vector<Element>& found, Eigen::VectorXd& values) const {
+  if (!are_shares_) return set(found, values);
+  const double level = std::accumulate(found.begin(), found.end(), 0.0,
                                        [](double sum, const Element& element) { return sum + element.limit; });
-  std::vector<Element> shared = found_;
+  std::vector<Element> shared = found;
   for (Element& element : shared) element.limit /= level;
   set(shared, values);
   if (!kinetic_) return;
@@ -245,8 +272,12 @@ void ParallelElements::set_found(Eigen::VectorXd& values) const {
   if (static_) values[static_cast<Eigen::Index>(*static_)] = ratio * kinetic;
 }
 
+std::size_t ParallelElements::kind(int number) const {
+  return number == 0 || found_.empty() ? 0 : 1 + static_cast<std::size_t>(number - 1) % found_.size();
+}
+
 void ParallelElements::begin(Eigen::VectorXd& values, int number) const {
-  if (number > 0 && !found_.empty()) return set_found(values);
+  if (number > 0 && !found_.empty()) return set_found(found_[kind(number) - 1], values);
   std::vector<Element> list = elements(values);
   constexpr double alike = 1e-6;
   const auto is_like_first = [&](const Element& other) {

@@ -34,6 +34,10 @@ class ParallelElements {
   /// have elements from the data. Equal elements are moved apart: no derivative does that.
   void begin(Eigen::VectorXd& values, int number) const;
 
+  /// The way in which start `number` gets its elements; 0: as they are stated. Starts of each way lead to different
+  /// minima.
+  [[nodiscard]] std::size_t kind(int number) const;
+
   /// The same law with its elements in the order of d_i.
   void sort(Eigen::VectorXd& values) const;
 
@@ -46,14 +50,14 @@ class ParallelElements {
   void look_at(const Rig& rig, const std::vector<FitParameter>& parameters, const Experiments& experiments);
   [[nodiscard]] std::vector<Element> elements(const Eigen::VectorXd& values) const;
   void set(const std::vector<Element>& elements, Eigen::VectorXd& values) const;
-  void set_found(Eigen::VectorXd& values) const;
+  void set_found(const std::vector<Element>& found, Eigen::VectorXd& values) const;
 
   std::size_t law_ = 0;
   std::vector<std::size_t> stiffness_;  ///< indices of the parameters
   std::vector<std::size_t> limits_;     ///< one less than `stiffness_` if they are shares
   bool are_shares_ = false;
   std::optional<std::size_t> kinetic_, static_;  ///< the level of shares, if it is sought
-  std::vector<Element> found_;                   ///< from the data
+  std::vector<std::vector<Element>> found_;      ///< from the data, in several ways
 };
 
 }  // namespace dualdamp::identify

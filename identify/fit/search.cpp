@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <map>
 #include <utility>
 
 #include "core/constants.hpp"
@@ -43,6 +44,19 @@ std::vector<Eigen::VectorXd> best_of(const std::vector<Eigen::VectorXd>& points,
   for (const auto& [squares, i] : order)
     if (std::isfinite(squares) && best.size() < wanted) best.push_back(points[i]);
   return best;
+}
+
+/// The best starts; where elements of a law begin in several ways, the best start of each way, best first.
+std::vector<Eigen::VectorXd> best_starts(const std::vector<Eigen::VectorXd>& points, const WeightedSearch& search,
+                                         const SearchOptions& options) {
+  if (options.elements.empty()) return best_of(points, search, options.most_starts);
+  std::map<std::size_t, std::vector<Eigen::VectorXd>> ways;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    ways[options.elements.front().kind(static_cast<int>(i))].push_back(points[i]);
+  if (ways.size() < 2) return best_of(points, search, options.most_starts);
+  std::vector<Eigen::VectorXd> best;
+  for (const auto& [kind, starts] : ways) std::ranges::move(best_of(starts, search, 1), std::back_inserter(best));
+  return best_of(best, search, best.size());
 }
 
 /// Tolerance of the first steps, which only choose among several searches.
@@ -149,6 +163,19 @@ bool is_far_from_states(const FitProblem& problem, const Eigen::VectorXd& q) {
   });
 }
 
+/// Whether the residuals are noise, and no larger than the roughness of each signal. Kinks that are missed may look
+/// like noise, but not be as small.
+bool is_at_noise(const SearchResult& found, const FitProblem& problem) {
+  constexpr double near = 1.3;
+  Eigen::VectorXd outputs;
+  if (holds_motion(found, problem) || !problem.outputs(found.coordinates, outputs)) return false;
+  const FitReadings& readings = problem.readings();
+  const Eigen::VectorXd misses = readings.misses(outputs);
+  return std::ranges::all_of(readings.signals(), [&](const SignalRows& rows) {
+    return readings.rms(misses, rows) <= near * readings.signal(rows).noise;
+  });
+}
+
 /// Searches with the first parts of the motions. If two of them do not end at the same sum of squares and leave
 /// more than noise, or if there are no motions, also searches from several starts with all readings.
 std::optional<LeastSquaresFit> search_roughly(const std::vector<Eigen::VectorXd>& points,
@@ -165,7 +192,7 @@ std::optional<LeastSquaresFit> search_roughly(const std::vector<Eigen::VectorXd>
   ends_alike(search_growing(points, 0.1, search, problem, options));
   if (ends_alike(search_growing(points, 0.35, search, problem, options))) return best;
   if (best && !holds_motion(search.result(*best), problem)) return best;
-  std::vector<Eigen::VectorXd> starts = best_of(points, search, options.most_starts);
+  std::vector<Eigen::VectorXd> starts = best_starts(points, search, options);
   // Near resonance the amplitude tells more of the damping than of the friction: a start with a friction that does
   // not act may come closer than the one from the energy of the states, from which a search ends at the minimum.
   if (options.scale.friction > 0.0 && std::ranges::find(starts, points.front()) == starts.end() &&
@@ -177,7 +204,7 @@ std::optional<LeastSquaresFit> search_roughly(const std::vector<Eigen::VectorXd>
   for (const Eigen::VectorXd& start : starts) {
     take_better(search.improve(start, rough, starts.size() > 1 ? few : 100), search, problem, best);
     // The samples of a loop tell whether anything is left to find.
-    if (best && problem.has_loops_only() && !holds_motion(search.result(*best), problem)) break;
+    if (best && problem.has_loops_only() && is_at_noise(search.result(*best), problem)) break;
   }
   if (best && is_far_from_states(problem, best->parameters))
     for (const Eigen::VectorXd& start : balanced_starts(points, points.size(), problem, options))

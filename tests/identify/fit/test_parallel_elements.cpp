@@ -97,6 +97,34 @@ TEST_CASE("parallel elements: a level that falls with speed is found from equal 
   CHECK(test::fitted(fit, "kinetic").value == Approx(1.0).epsilon(0.02));
 }
 
+TEST_CASE("parallel elements: two that slip close to each other are not taken for one", "[identify][fit][loop]") {
+  // The grid alone prefers one element for both, and another one for the rise of the force at low speed.
+  const auto element = [](double stiffness, double share) {
+    return friction::ParameterValues{{"stiffness", stiffness}, {"share", share}};
+  };
+  const std::vector<std::string> sought = {"elements", "kinetic", "static", "stribeck_velocity", "attraction"};
+  const auto law = [&](const List& elements) {
+    return test::LawCase{"generalized_maxwell_slip",
+                         {{"elements", elements},
+                          {"kinetic", 1.1161},
+                          {"static", 1.7831},
+                          {"stribeck_velocity", 4.174e-3},
+                          {"attraction", 190.2}},
+                         sought};
+  };
+  const identify::Record record = test::loop_of(
+      test::rig_with(law({element(5736.2, 0.23723), element(5122.8, 0.38299), element(1168.8, 0.37978)})), 1.1e-3,
+      0.01, 4);
+  const double third = 1.0 / 3.0;
+  const identify::Fit fit =
+      fit_to(record, law({element(4000.0, third), element(4000.0, third), element(4000.0, 1.0 - 2.0 * third)}));
+  REQUIRE(fit.outcome.ok());
+  CHECK(fit.signals.front().rms == Approx(0.01).epsilon(0.1));
+  CHECK(test::fitted(fit, "elements[0].stiffness").value == Approx(5736.2).epsilon(0.1));
+  CHECK(test::fitted(fit, "elements[0].share").value == Approx(0.23723).epsilon(0.1));
+  CHECK(test::fitted(fit, "elements[1].stiffness").value == Approx(5122.8).epsilon(0.1));
+}
+
 TEST_CASE("steps: a fall that is over before the lowest speed is no parameter that acts in steps",
           "[identify][fit][loop]") {
   const identify::Rig whole = test::rig_with(test::law_case_of("stribeck"));
