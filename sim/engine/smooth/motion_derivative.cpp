@@ -163,7 +163,7 @@ bool MotionDerivative::forgets_speed(const SmoothStep& step) const {
 void MotionDerivative::lead_near_stop(const SmoothStep& step) {
   if (step.flow.direction() == friction::Direction::none) return;
   std::vector<double> rates(step.begin.size());
-  rates_of_motion(step.flow, step.begin, step.t, rates);
+  step.flow.evaluate(step.begin, step.t, rates);
   if (!(std::abs(step.begin[1]) < near_stop * shortest_period_ * std::abs(rates[1])) || forgets_speed(step)) return;
   const Eigen::RowVectorXd ahead = columns_.row(1) / rates[1];
   columns_ -= as_vector(rates) * ahead;
