@@ -171,8 +171,8 @@ std::string foreign_noise_warning(const Experiment& experiment, const FittedSign
   const auto before = [](const std::string& text, const char* joint) { return text.empty() ? "" : text + joint; };
   return subject + " are " + core::format_number(fitted.noise_units, 3) +
          " times the noise of that signal, though they look like noise: " + before(source, ", or ") +
-         "outliers. The estimates may be off by more than the intervals say; " + before(help, ", or ") +
-         "use 'robust' for outliers";
+         "outliers, or a search that missed the best fit. The estimates may be off by more than the intervals say; " +
+         before(help, ", or ") + "try more starts, or 'robust' for outliers";
 }
 
 /// The mean of the residuals, in its standard errors, from which on a zero is off.
@@ -348,7 +348,7 @@ void warn_of_signal(const Experiments& experiments, bool robust, double zero_gai
       drift == 0.0 ? zero_off(experiments, fitted, zero_gain, fit) : std::nullopt;
   if (drift != 0.0) fit.warnings.push_back(drift_warning(drift, signal, subject));
   if (zero) fit.warnings.push_back(zero_warning(fitted, *zero, zero_gain, subject));
-  constexpr double far = 3.0;
+  constexpr double far = 2.0;
   const bool is_far = is_noise(fitted.p_value) && scatter == ScatterBesideStated::as_stated && signal.is_sampled &&
                       !robust && fitted.noise_units > far && !zero && drift == 0.0;
   if (is_far && !is_slow(signal, fitted))

@@ -125,6 +125,11 @@ TEST_CASE("loop: noise of a velocity that is differentiated is filtered, and tol
   CHECK_THAT(fit.warnings.front(), Catch::Contains("though they look like noise"));
   // What was measured is not advised again.
   CHECK_THAT(fit.warnings.front(), Catch::Contains("a is a derivative of v: measure a too, or v with less noise"));
+  const identify::Fit less = fit_of_loop({.rate = 1000.0, .noise_v = 1.5e-4}, 8);
+  CHECK(less.signals.front().noise_units > 2.0);
+  CHECK(less.signals.front().noise_units < 3.0);
+  REQUIRE(less.warnings.size() == 1);
+  CHECK_THAT(less.warnings.front(), Catch::Contains("though they look like noise"));
   const identify::Fit by_x = fit_of_loop({.rate = 1000.0, .v = false, .noise_x = 1.5e-5}, 8);
   REQUIRE_FALSE(by_x.warnings.empty());
   CHECK_THAT(by_x.warnings.front(), Catch::Contains("measure v and a rather than x"));
