@@ -27,7 +27,7 @@ SANITIZED = "DUALDAMP_SANITIZED" in os.environ
 class Surroundings(Case):
     def setUp(self):
         super().setUp()
-        for name, text in {"base": BASE, "long": LONG, "curve": LONG.replace("1000000", "20000"), "slower": LONG.replace("1000000", "200000"), "sweep": SWEEP, "another": SWEEP}.items():
+        for name, text in {"base": BASE, "curve": LONG.replace("1000000", "20000"), "slower": LONG.replace("1000000", "200000"), "sweep": SWEEP, "another": SWEEP}.items():
             self.write(f"{name}.yaml", text)
 
     def start(self, *arguments, **options):
@@ -70,7 +70,7 @@ class Surroundings(Case):
         """As for a command in the background of a script."""
         for isolated in ([], ["--isolate-plugins=600"]):
             with self.subTest(isolated):
-                process = self.start(*isolated, "run", "long.yaml", preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_IGN))
+                process = self.start(*isolated, "run", "sweep.yaml", "--overwrite", preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_IGN))
                 if not isolated:  # which waits for signals of its child, too
                     self.wait_until_it_watches(process)
                 time.sleep(0.5)
