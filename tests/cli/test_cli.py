@@ -21,6 +21,9 @@ from case import BASE, PATIENCE, PROGRAM
 
 ROOT = Path(sys.argv[2]).resolve()
 
+LONG = BASE.replace("steady_state", "xy_curve, amplitudes: {from: 0 m, to: 0.6 m, count: 1000000}").replace(
+    "{law: coulomb, kinetic: 2 N}", "{law: contact_compliance, kinetic: 2 N, contact_stiffness: 1 kN/m}")  # runs for minutes
+
 FILES = ["orbit.csv", "report.html", "result.json"]  # of a steady state
 KEYS = ["program", "provenance", "scenario", "analysis", "status", "result", "warnings", "checks", "errors"]
 
@@ -260,17 +263,11 @@ class Refusals(Case):
 
     def test_interrupt(self):
         """Each of these runs for minutes; the time it may take to end is generous because the machine may be busy."""
-        compliant = "{law: contact_compliance, kinetic: 2 N, contact_stiffness: 1 kN/m}"
-        lugre = "{law: lugre, kinetic: 2 N, static: 2.5 N, stribeck_velocity: 1 mm/s, sigma0: 1e6 N/m, sigma1: 300 N.s/m}"
-        history = "simulate, cycles: 1e5"
-        for name, friction, analysis in [
-                ("xy_curve", compliant, "xy_curve, amplitudes: {from: 0 m, to: 0.6 m, count: 1000000}"),
-                ("simulate", lugre, history),
-                ("regime_map", lugre, "regime_map, frequencies: {from: 5 rad/s, to: 15 rad/s, count: 100}, "
-                                      "amplitudes: {from: 0.05 m, to: 0.2 m, count: 100}")]:
+        smooth = BASE.replace("{law: coulomb, kinetic: 2 N}", "{law: lugre, kinetic: 2 N, static: 2.5 N, stribeck_velocity: 1 mm/s, sigma0: 1e6 N/m, sigma1: 300 N.s/m}")
+        grid = "regime_map, frequencies: {from: 5 rad/s, to: 15 rad/s, count: 100}, amplitudes: {from: 0.05 m, to: 0.2 m, count: 100}"
+        for name, text in {"xy_curve": LONG, "simulate": smooth.replace("steady_state", "simulate, cycles: 1e5"), "regime_map": smooth.replace("steady_state", grid)}.items():
             with self.subTest(name):
-                text = BASE.replace("steady_state", analysis)
-                self.write("long.yaml", text.replace("{law: coulomb, kinetic: 2 N}", friction))
+                self.write("long.yaml", text)
                 process = subprocess.Popen([PROGRAM, "run", "long.yaml"], cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
                 wait_until_it_watches(process)
                 time.sleep(0.5)
@@ -284,8 +281,7 @@ class Refusals(Case):
                 self.assertEqual(list(tree(self.folder)), ["base.yaml", "long.yaml"])
 
     def test_an_interrupted_list_of_files_stops_and_keeps_what_is_complete(self):
-        text = BASE.replace("steady_state", "xy_curve, amplitudes: {from: 0 m, to: 0.6 m, count: 1000000}")
-        self.write("long.yaml", text.replace("{law: coulomb, kinetic: 2 N}", "{law: contact_compliance, kinetic: 2 N, contact_stiffness: 1 kN/m}"))
+        self.write("long.yaml", LONG)
         self.write("last.yaml", BASE)
         process = subprocess.Popen([PROGRAM, "run", "base.yaml", "long.yaml", "last.yaml"], cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
         done = self.folder / "results/base/report.html"
