@@ -23,7 +23,7 @@ constexpr Complex i{0.0, 1.0};
 /// The functions of Den Hartog's form. Most calls in a row differ in x or x_f alone: the slopes of a fit need three
 /// zeta at each frequency, and all states of a frequency share them.
 sim::analytic::DenHartog functions_at(double zeta, double r) {
-  thread_local std::array<sim::analytic::DenHartog, 4> known{};
+  thread_local std::array<sim::analytic::DenHartog, 4> known{};  // r = 0, which no call has, marks an empty place
   thread_local std::size_t oldest = 0;
   for (const sim::analytic::DenHartog& one : known)
     if (one.zeta == zeta && one.r == r) return one;
