@@ -23,6 +23,9 @@ namespace {
 /// Bytes of stack; less than a quarter of it is used.
 constexpr std::size_t frame = std::size_t{1} << 20U;
 
+/// Bytes of stack with which every command has been run. Threads get as much as the main one.
+constexpr std::size_t least_stack = std::size_t{256} << 10U;
+
 void say_plainly(const char* text) noexcept {
   if (::write(STDERR_FILENO, text, std::strlen(text)) < 0) {
     // There is no way left to report the failure.
@@ -58,8 +61,14 @@ void say_plainly(const char* text) noexcept {
 
 void hold_stack() noexcept {
   rlimit limit{};
+  if (::getrlimit(RLIMIT_STACK, &limit) != 0) return;
+  if (limit.rlim_cur < least_stack) {
+    say_plainly(
+        "error: the stack is limited to less than 256 kB: raise the limit, for example by ulimit -s 8192\n");
+    ::_exit(static_cast<int>(core::ExitStatus::usage));
+  }
   // With a smaller stack the frame would be the fault that it prevents.
-  if (::getrlimit(RLIMIT_STACK, &limit) != 0 || limit.rlim_cur < 4 * frame) return;
+  if (limit.rlim_cur < 4 * frame) return;
   void* room = ::mmap(nullptr, frame, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
   if (room == MAP_FAILED) ::_exit(say_out_of_memory());
   (void)::munmap(room, frame);

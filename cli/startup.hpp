@@ -9,7 +9,8 @@ namespace dualdamp::cli {
 void hold_closed_streams() noexcept;
 
 /// Takes address space for the stack of this thread while there is some. Where a limit of memory leaves none when
-/// the stack grows, the system ends the program by SIGSEGV. Without memory it ends with a message.
+/// the stack grows, the system ends the program by SIGSEGV. Without memory, or if the stack is limited to less than
+/// 256 kB, it ends with a message.
 void hold_stack() noexcept;
 
 /// An exception that nothing can handle ends the program with a message and the status of a refusal: lack of memory

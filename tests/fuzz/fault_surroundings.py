@@ -82,7 +82,7 @@ def streams(trial):
 def limits(trial):
     which = trial.random.choice(("size", "size", "files", "stack", "threads"))
     most = {"size": trial.random.choice((0, 1, 4096, trial.random.randrange(400_000))), "files": trial.random.randrange(3, 14),
-            "stack": trial.random.choice((256, 300, 512)) << 10, "threads": trial.random.randrange(6)}[which]
+            "stack": trial.random.choice((64, 128, 256, 300, 512)) << 10, "threads": trial.random.randrange(6)}[which]
     if which == "threads" and os.geteuid() == 0:
         subprocess.run(["chown", "-R", str(NOBODY), str(trial.place)], check=True)
 
@@ -97,7 +97,7 @@ def limits(trial):
     what = f"limits: {which} {most}"
     if end.status == 127 and which == "files":  # of the loader
         return what, 127, faults_of_files(trial, end, "before")
-    words = {"size": ["File too large"], "files": ["Too many open files"], "stack": [], "threads": ["Resource temporarily unavailable"]}[which]
+    words = {"size": ["File too large"], "files": ["Too many open files"], "stack": ["stack is limited"], "threads": ["Resource temporarily unavailable"]}[which]
     return what, *refused(trial, end, words)
 
 

@@ -200,6 +200,16 @@ class Limits(unittest.TestCase):
                     self.check_whole()
             self.assertEqual((statuses[0], statuses[-1]), (2, 0))
 
+    @unittest.skipIf("DUALDAMP_SANITIZED" in os.environ, "a sanitizer needs more stack")
+    def test_small_stack(self):
+        """Below 256 kB a message instead of SIGSEGV, from there on the result."""
+        for kilobytes, status in ((32, 2), (128, 2), (255, 2), (256, 0)):
+            with self.subTest(kilobytes):
+                result = self.run_limited("fit", lambda most=kilobytes << 10: resource.setrlimit(resource.RLIMIT_STACK, (most, most)), "out")
+                self.assertEqual(result.returncode, status, result.stderr)
+                self.assertEqual("stack is limited" in result.stderr, status == 2, result.stderr)
+                self.check_whole()
+
     @unittest.skipIf("DUALDAMP_SANITIZED" in os.environ, "a sanitizer reserves terabytes of addresses")
     def test_no_thread_to_be_had(self):
         """A stack for each thread that is larger than all memory: the loops run on the first thread."""
