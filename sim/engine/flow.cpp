@@ -34,6 +34,11 @@ constexpr double rounded = 1e-13;
 /// A change of force by this part of it or more is not rounding.
 constexpr double resolved = 1e-11;
 
+/// A slope by the speed that grows by more than this part over a shorter step, and by more than rounding, is not
+/// yet the slope at the speed.
+constexpr double grown = 1e-6;
+constexpr double rounding_of_force = 16.0 * std::numeric_limits<double>::epsilon();
+
 /// Slopes over two steps, one ten times the other, are equal within this part of them.
 constexpr double nearly_equal = 1e-3;
 
@@ -256,7 +261,8 @@ void Flow::differentiate_law(const Derivative& d, bool closely, std::span<double
   while (by_speed && !affine && step > ladder * shortest) {
     step = std::max(shortest, step / ladder);
     const Slope steeper = difference(d, step);
-    if (!steeper.resolved || !(std::abs(steeper.value) > 2.0 * std::abs(slope))) break;
+    const double known = std::max(grown, rounding_of_force * std::abs(d.force / (steeper.value * step)));
+    if (!steeper.resolved || !(std::abs(steeper.value) > (1.0 + known) * std::abs(slope))) break;
     slope = steeper.value;
   }
   const std::span<double> target = columns.subspan(d.column * size_, size_);

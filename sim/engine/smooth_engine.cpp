@@ -118,6 +118,7 @@ void SmoothEngine::build_interval() {
   flow_.freeze(memories_, direction_, time() - local_time_);
   set_scales();
   steps_.begin_interval(x_, v_, memories_);
+  search_.use_steps(steps_.are_implicit());
   search_.begin_interval(steps_.begin(), local_time_, drive_.force_scale());
 }
 
@@ -183,6 +184,13 @@ bool SmoothEngine::advance(double left) {
   return result == Steps::Result::taken;
 }
 
+/// Whether the step ends in a creep that is not at its turn.
+bool SmoothEngine::is_past_turn(const Hit& hit, double value) const {
+  constexpr double at_turn = 1e-6;
+  return is<SlipEnd>(search_.guards().ending(hit.guard)) && std::abs(value) > at_turn * flow_.scales()[1] &&
+         search_.guards().creeps(steps_.end(), local_time_ + steps_.length());
+}
+
 /// Repeats the step so that it ends at the crossing, and corrects its length by Newton's method. False: the shorter
 /// step is not accurate; an implicit step that overran the crossing may have computed what only lies beyond it.
 bool SmoothEngine::land(const Hit& hit) {
@@ -197,6 +205,9 @@ bool SmoothEngine::land(const Hit& hit) {
     if (!steps_.repeat(h)) return false;
     const double value = search_.guards().value(hit.guard, steps_.end(), local_time_ + h);
     if (std::abs(value) <= zero) return true;
+    // Where the mass is found to creep already, against its direction, the forces have turned before: the slip ends
+    // with its speed.
+    if (i == 0 && is_past_turn(hit, value)) return true;
     const double correction = -value / search_.guards().rate(hit.guard, steps_.end(), local_time_ + h, h);
     const bool is_within_reach = std::abs(correction) < 0.1 * h;
     if (std::abs(correction) < 1e-16 * whole || (i == 0 && !is_within_reach)) return true;
@@ -211,6 +222,7 @@ bool SmoothEngine::land(const Hit& hit) {
 bool SmoothEngine::move(double left, std::optional<Hit>& hit) {
   for (int i = 0; i < Steps::most_tries; ++i) {
     if (!advance(left)) return false;
+    search_.use_steps(steps_.are_implicit());
     ++count_.searches;
     count_.panels += EventSearch::panels;
     const SmoothStep whole = steps_.last();
@@ -271,10 +283,13 @@ const Interval* SmoothEngine::step(double left, bool to_period_end) {
       derivative_.drop_lead(taken);
     }
   }
+  const bool turned_by_rounding = !hit && search_.guards().creeps_backward(steps_.end(), taken.time(1.0));
   follows_event_ = hit || (is_over && by_schedule);
   if (follows_event_) derivative_.forget_course();
+  if (tracking_ && turned_by_rounding) derivative_.drop_speed(taken);
   const Ending ending = hit ? search_.guards().ending(hit->guard) : Ending{};
-  take_over(hit && is<SlipEnd>(ending));
+  take_over((hit && is<SlipEnd>(ending)) || turned_by_rounding);
+  if (turned_by_rounding) steps_.propose(0.0);
   pass_time(to_period_end && is_over && !by_schedule);
   if (leaves_range()) return nullptr;
   if (!follows_event_) {

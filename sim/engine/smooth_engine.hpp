@@ -53,6 +53,7 @@ class SmoothEngine final : public Engine {
   void build_interval();
   void set_scales();
   [[nodiscard]] bool advance(double left);
+  [[nodiscard]] bool is_past_turn(const Hit& hit, double value) const;
   [[nodiscard]] bool land(const Hit& hit);
   [[nodiscard]] bool move(double left, std::optional<Hit>& hit);
   void describe_step();

@@ -183,6 +183,17 @@ SteadyState OrbitFinder::outlined(const Orbit& orbit) {
   return state;
 }
 
+/// Whether the mass moves by less than the error of one step, a part of the displacement that the drive can cause,
+/// although nothing holds it.
+bool is_below_steps(const Model& model, const ForcingPeriod& period, double accuracy) {
+  constexpr double small_motion = 1e-3;  // what the engine takes for the size of a motion that has none yet
+  const double amplitude = std::abs(model.excitation.amplitude);
+  const double drive = model.excitation.moves_base() ? amplitude : amplitude / model.oscillator.stiffness;
+  const auto holds = [](const friction::Law& law) { return law.holds_mass(); };
+  return period.moves && std::ranges::none_of(model.friction, holds) &&
+         period.peak - period.trough < small_motion * accuracy * drive;
+}
+
 OtherState other_state(const SteadyState& state) { return {state.peak, state.trough, state.period_ratio}; }
 
 /// Whether b is the mirror image of a in x = 0. Each of the four values may have the error of its orbit.
@@ -322,6 +333,11 @@ void OrbitFinder::find(SteadyState& result) {
     searched_ += solver.count();
   }
   if (!orbit) return;
+  if (is_below_steps(model_, orbit->period, map_.engine().accuracy())) {
+    result.outcome = {core::OutcomeKind::no_steady_state,
+                      "no steady state found: the mass moves by less than steps resolve"};
+    return;
+  }
   for (const SteadyState& other : others_) result.others.push_back(other_state(other));
   result.period_ratio = orbit->period_ratio;
   result.period *= orbit->period_ratio;

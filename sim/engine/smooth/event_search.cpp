@@ -280,9 +280,19 @@ double EventSearch::dip(std::size_t guard, const SmoothStep& step, Triple around
   const double grazed = 100.0 * model_.solver.tolerance * w.scale;
   // A creep below that has no minimum that the dense output could tell from its own error.
   const double sides = values[1] + grazed;
-  if (values[1] < grazed && before > sides && after > sides)
+  if (values[1] < grazed && before > sides && after > sides && !creeps_beside(guard, step, at))
     grazings_.push_back({static_cast<int>(guard), at[1] * step.length});
   return -1.0;
+}
+
+/// Whether the mass creeps beside a minimum of its speed: there the forces stand for the speed, and a minimum where
+/// the one takes over from the other is none.
+bool EventSearch::creeps_beside(std::size_t guard, const SmoothStep& step, const std::array<double, 3>& at) const {
+  if (!is<SlipEnd>(guards_.ending(guard))) return false;
+  return std::ranges::any_of(at, [&](double part) {
+    step.stepper.at(part, state_);
+    return guards_.creeps(state_, step.time(part));
+  });
 }
 
 /// The root between a point where the guard counts as positive and one where it is negative. At the begin of a

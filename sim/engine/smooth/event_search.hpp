@@ -51,6 +51,9 @@ class EventSearch {
   /// The guards of the interval.
   [[nodiscard]] const Guards& guards() const { return guards_; }
 
+  /// The kind of the steps that follow.
+  void use_steps(bool are_implicit) { guards_.pass_over_relaxation(are_implicit); }
+
   /// A guard that is negative at the begin of the interval, or zero and going to be.
   [[nodiscard]] std::optional<Hit> find_violated(const SmoothStep& step) const;
   /// Whether this guard of a law is reached at the same instant as that of the last event.
@@ -110,6 +113,8 @@ class EventSearch {
   [[nodiscard]] bool cross_together(const Hit& later, double part, const SmoothStep& step) const;
   [[nodiscard]] double first_negative(std::size_t guard, const SmoothStep& step);
   [[nodiscard]] double dip(std::size_t guard, const SmoothStep& step, Triple around);
+  [[nodiscard]] bool creeps_beside(std::size_t guard, const SmoothStep& step,
+                                   const std::array<double, 3>& at) const;
   [[nodiscard]] bool falls_at_edge(std::size_t guard, const SmoothStep& step, std::size_t edge,
                                    Triple& around) const;
   [[nodiscard]] double crossing(std::size_t guard, const SmoothStep& step, double before, double negative) const;

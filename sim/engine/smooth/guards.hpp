@@ -7,6 +7,12 @@
 ///   mode of a law     its own guards
 ///
 /// Direction and modes are those for which the flow is frozen, for every state.
+///
+/// Creep. Where friction is a dashpot so steep that it balances all other forces at a speed within the tolerance of
+/// steps, that speed is known to its sign at best. The forces are known: the speed has the sign of the acceleration
+/// a0 with which they would drive the mass off from v = 0, as it was one relaxation of the dashpot ago. So the end
+/// of such a slip is where a0 changes its sign; a0/omega stands for the speed. Explicit steps resolve the
+/// relaxation instead, as far as they follow a creep at all.
 
 #include <span>
 #include <vector>
@@ -43,17 +49,35 @@ class Guards {
   /// [s].
   [[nodiscard]] double rate(std::size_t guard, std::span<const double> X, double t, double length) const;
 
+  /// Whether steps pass over the relaxation of a creep, as implicit ones do.
+  void pass_over_relaxation(bool pass) { passes_over_ = pass; }
+  /// Whether the mass creeps: see above.
+  [[nodiscard]] bool creeps(std::span<const double> X, double t) const;
+  /// Whether it does so and has a speed against its direction, which is an error of steps then. It is less than
+  /// they may err by, but on that side of zero the dashpot acts the other way, and steps would not come back.
+  [[nodiscard]] bool creeps_backward(std::span<const double> X, double t) const;
+  /// What stands for the speed of a mass that creeps at X, a0/omega, in the direction of the slip [m/s].
+  [[nodiscard]] double forced_speed(std::span<const double> X, double t) const;
+
  private:
+  [[nodiscard]] double acceleration_at(double speed, std::span<const double> X, double t) const;
+  [[nodiscard]] double speed_in_direction(std::span<const double> X, double t) const;
+  [[nodiscard]] double relaxation(std::span<const double> X, double t) const;
+
   const Model& model_;
   const Flow& flow_;
   std::vector<char> has_memory_;  ///< of each law
   bool some_memory_ = false;
   bool can_stick_ = false;  ///< some law has a static limit
+  bool passes_over_ = false;
+  double omega_ = 0.0;  ///< natural frequency [rad/s]
   std::vector<Ending> endings_;
   // Scratch.
   mutable std::vector<double> displaced_;
   mutable std::vector<double> rates_;
   mutable std::vector<double> values_;
+  mutable std::vector<double> slowed_;
+  mutable std::vector<double> slowed_rates_;
 };
 
 }  // namespace dualdamp::sim

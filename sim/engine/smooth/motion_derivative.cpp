@@ -146,15 +146,17 @@ void MotionDerivative::pass(const SmoothStep& step) {
 
 /// Whether the first step, or the one behind an event, leads away from the stop while a change of its speed dies
 /// out. The acceleration at its begin is then not known: a lead would be a large number, and what is left of the
-/// change a difference of two. Where the speed passes zero within the step the field is that of the other branch.
+/// change a difference of two. Where the speed passes zero within the step, by more than its error, the field is
+/// that of the other branch.
 bool MotionDerivative::forgets_speed(const SmoothStep& step) const {
   constexpr int parts = 16;
   if (course_.length > 0.0 || !(own_paces(step.flow, step.begin, step.t)[1] * step.length > 1.0)) return false;
+  const double error = model_.solver.tolerance * step.flow.scales()[1];
   std::vector<double> state(step.begin.size());
   for (int i = 0; i <= parts; ++i) {
     step.stepper.at(static_cast<double>(i) / parts, state);
     const double speed = friction::sign(step.flow.direction()) * state[1];
-    if (speed < 0.0 || (i > 0 && speed == 0.0)) return false;
+    if (speed < -error || (i > 0 && speed == 0.0)) return false;
   }
   return true;
 }
@@ -178,6 +180,14 @@ void MotionDerivative::drop_lead(const SmoothStep& step) {
   lead_.setZero();
 }
 
+/// The lead is one along rates that are replaced with the speed. The dashpot makes a perturbation's speed anew at
+/// once.
+void MotionDerivative::drop_speed(const SmoothStep& step) {
+  drop_lead(step);
+  columns_.row(1).setZero();
+  forget_course();
+}
+
 /// Of all guards at the end of the step, by the state.
 Eigen::MatrixXd MotionDerivative::gradients(const Guards& guards, const SmoothStep& step) const {
   const std::span<const double> X = step.end;
@@ -186,6 +196,7 @@ Eigen::MatrixXd MotionDerivative::gradients(const Guards& guards, const SmoothSt
   std::vector<double> above;
   std::vector<double> below;
   const double t = step.time(1.0);
+  const bool creeps = guards.creeps(X, t);
   for (std::size_t k = 0; k < X.size(); ++k) {
     const double change = displacement * std::max(step.flow.scales()[k], least_size * std::abs(X[k]));
     displaced[k] = X[k] + change;
@@ -193,6 +204,13 @@ Eigen::MatrixXd MotionDerivative::gradients(const Guards& guards, const SmoothSt
     displaced[k] = X[k] - change;
     guards.evaluate(displaced, t, below);
     gradients.col(static_cast<Eigen::Index>(k)) = (as_vector(above) - as_vector(below)) / (2.0 * change);
+    // The end of a creep is where the forces turn, whatever the speed.
+    if (creeps) {
+      displaced[k] = X[k] + change;
+      const double faster = guards.forced_speed(displaced, t);
+      displaced[k] = X[k] - change;
+      gradients(0, static_cast<Eigen::Index>(k)) = (faster - guards.forced_speed(displaced, t)) / (2.0 * change);
+    }
     displaced[k] = X[k];
   }
   return gradients;
@@ -239,8 +257,16 @@ void MotionDerivative::enter(const Guards& guards, std::size_t guard, const Smoo
       (guards.value(guard, step.end, t + later) - guards.value(guard, step.end, t - later)) / (2.0 * later);
   const Eigen::RowVectorXd ahead =
       (by_time * lead_ - by_state.row(static_cast<Eigen::Index>(guard)) * columns_) / rate;
-  std::vector<double> rates(step.end.size());
-  step.flow.evaluate(step.end, t, rates);
+  std::vector<double> at_event(step.end.begin(), step.end.end());
+  const bool creeps = is<SlipEnd>(guards.ending(guard)) && guards.creeps(at_event, t);
+  if (creeps) at_event[1] = 0.0;
+  std::vector<double> rates(at_event.size());
+  step.flow.evaluate(at_event, t, rates);
+  // Each motion creeps to a speed of zero at its own crossing, by an acceleration that no other is to be told from.
+  if (creeps) {
+    rates[1] = 0.0;
+    columns_.row(1).setZero();
+  }
   event_lead_ = {-ahead, as_vector(rates), columns_, lead_};
   columns_ += as_vector(rates) * ahead;
   lead_ -= ahead;

@@ -67,6 +67,8 @@ class MotionDerivative {
   [[nodiscard]] bool has_own_instant(const Guards& guards, std::size_t guard, const SmoothStep& step) const;
   /// The step ends at a time that does not depend on the motion: there every perturbation is a change of the state.
   void drop_lead(const SmoothStep& step);
+  /// The speed at the end of the step, an error of a creep, is replaced by zero.
+  void drop_speed(const SmoothStep& step);
   /// An event follows: it may change the rates, so those of the step no longer hold.
   void forget_course() { course_.length = 0.0; }
   /// A law has changed its mode.
