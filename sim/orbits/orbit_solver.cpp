@@ -61,9 +61,13 @@ std::optional<Orbit> OrbitSolver::near(const State& state, int periods) {
   return orbit;
 }
 
+/// A motion at a distance d of an orbit of one forcing period comes back to within 2 d after each; when it winds,
+/// it may come back more closely after several, and seem to have their period.
 Orbit OrbitSolver::with_shortest_period(Orbit orbit) {
   const int periods = orbit.period_ratio;
-  const double limit = periods > 1 ? std::max(options_.rounding, error(orbit)) : options_.rounding;
+  const double closure = std::max(options_.rounding, orbit.period.closure(options_.omega));
+  const double limit =
+      periods > 1 ? std::max(closure, 2.0 * error_of_orbit(orbit.period, options_.omega, closure)) : closure;
   for (int divisor = 1; divisor < periods; ++divisor) {
     if (periods % divisor != 0) continue;
     ForcingPeriod shorter = patient_map_over(divisor).from(orbit.period.begin, Monodromy::with);

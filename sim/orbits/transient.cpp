@@ -22,8 +22,16 @@ class Closing {
     if (closures_.size() <= back) return false;
     const double largest = largest_between(back, 0).value;
     if (largest <= rounding_) return true;
-    const double rate = std::pow(closure / closures_[closures_.size() - 1 - back], 1.0 / static_cast<double>(back));
-    return rate < 1.0 && largest < settled_ && closure * rate / (1.0 - rate) < settled_ && has_settled(largest);
+    const double rate = std::max(
+        std::pow(closure / closures_[closures_.size() - 1 - back], 1.0 / static_cast<double>(back)), late_rate());
+    if (!(rate < 1.0 && largest < settled_ && closure * rate / (1.0 - rate) < settled_)) return false;
+    const auto now = static_cast<double>(closures_.size());
+    if (sure_from_ == 0.0 && has_settled(largest)) {
+      // A fast decay may hide a slow one of far larger rest. It shows when the fast one has gone on by two digits.
+      constexpr double most = 16.0;
+      sure_from_ = now + std::min({most, 0.5 * now, std::ceil(std::log(0.01) / std::log(rate))});
+    }
+    return sure_from_ > 0.0 && now >= sure_from_;
   }
 
  private:
@@ -38,6 +46,14 @@ class Closing {
     const auto place = [&](std::size_t ago) { return closures_.end() - static_cast<std::ptrdiff_t>(ago); };
     const auto largest = std::max_element(place(from), place(to));
     return {*largest, static_cast<std::size_t>(closures_.end() - largest) - 1};
+  }
+
+  /// The factor by which closures fall in the second half of the last periods: a fast decay that is over hides a
+  /// slow one in the first half.
+  [[nodiscard]] double late_rate() const {
+    constexpr std::size_t half = back / 2;
+    return std::pow(largest_between(half, 0).value / largest_between(back, half).value,
+                    1.0 / static_cast<double>(half));
   }
 
   /// A motion that winds slowly closes well for many periods where it turns. So the test is repeated with the
@@ -57,6 +73,7 @@ class Closing {
 
   double rounding_;
   double settled_;
+  double sure_from_ = 0.0;  ///< periods; 0: the transient has not seemed to have settled yet
   std::vector<double> closures_;
 };
 

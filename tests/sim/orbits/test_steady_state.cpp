@@ -387,6 +387,21 @@ TEST_CASE("a mass whose slips of many periods rounding hides rests, and is no su
   for (const std::string& warning : state.warnings) CHECK_THAT(warning, !Catch::Contains("subharmonic"));
 }
 
+TEST_CASE("a motion that winds towards its orbit has the period of that orbit") {
+  // Floquet multipliers 0.854 exp(+-1.2 i): the motion comes back within the tolerance after two forcing periods
+  // before it does after one.
+  sim::Model model;
+  model.oscillator = {
+      .mass = 1.0, .stiffness = 1.0, .damping = 0.042354024476327225, .cubic_stiffness = 3142.717697683719};
+  model.excitation = {.type = sim::ExcitationType::force_harmonic, .amplitude = 0.36, .frequency = 1.98};
+  model.initial = {.position = -2.6, .velocity = -1.2};
+  model.friction.emplace_back(friction::Coulomb(0.037, 0.037));
+  const sim::SteadyState state = sim::steady_state(model);
+  REQUIRE(state.outcome.ok());
+  CHECK(state.period_ratio == 1);
+  CHECK(state.peak == Approx(0.0702226118175).epsilon(1e-9));
+}
+
 TEST_CASE("a drive with harmonics of even order costs no search for a mirror image") {
   // A period whose motion reverses within exp(-187) of the reference velocity takes 500 steps, with its derivative
   // a tenth of a second. The orbit was found in 0.3 s, and a mirror image, which there cannot be, not in 20 s. Peak

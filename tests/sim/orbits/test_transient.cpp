@@ -3,6 +3,7 @@
 #include "sim/orbits/transient.hpp"
 
 #include <catch2/catch.hpp>
+#include <numbers>
 
 #include "core/diagnostics.hpp"
 #include "friction_models/laws/contact_compliance.hpp"
@@ -79,6 +80,34 @@ TEST_CASE("transient: a motion that winds slowly about its orbit has not settled
   const double amplitude = sim::steady_state(winding).amplitude;
   CHECK(transient.peak == Approx(amplitude).epsilon(4e-9));
   CHECK(transient.trough == Approx(-amplitude).epsilon(4e-9));
+}
+
+TEST_CASE("transient: a fast decay does not hide a slow one of far larger rest", "[transient]") {
+  // An overdamped oscillator: of its own motion one part falls by exp(-17.7) in a period, the other by 3.4e-6 of
+  // itself. After ten periods the peak is 6e-7 off, which takes some millions of periods.
+  sim::Model overdamped;
+  overdamped.oscillator = {
+      .mass = 0.26008628435605097, .stiffness = 0.17707148198916256, .damping = 487.52632245983006};
+  overdamped.excitation = {
+      .type = sim::ExcitationType::base_harmonic, .amplitude = 0.34607974855929846, .frequency = 664.088960624806};
+  const Transient transient = follow_transient(overdamped, {.max_periods = 500, .settled = 1e-8});
+  CHECK_FALSE(transient.settled);
+  CHECK(transient.peak - sim::steady_state(overdamped).peak == Approx(-1.03e-13).epsilon(0.05));
+}
+
+TEST_CASE("transient: a slow decay that a fast one still hides is waited for", "[transient]") {
+  // The parts fall by a factor of 2.8 and by 5e-5 of themselves in a period. When the fast one would seem to have
+  // settled, 2e-5 of the motion are left of the slow one.
+  sim::Model model;
+  model.oscillator = {.mass = 1.0, .stiffness = 5e-5 * 1.03, .damping = 1.03};
+  model.excitation = {.type = sim::ExcitationType::force_harmonic,
+                      .amplitude = 1.0,
+                      .frequency = 2.0 * std::numbers::pi,
+                      .phase = 0.3};
+  const SteadyState state = steady_state(model);
+  model.initial = {.position = state.start.x + 2e-5 * state.peak, .velocity = state.start.v + 3.0 * state.peak};
+  const Transient transient = follow_transient(model, {.max_periods = 500, .settled = 1e-8});
+  CHECK_FALSE(transient.settled);
 }
 
 TEST_CASE("transient: a motion that grows does not settle", "[transient]") {
