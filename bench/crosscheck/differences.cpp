@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 
 namespace dualdamp::crosscheck {
@@ -72,6 +73,7 @@ class Events {
     const double size = sizes(a).x.back();
     place_ = 0.1 * same_instant * size;
     resolved_ = 1e-13 * size;
+    turned_ = 10.0 * resolved_;
   }
 
   void compare(Difference& result);
@@ -88,6 +90,8 @@ class Events {
   [[nodiscard]] bool is_same(const sim::Event& a, const sim::Event& b) const;
   [[nodiscard]] Cluster cluster() const;
   [[nodiscard]] bool rests_beside(double t) const;
+  [[nodiscard]] bool turns_at_guard() const;
+  [[nodiscard]] std::optional<Cluster> ringing() const;
   [[nodiscard]] bool is_lone_switching(const Cluster& group) const;
   [[nodiscard]] bool name(const Cluster& group, Difference& result) const;
 
@@ -99,6 +103,7 @@ class Events {
   double slow_window_ = 0.0;
   double place_ = 0.0;
   double resolved_ = -1.0;
+  double turned_ = -1.0;
   std::size_t i_ = 0;  ///< next event of a
   std::size_t j_ = 0;  ///< next event of b
 };
@@ -155,6 +160,37 @@ bool Events::rests_beside(double t) const {
   return (before < t && rest_between(before, t)) || (after > t && rest_between(t, after));
 }
 
+/// Whether one computation has a mode change where the mass of the other turns just before it: by less than the
+/// place at which a law changes its mode is known.
+bool Events::turns_at_guard() const {
+  if (i_ >= a_.events.size() || j_ >= b_.events.size()) return false;
+  const sim::Event& a = a_.events[i_];
+  const sim::Event& b = b_.events[j_];
+  const auto is_pair = [](const sim::Event& one, const sim::Event& other) {
+    return one.kind == sim::EventKind::switching && other.kind == sim::EventKind::reversal;
+  };
+  return (is_pair(a, b) || is_pair(b, a)) && std::abs(a.t - b.t) <= slow_window_ && std::abs(a.x - b.x) <= turned_;
+}
+
+/// The events until both lists go on together, where the mass hardly moves: it rings on behind such a turn, and the
+/// other one does not. Nothing if they do not.
+std::optional<Events::Cluster> Events::ringing() const {
+  const sim::Event& first = a_.events[i_];
+  const auto count_here = [&](const std::vector<sim::Event>& list, std::size_t from) {
+    std::size_t end = from;
+    while (end < list.size() && list[end].t <= first.t + slow_window_ && std::abs(list[end].x - first.x) <= place_)
+      ++end;
+    return end - from;
+  };
+  const Cluster result{count_here(a_.events, i_), count_here(b_.events, j_)};
+  const std::size_t i = i_ + result.a;
+  const std::size_t j = j_ + result.b;
+  const bool both_end = i >= a_.events.size() && j >= b_.events.size();
+  const bool go_on = i < a_.events.size() && j < b_.events.size() && is_same(a_.events[i], b_.events[j]);
+  if (both_end || go_on) return result;
+  return std::nullopt;
+}
+
 bool Events::is_lone_switching(const Cluster& group) const {
   const sim::Event& event = group.a == 1 ? a_.events[i_] : b_.events[j_];
   return group.a + group.b == 1 &&
@@ -192,8 +228,11 @@ void Events::compare(Difference& result) {
       ++j_;
       continue;
     }
-    const Cluster group = cluster();
-    if (!name(group, result)) {
+    const std::optional<Cluster> rings = turns_at_guard() ? ringing() : std::nullopt;
+    const Cluster group = rings ? *rings : cluster();
+    if (rings) {
+      ++result.coincident;
+    } else if (!name(group, result)) {
       result.fault = text_of(a_.events, i_) + "; the other: " + text_of(b_.events, j_);
       return;
     }

@@ -127,7 +127,7 @@ class Motions {
     }
     const Difference gap = difference(first_, other, sensitivity, agreed_tolerance);
     Finding finding{name, Verdict::agreed, gap.worst, {}};
-    if (!gap.fault.empty() && is_unresolved()) {
+    if (!(gap.fault.empty() && gap.exception.empty()) && is_unresolved()) {
       finding.verdict = Verdict::exception;
       finding.text = "at rest within the tolerance: the mass creeps less far than steps resolve";
     } else if (!gap.fault.empty()) {

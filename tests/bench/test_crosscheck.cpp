@@ -233,6 +233,35 @@ TEST_CASE("crosscheck: a mass that rings on a bond of 4 pm is an exception with 
   }
 }
 
+TEST_CASE("crosscheck: a turn just before a mode change is named, a lost mode change is not", "[crosscheck]") {
+  const auto walk_with = [](std::vector<sim::Event> events) {
+    crosscheck::Walk walk;
+    for (int i = 1; i <= crosscheck::walk_samples; ++i)
+      walk.samples.push_back({.t = 0.05 * i, .x = std::sin(0.05 * i), .v = std::cos(0.05 * i)});
+    walk.end = 10.0;
+    walk.events = std::move(events);
+    return walk;
+  };
+  using enum sim::EventKind;
+  const crosscheck::Sensitivity mild{.deviation = std::vector<double>(crosscheck::walk_samples, 1e-10),
+                                     .change = 1e-10};
+  const crosscheck::Walk yields = walk_with({{4.0, switching, 0.5, 1e-9}, {7.0, reversal, 0.9, 0.0}});
+  // It rings on for two turns, and then yields too.
+  const auto turns_at = [&](double x) {
+    return walk_with({{4.0 + 2e-5, reversal, x, 0.0},
+                      {4.0 + 4e-5, reversal, 0.5 + 3e-12, 0.0},
+                      {4.0 + 6e-5, switching, 0.5, 1e-9},
+                      {7.0, reversal, 0.9, 0.0}});
+  };
+  const crosscheck::Difference named = crosscheck::difference(yields, turns_at(0.5 + 2e-13), mild, 1e-7);
+  CHECK(named.fault.empty());
+  CHECK(named.coincident == 1);
+  CHECK_FALSE(crosscheck::difference(yields, turns_at(0.5 + 2e-12), mild, 1e-7).fault.empty());
+  const crosscheck::Walk never =
+      walk_with({{4.0 + 2e-5, reversal, 0.5 + 2e-13, 0.0}, {5.0, reversal, 0.6, 0.0}, {7.0, reversal, 0.9, 0.0}});
+  CHECK_FALSE(crosscheck::difference(yields, never, mild, 1e-7).fault.empty());
+}
+
 TEST_CASE("crosscheck: the reversals of a mass at rest within the tolerance are named, those of a motion are not",
           "[crosscheck]") {
   // From t = 1 on it is at rest except for exp(-20 t).
