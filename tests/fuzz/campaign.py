@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
 """Mutates good inputs, gives them to the program and reports every end that is not promised.
 
-usage: campaign.py PROGRAM ROOT KIND [--seconds S] [--executions N] [--seed S] [--workers N] [--keep DIR] [--only NUMBER]
+usage: campaign.py PROGRAM ROOT KIND [--seconds S] [--executions N] [--processor S] [--seed S] [--workers N] [--keep DIR] [--only NUMBER]
 
 KIND: scenario, neighbour, data, result. Case NUMBER of a seed is always the same; faulty ones are kept in DIR (default
 build/fuzz) as a folder with the input, the command line and what is wrong. Prints counts by exit status, and every fault.
-Exit status 1 where there is one. Long computations are counted, not faults: `out of time` at the budget of processor time.
+Exit status 1 where there is one. Long computations are counted, not faults: `out of time` at the budget of processor time,
+which is that of the case, or S of --processor if that is less.
 """
 
 import argparse
@@ -21,7 +22,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 import seeds
-from execution import Execution, faults_of_refusal, faults_of_results
+from execution import SANITIZED, Execution, faults_of_refusal, faults_of_results
 
 MEMORY = 3 << 30  # address space of one execution
 
@@ -80,8 +81,10 @@ def run_case(program, case, keep):
 
 
 def work(arguments):
-    program, root, kind, seed, number, keep = arguments
-    return run_case(program, seeds.case(kind, root, seed, number, program), keep)
+    program, root, kind, seed, number, keep, processor = arguments
+    case = seeds.case(kind, root, seed, number, program)
+    case.budget = min(case.budget, (10 if SANITIZED else 1) * processor)
+    return run_case(program, case, keep)
 
 
 def main():
@@ -91,6 +94,7 @@ def main():
     parser.add_argument("kind", choices=sorted(seeds.KINDS))
     parser.add_argument("--seconds", type=float, default=1e9)
     parser.add_argument("--executions", type=int, default=1000)
+    parser.add_argument("--processor", type=int, default=1000)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--workers", type=int, default=2)
     parser.add_argument("--keep", default="build/fuzz")
@@ -101,13 +105,13 @@ def main():
     def jobs():
         number = 0
         while True:
-            yield program, options.root, options.kind, options.seed, number, keep
+            yield program, options.root, options.kind, options.seed, number, keep, options.processor
             number += 1
 
     started = time.monotonic()
     ends, executions, faulty, late = collections.Counter(), 0, 0, 0
     if options.only is not None:
-        results = [work((program, options.root, options.kind, options.seed, options.only, keep))]
+        results = [work((program, options.root, options.kind, options.seed, options.only, keep, options.processor))]
         print(*results[0][1].ends, *results[0][1].faults, *results[0][1].late, sep="\n")
         return 1 if results[0][1].faults else 0
     with concurrent.futures.ProcessPoolExecutor(options.workers) as pool:
