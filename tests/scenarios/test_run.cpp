@@ -41,6 +41,18 @@ bool has_no_answer(const std::filesystem::path& path) {
   return names.contains(path.stem().string());
 }
 
+/// As shipped, but advice among few laws, whose result has the same numbers: the Python package asks for that of
+/// its page among all of them.
+Scenario shipped(const std::filesystem::path& path) {
+  Scenario scenario = testing::load(path);
+  if (scenario.analysis_name != "design") return scenario;
+  return scenarios::load_scenario(path.string(),
+                                  {.set = {{"analysis.without=[bouc_wen, dahl, elasto_plastic, film_beside_damper, "
+                                            "friction_lag, generalized_maxwell_slip, iwan, lugre, "
+                                            "normal_vibration, position_slope, wide_stribeck]"}},
+                                   .analyses = bench::analyses()});
+}
+
 /// No number of the document is infinite or NaN; JSON has null instead.
 void check_finite(const json& value) {
   if (value.is_structured())
@@ -69,7 +81,7 @@ TEST_CASE("run: every shipped scenario gives what it expects, with all of its nu
   for (const std::string folder : {"scenarios/paper", "scenarios/examples"})
     for (const auto& path : testing::yaml_files(folder)) {
       CAPTURE(path.string());
-      const Scenario scenario = testing::load(path);
+      const Scenario scenario = shipped(path);
       if (answered_elsewhere(scenario)) continue;
       const RunResult result = scenarios::run(scenario);
       CHECK(result.status == (has_no_answer(path) ? core::ExitStatus::numerical_failure : core::ExitStatus::done));

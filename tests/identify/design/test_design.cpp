@@ -54,6 +54,13 @@ Record amplitudes(Normal& normal, double noise = 0.003, double spread = 0.0) {
   return record;
 }
 
+/// All laws but some of each kind that such amplitudes allow: contacts that yield, play, friction and drag over
+/// speed.
+std::vector<std::string> all_but_few() {
+  return all_laws_but(
+      {"contact_compliance", "free_play", "partial_play", "stribeck", "viscous_power", "viscous_saturating"});
+}
+
 const MeasurementAdvice& named(const Design& design, const std::string& name) {
   const auto found =
       std::ranges::find(design.advice, name, [](const MeasurementAdvice& advice) { return advice.candidate.name; });
@@ -65,7 +72,7 @@ const MeasurementAdvice& named(const Design& design, const std::string& name) {
 
 TEST_CASE("design: after amplitudes alone their phases tell laws apart, and repetition does not") {
   Normal normal(21);
-  const auto found = design_after(amplitudes(normal), {mass, stiffness, natural}, {}, {.without = slow_laws});
+  const auto found = design_after(amplitudes(normal), {mass, stiffness, natural}, {}, {.without = all_but_few()});
   REQUIRE(std::holds_alternative<Design>(found));
   const Design& design = std::get<Design>(found);
   const MeasurementAdvice& phases = named(design, "record the phase of the same states");
@@ -85,23 +92,24 @@ TEST_CASE(
   const auto shrinkage = [](double noise) {
     Normal normal(21);
     const auto found =
-        design_after(amplitudes(normal, noise, 0.03), {mass, stiffness, natural}, {}, {.without = slow_laws});
+        design_after(amplitudes(normal, noise, 0.03), {mass, stiffness, natural}, {}, {.without = all_but_few()});
     REQUIRE(std::holds_alternative<Design>(found));
     return named(std::get<Design>(found), "record the phase of the same states").average;
   };
   const Shrinkage clean = shrinkage(0.001);
   const Shrinkage noisy = shrinkage(0.03);
   CAPTURE(clean.zeta, clean.F0, noisy.zeta, noisy.F0);
-  CHECK(noisy.zeta > 0.5);
+  CHECK(noisy.zeta > 0.95);
+  CHECK(noisy.F0 > 0.95);
   CHECK(clean.zeta < 0.9);
+  CHECK(clean.F0 < 0.9);
 }
 
 TEST_CASE("design: no measurement is expected to widen the ranges, however different the laws fit the record") {
-  // The paper's points: a film fits far better than the contacts that are allowed beside it. Of the slow laws those
-  // take part that the second bound is about.
-  std::vector<std::string> others = slow_laws;
-  std::erase(others, "iwan");
-  std::erase(others, "lugre");
+  // The paper's points: films fit far better than the contacts that are allowed beside them, `iwan` and `lugre`
+  // among them, which the second bound is about.
+  const std::vector<std::string> others =
+      all_laws_but({"contact_compliance", "film_beside_damper", "iwan", "lugre", "stribeck", "viscous_saturating"});
   const auto found =
       design_after(pairs(subset_trend), soft_spring, {}, {.largest_severity = 1.0, .without = others});
   REQUIRE(std::holds_alternative<Design>(found));
@@ -124,7 +132,7 @@ TEST_CASE("design: after a contact that yields little the ranges become as wide 
   for (const auto& [seed, severity] : {std::pair{502000U, 0.0005}, {502001U, 0.0023}}) {
     const LawRig rig = law_rig(LawRecord::phases, seed);
     const auto followed = followed_advice(rig, *identify::departures::find_departure("contact_compliance"),
-                                          severity, seed, {.without = slow_laws}, LawRecord::phases);
+                                          severity, seed, {.without = all_but_few()}, LawRecord::phases);
     REQUIRE(followed);
     INFO(seed << ": " << followed->advice << ", promised " << followed->promised[0] << " / "
               << followed->promised[1] << ", found " << followed->found[0] << " / " << followed->found[1]);
@@ -142,7 +150,7 @@ TEST_CASE("design: the ranges after the advised measurement are as wide as the a
   for (const std::uint64_t seed : {78000U, 78002U, 78004U}) {
     const auto followed = followed_advice(law_rig(LawRecord::amplitudes, seed),
                                           *identify::departures::find_departure("contact_compliance"), 0.1, seed,
-                                          {.without = slow_laws});
+                                          {.without = all_but_few()});
     REQUIRE(followed);
     for (std::size_t i = 0; i < 2; ++i)
       found_over_promised.at(i).push_back(followed->found.at(i) / followed->promised.at(i));

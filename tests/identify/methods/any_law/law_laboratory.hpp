@@ -3,6 +3,7 @@
 /// often the ranges over laws hold the truth. The engines compute the motions; rigs, severities and noise are
 /// random.
 
+#include <algorithm>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -10,6 +11,7 @@
 
 #include "identify/departures/departures.hpp"
 #include "identify/design/candidate.hpp"
+#include "identify/methods/any_law/any_law.hpp"
 #include "identify/methods/any_law/severity_curve.hpp"
 #include "identify/record.hpp"
 
@@ -54,9 +56,11 @@ inline const std::vector<std::string> slow_laws = {
     "bouc_wen", "dahl",  "elasto_plastic",  "friction_lag", "generalized_maxwell_slip",
     "iwan",     "lugre", "normal_vibration"};
 
-/// The slow laws and others.
-inline std::vector<std::string> slow_laws_and(std::vector<std::string> others) {
-  others.insert(others.end(), slow_laws.begin(), slow_laws.end());
+/// All laws but these: what a test leaves out that says nothing of the other laws. Each of them takes time, in
+/// advice as a truth and as a rival of every truth.
+inline std::vector<std::string> all_laws_but(const std::vector<std::string>& kept) {
+  std::vector<std::string> others = library_names();
+  std::erase_if(others, [&](const std::string& name) { return std::ranges::find(kept, name) != kept.end(); });
   return others;
 }
 
