@@ -61,7 +61,7 @@ TEST_CASE("True Coulomb and viscous friction violates nothing but by chance") {
 TEST_CASE("A wrong stiffness is charged to the constants") {
   for (const Kind kind : {Kind::response, Kind::forced}) {
     CAPTURE(name_of(kind));
-    CHECK(ledgers(kind, 6, Assumption::constants, nullptr, {.stiffness = 0.03}).named >= 5);
+    CHECK(ledgers(kind, 4, Assumption::constants, nullptr, {.stiffness = 0.03}).named >= 4);
   }
 }
 
@@ -69,7 +69,7 @@ TEST_CASE("Quadratic drag is charged to friction over speed") {
   const auto alter = [](Rig& rig) { rig.drag = 1.0; };
   for (const Kind kind : {Kind::xy, Kind::forced}) {
     CAPTURE(name_of(kind));
-    CHECK(ledgers(kind, 6, Assumption::friction_velocity, alter).named >= 5);
+    CHECK(ledgers(kind, 4, Assumption::friction_velocity, alter).named >= 4);
   }
 }
 
@@ -124,7 +124,7 @@ TEST_CASE("Constants and gains that are off by less than their stated uncertaint
     int certain = 0;
     int uncertain = 0;
     int too_sure = 0;
-    constexpr int records = 2;
+    constexpr int records = 1;
     for (int i = 0; i < records; ++i) {
       const Measured m = measured(kind, ledger_seed + static_cast<std::uint64_t>(i), nullptr,
                                   {.stiffness = 0.02, .gain = 0.01, .drive_gain = -0.01});

@@ -151,10 +151,10 @@ TEST_CASE("A method that refuses more than one record in ten gets no interval") 
 }
 
 TEST_CASE("Intervals of the methods on histories hold the truth, which their bias alone would miss") {
-  // Binomial: 60 seeds at 0.95 hold 57 in the mean, with a deviation of 1.7; three of them below are 52. All
-  // methods see the same 60 records.
-  constexpr int seeds = 60;
-  constexpr int fewest = 52;
+  // Binomial: 40 seeds at 0.95 hold 38 in the mean, with a deviation of 1.4; three of them below are 34. All
+  // methods see the same 40 records.
+  constexpr int seeds = 40;
+  constexpr int fewest = 34;
   for (const MethodEntry& method : {acceleration_velocity_displacement_method, extended_kalman_method,
                                     friction_force_method, output_error_method, recursive_least_squares_method}) {
     CAPTURE(method.name);
@@ -170,7 +170,7 @@ TEST_CASE("Intervals of the methods on histories hold the truth, which their bia
     }
     CHECK(c_held >= fewest);
     CHECK(F0_held >= fewest);
-    // 60 estimates without bias scatter by 0.13 about zero.
+    // 40 estimates without bias scatter by 0.16 about zero.
     const bool exact = method.name == "output_error";
     CHECK((std::abs(c_shift) < 0.5) == exact);
   }
