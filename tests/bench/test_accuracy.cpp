@@ -26,10 +26,10 @@ std::string committed_page() {
 TEST_CASE("every method finds an experiment, and noise spreads its estimates in proportion") {
   for (const identify::MethodEntry& method : identify::methods()) {
     INFO(method.name);
-    const std::vector<bench::Cell> cells = bench::accuracy({&method}, {1e-6, 4e-6}, 3);
+    const std::vector<bench::Cell> cells = bench::accuracy({&method}, {1e-6, 4e-6}, 2);
     REQUIRE(cells.size() == (cells.at(0).experiment == "histories" ? 4 : 2));
     for (std::size_t i = 0; i < cells.size(); i += 2) {
-      CHECK(cells[i].estimates == 3);
+      CHECK(cells[i].estimates == 2);
       CHECK(cells[i].zeta.spread > 0.0);
       // To first order. In the random experiment the random motion scatters the estimates far more than the noise
       // does.

@@ -158,9 +158,9 @@ TEST_CASE("case file: the cases of another campaign are refused and left alone")
   CHECK(text(folder.path / "cases.jsonl") == whole(4));
 }
 
-TEST_CASE("case file: a thousand parts are gathered with few files open") {
+TEST_CASE("case file: hundreds of parts are gathered with few files open") {
   const Folder folder;
-  constexpr int parts = 1000;
+  constexpr int parts = 200;
   constexpr std::size_t cases = 3 * parts;
   CaseFile first(folder.path, "cases", "abc", cases, 0);
   begin(first);

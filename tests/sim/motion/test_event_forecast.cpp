@@ -49,7 +49,7 @@ TEST_CASE("a motion with as many events as allowed is not refused, a hopeless on
   for (const friction::Law& law : laws)
     for (const double damping : {2.0})
       for (const Model& model : motions_under(law, damping)) {
-        constexpr double duration = 3.0;
+        constexpr double duration = 2.5;
         const sim::History whole = sim::simulate(model, {.duration = duration});
         CAPTURE(law.aperiodic(), damping, static_cast<int>(model.excitation.type), model.excitation.frequency);
         REQUIRE(whole.outcome.ok());
