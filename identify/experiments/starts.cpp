@@ -161,6 +161,11 @@ double crossing_frequency(const Signal& signal) {
   return crossing_frequency(signal.measured, signal.at.back() - signal.at.front());
 }
 
+int power_of_force(std::string_view unit) {
+  const DataScale twice{.force = 2.0};
+  return static_cast<int>(std::lround(std::log2(size_by_unit(unit, twice))));
+}
+
 DataScale scale_of(const Rig& rig, const Experiments& experiments) {
   double length = 0.0;
   double speed = 0.0;

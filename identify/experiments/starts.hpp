@@ -15,6 +15,7 @@
 /// a straight line over w X. Without a phase, sin(phase) follows from P cos(phase) = (k - m w^2) X.
 
 #include <Eigen/Core>
+#include <string_view>
 #include <vector>
 
 #include "identify/experiments/experiment.hpp"
@@ -37,6 +38,9 @@ struct DataScale {
 [[nodiscard]] double crossing_frequency(const Signal& signal);
 
 [[nodiscard]] DataScale scale_of(const Rig& rig, const Experiments& experiments);
+
+/// The power of the force in an SI unit: 1 of "N.s/m", of "kg" and of "W", 0 of "m/s".
+[[nodiscard]] int power_of_force(std::string_view unit);
 
 /// Sizes of the parameters, > 0, in their units. For a stated value that is not zero: its absolute value.
 [[nodiscard]] std::vector<double> sizes_of(const std::vector<FitParameter>& parameters, const DataScale& scale);

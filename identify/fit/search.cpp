@@ -10,6 +10,7 @@
 #include "core/constants.hpp"
 #include "identify/experiments/starts.hpp"
 #include "identify/fit/far_starts.hpp"
+#include "identify/fit/linear_starts.hpp"
 #include "identify/fit/residual_test.hpp"
 #include "identify/fit/steps.hpp"
 #include "identify/fit/weighted_search.hpp"
@@ -24,12 +25,14 @@ using core::infinity;
 
 std::vector<Eigen::VectorXd> start_points(const FitProblem& problem, const std::vector<FitParameter>& parameters,
                                           const std::vector<double>& sizes, const SearchOptions& options) {
-  std::vector<Eigen::VectorXd> points;
-  for (int i = 0; i < options.points; ++i) {
-    Eigen::VectorXd start = start_of(parameters, sizes, i, options.scale);
-    for (const ParallelElements& elements : options.elements) elements.begin(start, i);
-    points.push_back(problem.space().point(start));
-  }
+  std::vector<Eigen::VectorXd> points(static_cast<std::size_t>(options.points));
+  const LinearStarts linear(problem, parameters, start_of(parameters, sizes, 0, options.scale));
+  sim::in_parts(points.size(), 1, 0, [&](std::size_t i, std::size_t) {
+    const auto number = static_cast<int>(i);
+    Eigen::VectorXd start = start_of(parameters, sizes, number, options.scale);
+    for (const ParallelElements& elements : options.elements) elements.begin(start, number);
+    points[i] = problem.space().point(linear.fitted(start));
+  });
   return points;
 }
 
@@ -403,10 +406,10 @@ std::optional<SearchResult> search_from(const FitProblem& problem, const Eigen::
 std::optional<SearchResult> search_parameters(const FitProblem& problem,
                                               const std::vector<FitParameter>& parameters,
                                               const std::vector<double>& sizes, const SearchOptions& options) {
+  const FitProblem rough_problem = problem.roughly(of_first_steps);
   const std::vector<Eigen::VectorXd> points = parameters.empty()
                                                   ? std::vector<Eigen::VectorXd>{Eigen::VectorXd(0)}
-                                                  : start_points(problem, parameters, sizes, options);
-  const FitProblem rough_problem = problem.roughly(of_first_steps);
+                                                  : start_points(rough_problem, parameters, sizes, options);
   const WeightedSearch rough_search(rough_problem, options);
   EndedSearches ended(problem, options);
   ended.take(search_roughly(points, rough_search, rough_problem, options));
