@@ -147,11 +147,17 @@ class LoadSearch {
     }
     loaded.task->problem.set_stepped(stepped_parameters(problem, points.front()));
     std::optional<SearchResult> best = search_near(problem, points, options_);
-    // Beside other records, which determine the rig as well, the full search costs more than it finds.
+    // Beside other records, which determine the rig as well, or where no load gains anything near the end of the
+    // fit, the full search costs more than it finds.
     const bool is_alone = before_.experiments.size() == 1;
-    if (leaves_motion_ && (!best || (is_alone && holds_motion(*best, problem, index_)))) {
+    const auto has_gained = [&] {
+      constexpr double most = 0.95;
+      return squares(*loaded.task, *best, found_.weights) < most * squares(before_, found_, found_.weights);
+    };
+    if (leaves_motion_ && (!best || (is_alone && has_gained() && holds_motion(*best, problem, index_)))) {
       std::optional<SearchResult> other =
           search_parameters(problem, loaded.task->parameters, loaded.task->sizes, options_);
+      if (other) other = search_far_from(std::move(*other), problem, loaded.task->parameters, options_);
       if (other &&
           (!best || squares(*loaded.task, *other, found_.weights) < squares(*loaded.task, *best, found_.weights)))
         best = std::move(other);

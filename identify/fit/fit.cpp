@@ -12,6 +12,7 @@
 #include "core/numbers.hpp"
 #include "friction_models/law_fault.hpp"
 #include "identify/experiments/starts.hpp"
+#include "identify/fit/comparison.hpp"
 #include "identify/fit/first_load.hpp"
 #include "identify/fit/freedom.hpp"
 #include "identify/fit/intervals/uncertainty.hpp"
@@ -290,111 +291,140 @@ void sort_elements(const std::vector<ParallelElements>& all, const FitProblem& p
   found.coordinates = problem.space().point(values);
 }
 
+/// The fit of one rig, step by step.
+class RigFit {
+ public:
+  RigFit(const RigToFit& one, const Experiments& experiments, const FitOptions& options)
+      : rig_(one.rig), experiments_(experiments), options_(options), scale_(scale_of(one.rig, experiments)) {
+    result_.rig = rig_;
+    std::vector<FitParameter> parameters = one.parameters;
+    seek_at_speed(scale_.speed, parameters);
+    std::vector<double> sizes = sizes_of(parameters, scale_);
+    search_ = search_options({rig_, parameters, experiments, options}, scale_);
+    task_ = std::make_unique<FitTask>(rig_, experiments, std::move(parameters), std::move(sizes), options.known);
+  }
+
+  /// All steps of the search but those that begin far from its end.
+  void search() {
+    const FitProblem& problem = task_->problem;
+    const auto count = static_cast<Eigen::Index>(task_->parameters.size());
+    const auto readings = static_cast<Eigen::Index>(problem.readings().count());
+    if (readings <= count) {
+      result_.outcome = {core::OutcomeKind::not_identifiable,
+                         std::to_string(count) + " parameters need more than " + std::to_string(readings) +
+                             " readings" +
+                             (readings < problem.readings().size()
+                                  ? "; samples beside a jump, or at rest under rigid friction, do not count"
+                                  : "")};
+      return;
+    }
+    result_.starts = search_.points;
+    problem.limit(options_.most_work);
+    task_->problem.set_stepped(stepped_parameters(
+        problem, problem.space().point(Eigen::Map<const Eigen::VectorXd>(task_->sizes.data(), count))));
+    found_ = search_parameters(problem, task_->parameters, task_->sizes, search_);
+    if (!found_) result_.outcome = why_none();
+    spent_ = problem.spent();
+  }
+
+  /// The searches that begin far from the end of the last one, and those for the loads of contacts.
+  void search_on() {
+    if (!found_) return;
+    task_->problem.limit(options_.most_work, spent_);
+    found_ = search_far_from(std::move(*found_), task_->problem, task_->parameters, search_);
+    warn_of_search(*found_, options_.most_work, result_);
+    if (!found_->is_cut_short && options_.seeks_loads)
+      seek_loads(task_, *found_, scale_.length, search_, options_.most_work, result_.warnings);
+  }
+
+  /// The fit where the search ended, or where a profile found less.
+  [[nodiscard]] Fit described(bool profile) {
+    if (!found_) return result_;
+    FitOptions options = options_;
+    options.profile = profile;
+    constexpr int most_rounds = 4;
+    for (int round = 1;; ++round) {
+      Fit described = result_;
+      sort_elements(search_.elements, task_->problem, *found_);
+      const std::optional<Eigen::VectorXd> lower =
+          describe(task_->problem, {rig_, task_->parameters, experiments_, options}, *found_, described);
+      if (!lower) return described;
+      std::optional<SearchResult> next;
+      task_->problem.limit(options.most_work);
+      if (round < most_rounds) next = search_from(task_->problem, *lower, search_);
+      if (!next) {
+        described.warnings.emplace_back(
+            "a profile found a smaller sum of squares than that of the estimate, and the search from there did not "
+            "end: try more starts, bounds or stated values");
+        return described;
+      }
+      found_ = std::move(next);
+    }
+  }
+
+ private:
+  /// Why no search found a motion.
+  [[nodiscard]] core::Outcome why_none() const {
+    if (task_->problem.is_exhausted()) return {core::OutcomeKind::not_identifiable, cut_short(options_.most_work)};
+    const std::string fault = motion_fault(rig_, task_->parameters, task_->sizes, experiments_);
+    return {core::OutcomeKind::not_identifiable, "the rig has no such motion with any of " +
+                                                     std::to_string(result_.starts) + " starts" +
+                                                     (fault.empty() ? "" : ": " + fault)};
+  }
+
+  const Rig& rig_;
+  const Experiments& experiments_;
+  const FitOptions& options_;
+  DataScale scale_;
+  SearchOptions search_;
+  std::unique_ptr<FitTask> task_;
+  std::optional<SearchResult> found_;
+  long spent_ = 0;  ///< work of `search`
+  Fit result_;      ///< what is known of it before it is described
+};
+
+bool leaves_noise(const Fit& fit) {
+  constexpr double near = 1.3;
+  return fit.outcome.ok() && fit.noise_units < near &&
+         std::ranges::all_of(fit.signals, [](const FittedSignal& signal) { return is_noise(signal.p_value); });
+}
+
+bool leaves_far_more(const Fit& fit) {
+  constexpr double far = 3.0;
+  return fit.noise_units > far;
+}
+
 }  // namespace
 
 Fit fit_rig(const Rig& rig, std::vector<FitParameter> parameters, const Experiments& experiments,
             const FitOptions& options) {
-  Fit result;
-  result.rig = rig;
-  const DataScale scale = scale_of(rig, experiments);
-  seek_at_speed(scale.speed, parameters);
-  const std::vector<double> sizes = sizes_of(parameters, scale);
-  auto task = std::make_unique<FitTask>(rig, experiments, parameters, sizes, options.known);
-  const FitProblem& problem = task->problem;
-  const auto readings = static_cast<Eigen::Index>(problem.readings().count());
-  if (readings <= static_cast<Eigen::Index>(parameters.size())) {
-    result.outcome = {core::OutcomeKind::not_identifiable,
-                      std::to_string(parameters.size()) + " parameters need more than " + std::to_string(readings) +
-                          " readings" +
-                          (readings < problem.readings().size()
-                               ? "; samples beside a jump, or at rest under rigid friction, do not count"
-                               : "")};
-    return result;
-  }
-  const SearchOptions search = search_options({rig, parameters, experiments, options}, scale);
-  result.starts = search.points;
-  problem.limit(options.most_work);
-  task->problem.set_stepped(
-      stepped_parameters(problem, problem.space().point(Eigen::Map<const Eigen::VectorXd>(
-                                      sizes.data(), static_cast<Eigen::Index>(sizes.size())))));
-  std::optional<SearchResult> found = search_parameters(problem, parameters, sizes, search);
-  if (!found && problem.is_exhausted()) {
-    result.outcome = {core::OutcomeKind::not_identifiable, cut_short(options.most_work)};
-    return result;
-  }
-  if (!found) {
-    const std::string fault = motion_fault(rig, parameters, sizes, experiments);
-    result.outcome = {core::OutcomeKind::not_identifiable, "the rig has no such motion with any of " +
-                                                               std::to_string(result.starts) + " starts" +
-                                                               (fault.empty() ? "" : ": " + fault)};
-    return result;
-  }
-  warn_of_search(*found, options.most_work, result);
-  if (!found->is_cut_short && options.seeks_loads)
-    seek_loads(task, *found, scale.length, search, options.most_work, result.warnings);
-  constexpr int most_rounds = 4;
-  for (int round = 1;; ++round) {
-    Fit described = result;
-    sort_elements(search.elements, task->problem, *found);
-    const std::optional<Eigen::VectorXd> lower =
-        describe(task->problem, {rig, task->parameters, experiments, options}, *found, described);
-    if (!lower) return described;
-    std::optional<SearchResult> next;
-    task->problem.limit(options.most_work);
-    if (round < most_rounds) next = search_from(task->problem, *lower, search);
-    if (!next) {
-      described.warnings.emplace_back(
-          "a profile found a smaller sum of squares than that of the estimate, and the search from there did not "
-          "end: try more starts, bounds or stated values");
-      return described;
-    }
-    found = std::move(next);
-  }
+  std::vector<Fit> fits = fit_rigs({{rig, std::move(parameters)}}, experiments, options);
+  return std::move(fits.front());
 }
 
-namespace {
-
-/// Sums over signals, of all residuals relative to their signal.
-struct RelativeSquare {
-  double sum = 0.0;
-  double count = 0.0;
-
-  void add(const FittedSignal& signal) {
-    const auto size = static_cast<double>(signal.rows.size());
-    const double share = signal.rms / signal.range;
-    sum += size * share * share;
-    count += size;
+std::vector<Fit> fit_rigs(const std::vector<RigToFit>& rigs, const Experiments& experiments,
+                          const FitOptions& options) {
+  std::vector<RigFit> all;
+  std::vector<Fit> fits;
+  all.reserve(rigs.size());
+  for (const RigToFit& one : rigs) all.emplace_back(one, experiments, options).search();
+  if (all.size() > 1)
+    for (RigFit& one : all) fits.push_back(one.described(false));
+  const bool has_law = std::ranges::any_of(fits, leaves_noise);
+  fits.resize(all.size());
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (has_law && leaves_far_more(fits[i])) continue;
+    all[i].search_on();
+    fits[i] = all[i].described(options.profile && all.size() == 1);
   }
-  [[nodiscard]] double root_mean() const { return std::sqrt(sum / count); }
-};
-
-}  // namespace
-
-const FittedParameter* find_of_record(const Fit& fit, std::size_t record, RecordParameter which) {
-  const auto found = std::ranges::find_if(
-      fit.parameters, [&](const FittedParameter& fitted) { return fitted.parameter.is_of_record(record, which); });
-  return found == fit.parameters.end() ? nullptr : &*found;
-}
-
-double relative_error(const Fit& fit) {
-  RelativeSquare all;
-  for (const FittedSignal& signal : fit.signals) all.add(signal);
-  return all.root_mean();
-}
-
-std::vector<double> relative_errors(const Fit& fit, std::size_t experiments) {
-  std::vector<RelativeSquare> of_each(experiments);
-  for (const FittedSignal& signal : fit.signals) of_each[signal.rows.experiment].add(signal);
-  std::vector<double> errors;
-  for (const RelativeSquare& one : of_each) errors.push_back(one.root_mean());
-  return errors;
-}
-
-SharedUncertainty shared_uncertainty(const Fit& fit) {
-  std::vector<Eigen::Index> shared;
-  for (std::size_t i = 0; i < fit.parameters.size(); ++i)
-    if (fit.parameters[i].parameter.owner != Owner::record) shared.push_back(static_cast<Eigen::Index>(i));
-  return {fit.covariance(shared, shared), fit.undetermined(shared, Eigen::all)};
+  if (!options.profile || all.size() == 1) return fits;
+  compare_fits(fits, options.robust);
+  double least = core::infinity;
+  for (const Fit& fit : fits) least = std::min(least, std::isnan(fit.AICc) ? core::infinity : fit.AICc);
+  constexpr double rivals = 10.0;
+  for (std::size_t i = 0; i < all.size(); ++i)
+    if (!(fits[i].AICc > least + rivals)) fits[i] = all[i].described(true);
+  return fits;
 }
 
 }  // namespace dualdamp::identify

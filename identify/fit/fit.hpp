@@ -106,6 +106,18 @@ struct Fit {
 [[nodiscard]] Fit fit_rig(const Rig& rig, std::vector<FitParameter> parameters, const Experiments& experiments,
                           const FitOptions& options = {});
 
+/// A rig and what is sought of it.
+struct RigToFit {
+  Rig rig;
+  std::vector<FitParameter> parameters;
+};
+
+/// Fits each of these rigs to the same records. When one of them leaves no more than the noise, those that leave
+/// three times the noise are not searched from far starts, nor with loads. Only the best by AICc, and what is
+/// within 10 of it, has profiles.
+[[nodiscard]] std::vector<Fit> fit_rigs(const std::vector<RigToFit>& rigs, const Experiments& experiments,
+                                        const FitOptions& options = {});
+
 /// The measured signal of a fitted one.
 [[nodiscard]] inline const Signal& signal_of(const Experiments& experiments, const FittedSignal& fitted) {
   return experiments[fitted.rows.experiment]->signals[fitted.rows.signal];

@@ -127,9 +127,9 @@ bool FitProblem::within_limit(std::size_t e, const std::function<bool()>& motion
   return false;
 }
 
-void FitProblem::limit(long most) const {
+void FitProblem::limit(long most, long spent) const {
   constexpr long largest = std::numeric_limits<long>::max();
-  const long begun = work();
+  const long begun = work() - spent;
   *limit_ = {begun, most < largest - begun ? begun + most : largest};
 }
 

@@ -57,8 +57,9 @@ class FitProblem {
   [[nodiscard]] FitProblem holding(std::size_t number) const;
 
   /// Begins to count the work of the motions (`Experiment::work`), also those of the problems made from this one.
-  /// Beyond `most` there are no motions any more, and a single motion ends there.
-  void limit(long most) const;
+  /// Beyond `most` there are no motions any more, and a single motion ends there. `spent`: work that counts as
+  /// done.
+  void limit(long most, long spent = 0) const;
   [[nodiscard]] bool is_exhausted() const { return work() > limit_->most; }
   /// Work since then.
   [[nodiscard]] long spent() const { return work() - limit_->begun; }

@@ -74,8 +74,7 @@ void take_better(LeastSquaresFit found, const WeightedSearch& search, const FitP
 
 /// Whether two searches came to the same minimum: by their sums of squares, and by the change of the readings
 /// between them.
-bool is_same_place(const LeastSquaresFit& a, const LeastSquaresFit& b) {
-  constexpr double alike = 0.01;
+bool is_same_place(const LeastSquaresFit& a, const LeastSquaresFit& b, double alike = 0.01) {
   const double between = (b.jacobian * (a.parameters - b.parameters)).squaredNorm();
   return std::abs(a.sum_of_squares / b.sum_of_squares - 1.0) < alike && between < alike * b.sum_of_squares;
 }
@@ -295,11 +294,13 @@ std::optional<LeastSquaresFit> search_far(const SearchResult& from, const std::v
 /// Searches that were ended, with weights from the residuals, and the best of them.
 class EndedSearches {
  public:
-  EndedSearches(const FitProblem& problem, const SearchOptions& options)
+  EndedSearches(const FitProblem& problem, const SearchOptions& options,
+                std::optional<SearchResult> best = std::nullopt)
       : problem_(problem),
         options_(options),
         several_weights_(has_several_weights(problem, options)),
-        alike_(problem, options) {}
+        alike_(problem, options),
+        best_(std::move(best)) {}
 
   [[nodiscard]] const std::optional<SearchResult>& best() const { return best_; }
   [[nodiscard]] bool is_cut_short() const { return problem_.is_exhausted() || (best_ && best_->is_cut_short); }
@@ -312,10 +313,10 @@ class EndedSearches {
 
   /// Ends another search. Returns whether it is the best one.
   bool take(const std::optional<LeastSquaresFit>& found) {
-    // With several weights the end of a search takes most of its time: the same place is not ended twice.
-    if (!found || (several_weights_ && std::ranges::any_of(ended_, [&](const LeastSquaresFit& other) {
-                     return is_same_place(*found, other);
-                   })))
+    // With several weights the end of a search takes most of its time. With one, it tells closer places apart.
+    const double alike = several_weights_ ? 0.01 : rough;
+    if (!found || std::ranges::any_of(
+                      ended_, [&](const LeastSquaresFit& other) { return is_same_place(*found, other, alike); }))
       return false;
     ended_.push_back(*found);
     std::optional<SearchResult> result;
@@ -419,8 +420,17 @@ std::optional<SearchResult> search_parameters(const FitProblem& problem,
   // Both searches may end in the same false minimum. Tied models approach the minimum on another way; they cost
   // most of the time of a fit.
   if (!ended.is_at_end()) ended.take(search_tied(points, rough_search, rough_problem, options));
-  ended.take_far(parameters, rough_search, rough_problem);
   return ended.result();
+}
+
+SearchResult search_far_from(SearchResult found, const FitProblem& problem,
+                             const std::vector<FitParameter>& parameters, const SearchOptions& options) {
+  const FitProblem rough_problem = problem.roughly(of_first_steps);
+  const WeightedSearch rough_search(rough_problem, options);
+  SearchResult before = found;
+  EndedSearches ended(problem, options, std::move(found));
+  ended.take_far(parameters, rough_search, rough_problem);
+  return ended.result().value_or(std::move(before));
 }
 
 }  // namespace dualdamp::identify

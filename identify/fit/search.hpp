@@ -41,11 +41,18 @@ struct SearchResult {
   bool is_settled = true;          ///< the last searches from far starts (`far_starts.hpp`) found nothing better
 };
 
-/// `sizes`: of each parameter, as in the problem. Nothing if the rig has no such motion at any start.
+/// All of these searches but those from far starts. `sizes`: of each parameter, as in the problem. Nothing if the
+/// rig has no such motion at any start.
 [[nodiscard]] std::optional<SearchResult> search_parameters(const FitProblem& problem,
                                                             const std::vector<FitParameter>& parameters,
                                                             const std::vector<double>& sizes,
                                                             const SearchOptions& options);
+
+/// Searches from far starts (`far_starts.hpp`), with at most twice the work that the problem has spent; `found` if
+/// none of them is better.
+[[nodiscard]] SearchResult search_far_from(SearchResult found, const FitProblem& problem,
+                                           const std::vector<FitParameter>& parameters,
+                                           const SearchOptions& options);
 
 /// The local minimum near `coordinates`. Nothing if the rig has no such motion there.
 [[nodiscard]] std::optional<SearchResult> search_from(const FitProblem& problem, const Eigen::VectorXd& coordinates,

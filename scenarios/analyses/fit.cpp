@@ -206,9 +206,7 @@ std::vector<std::size_t> ranked(const std::vector<identify::Fit>& fits) {
 
 Answer FitQuestion::run(const RunContext& /*context*/) const {
   const identify::Experiments& data = setup_.data;
-  std::vector<identify::Fit> fits;
-  for (const Candidate& candidate : setup_.candidates)
-    fits.push_back(identify::fit_rig(candidate.rig, candidate.parameters, data, setup_.options));
+  std::vector<identify::Fit> fits = identify::fit_rigs(setup_.candidates, data, setup_.options);
   identify::compare_fits(fits, setup_.options.robust);
   const std::vector<std::size_t> order = ranked(fits);
   const identify::Fit& best = fits[order.front()];

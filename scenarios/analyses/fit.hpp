@@ -12,10 +12,7 @@ namespace dualdamp::scenarios {
 
 class FitQuestion final : public Question {
  public:
-  struct Candidate {
-    identify::Rig rig;
-    std::vector<identify::FitParameter> parameters;
-  };
+  using Candidate = identify::RigToFit;
 
   /// What is fitted to what.
   struct Setup {
