@@ -37,13 +37,13 @@ const RecordParameterEntry& entry_of(RecordParameter which) {
   return *std::ranges::find(record_parameters, which, &RecordParameterEntry::which);
 }
 
-/// The number at `path` of the values. A missing number on the last level is created; nullptr if a record or an
-/// item on the way is missing.
+/// The number at `path` of the values. A missing number on the last level is created as `unknown`; nullptr if a
+/// record or an item on the way is missing.
 double* number_at(ParameterValues& values, std::string_view path) {
   const std::size_t cut = path.find('.');
   std::string_view head = path.substr(0, cut);
   if (cut == std::string_view::npos) {
-    if (!values.has(head)) values.set(head, 0.0);
+    if (!values.has(head)) values.set(head, unknown);
     return std::get_if<double>(values.find(head));
   }
   std::size_t item = 0;
@@ -58,8 +58,6 @@ double* number_at(ParameterValues& values, std::string_view path) {
 }
 
 double stated_number(ParameterValues values, const std::string& path) {
-  const bool top = path.find('.') == std::string::npos;
-  if (top && !values.has(path)) return unknown;
   const double* number = number_at(values, path);
   return number == nullptr ? unknown : *number;
 }
@@ -167,14 +165,14 @@ void add_missing(const RigLaw& law, std::size_t index, const std::vector<FitPara
       names.emplace_back(parameter.name);
       return;
     }
-    // What is missing inside of a stated list or record, the reader of the scenario reports, with its place.
     faults.push_back("'" + std::string(parameter.name) + "' of " + std::string(law.entry->name) + " is missing: " +
                      (parameter.kind == ParameterKind::list
-                          ? "state the list, with start values; a fit does not choose its length"
+                          ? "state the list, such as [{}, {}]; a fit does not choose its length"
                           : "state it; a fit seeks numbers only"));
   };
   for (const friction::ParameterFault& fault : friction::complete(*law.entry, completed)) {
     if (!fault.is_missing) continue;
+    if (fault.name.find('.') != std::string::npos) names.push_back(fault.name);  // of an item of a list
     const std::vector<std::string> instead = names_instead_of(law.entry->parameters, fault.name);
     const auto stated = std::ranges::find(law.entry->parameters, fault.name, &Parameter::name);
     const bool is_known = stated != law.entry->parameters.end();

@@ -279,6 +279,15 @@ std::size_t ParallelElements::kind(int number) const {
 void ParallelElements::begin(Eigen::VectorXd& values, int number) const {
   if (number > 0 && !found_.empty()) return set_found(found_[kind(number) - 1], values);
   std::vector<Element> list = elements(values);
+  if (are_shares_ && !(list.back().limit > 0.0)) {
+    // Shares that were drawn one by one leave nothing for the last one: it gets as much as the others have in the
+    // mean.
+    const double sum = 1.0 - list.back().limit;
+    const double whole = sum * (1.0 + 1.0 / static_cast<double>(list.size() - 1));
+    for (Element& element : list) element.limit /= whole;
+    list.back().limit = sum / whole / static_cast<double>(list.size() - 1);
+    set(list, values);
+  }
   constexpr double alike = 1e-6;
   const auto is_like_first = [&](const Element& other) {
     return std::abs(other.stiffness - list.front().stiffness) <= alike * list.front().stiffness &&

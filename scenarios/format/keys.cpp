@@ -20,6 +20,14 @@ Field make(Kind kind, std::string name, std::string meaning) {
   return field;
 }
 
+/// A list of a law: its items may lack numbers where those of the law may.
+Field part_of_law(Field list) {
+  Choice items = *list.choice;
+  items.names_laws = true;
+  list.choice = std::make_shared<const Choice>(std::move(items));
+  return list;
+}
+
 /// Name, kind and meaning of a law's parameter.
 Field plain_field_of(const friction::Parameter& parameter) {
   using friction::ParameterKind;
@@ -38,7 +46,7 @@ Field plain_field_of(const friction::Parameter& parameter) {
     case ParameterKind::record:
       return section(std::move(name), {fields_of(parameter.fields)}, std::move(meaning));
     case ParameterKind::list:
-      return section_list(std::move(name), {fields_of(parameter.fields)}, std::move(meaning))
+      return part_of_law(section_list(std::move(name), {fields_of(parameter.fields)}, std::move(meaning)))
           .items(1, parameter.max_items);
   }
   return quantity(std::move(name), {std::string(parameter.unit)}, std::move(meaning));

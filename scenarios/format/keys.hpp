@@ -104,7 +104,7 @@ struct Variant {
 struct Choice {
   std::string key;
   std::vector<Variant> variants;
-  bool names_laws = false;  ///< the variants are the laws of the registry
+  bool names_laws = false;  ///< the variants are the laws of the registry, or a part of one
 
   [[nodiscard]] const Variant* find(std::string_view name) const;
   [[nodiscard]] std::vector<std::string> names() const;

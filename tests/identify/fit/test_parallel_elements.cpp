@@ -125,6 +125,38 @@ TEST_CASE("parallel elements: two that slip close to each other are not taken fo
   CHECK(test::fitted(fit, "elements[1].stiffness").value == Approx(5122.8).epsilon(0.1));
 }
 
+TEST_CASE("parallel elements: three elements and their level are found with nothing stated but their number",
+          "[identify][fit][loop]") {
+  const auto element = [](double stiffness, double share) {
+    return friction::ParameterValues{{"stiffness", stiffness}, {"share", share}};
+  };
+  const identify::Record record = test::loop_of(
+      test::rig_with({"generalized_maxwell_slip",
+                      {{"elements", List{element(9000.0, 0.3), element(1500.0, 0.4), element(500.0, 0.3)}},
+                       {"kinetic", 1.0},
+                       {"static", 1.4},
+                       {"stribeck_velocity", 0.03},
+                       {"attraction", 60.0}},
+                      {}}),
+      5e-3, 0.01, 6);
+  std::string fault;
+  const identify::Experiments loops = identify::experiments_of(record, {.name = "loop", .loop = true}, fault);
+  identify::Rig rig = test::loop_alone(test::rig_with(test::law_case_of("generalized_maxwell_slip")));
+  rig.laws.front().values = {{"elements", List(3)}};
+  std::vector<std::string> faults;
+  std::vector<identify::FitParameter> sought = identify::unstated_parameters(rig, faults);
+  CHECK(faults.empty());
+  std::erase_if(sought, [](const identify::FitParameter& one) { return one.owner != identify::Owner::law; });
+  CHECK(std::ranges::all_of(sought, [](const identify::FitParameter& one) { return std::isnan(one.stated); }));
+  identify::arrange(rig, sought);
+  REQUIRE(sought.size() == 9);
+  const identify::Fit fit = identify::fit_rig(rig, sought, loops, {.profile = false});
+  REQUIRE(fit.outcome.ok());
+  CHECK(fit.signals.front().rms == Approx(0.01).epsilon(0.1));
+  CHECK(test::fitted(fit, "kinetic").value == Approx(1.0).epsilon(0.03));
+  CHECK(test::fitted(fit, "elements[0].stiffness").value == Approx(9000.0).epsilon(0.1));
+}
+
 TEST_CASE("steps: a fall that is over before the lowest speed is no parameter that acts in steps",
           "[identify][fit][loop]") {
   const identify::Rig whole = test::rig_with(test::law_case_of("stribeck"));

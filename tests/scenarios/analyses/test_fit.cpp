@@ -262,3 +262,48 @@ TEST_CASE("fit: a mass that nobody stated is found from afar", "[scenarios][fit]
   CHECK(result.at("residual").at("noise_units").get<double>() == Approx(1.0).margin(0.05));
   CHECK(result.at("parameters").at(0).at("value").get<double>() == Approx(1.0).epsilon(1e-4));
 }
+
+TEST_CASE("fit: empty items of a list state how many elements are sought", "[scenarios][fit]") {
+  // Springs of 3000 and 500 N/m that slip at 1 and 1.5 N, each followed on its own.
+  std::ostringstream loop;
+  loop << "t [s],x [m],force [N]\n";
+  double soft = 0.0;
+  double stiff = 0.0;
+  double before = 0.0;
+  const core::RandomStream draws{7, 951};
+  for (int i = 0; i <= 800; ++i) {
+    const double t = i / 400.0;
+    const double x = 5e-3 * (std::sin(12.0 * t) + 0.4 * std::sin(31.0 * t));
+    stiff = std::clamp(stiff + 3000.0 * (x - before), -1.0, 1.0);
+    soft = std::clamp(soft + 500.0 * (x - before), -1.5, 1.5);
+    before = x;
+    const double noise = 0.01 * draws.normal(static_cast<std::uint64_t>(i));
+    loop << core::format_number(t) << "," << core::format_number(x) << ","
+         << core::format_number(stiff + soft + noise) << "\n";
+  }
+  const File data("fit_elements.csv", loop.str());
+  const std::string analysis = "data: [{file: fit_elements.csv, loop: true}], profile: false";
+  const auto value_of = [](const nlohmann::json& result, const std::string& name) {
+    for (const nlohmann::json& parameter : result.at("parameters"))
+      if (parameter.at("name") == name) return parameter.at("value").get<double>();
+    FAIL(name);
+    return 0.0;
+  };
+  const nlohmann::json iwan = result_of_text(fit_scenario("friction: {law: iwan, elements: [{}, {}]}", analysis));
+  CHECK(value_of(iwan, "elements[0].stiffness") == Approx(3000.0).epsilon(0.05));
+  CHECK(value_of(iwan, "elements[0].limit") == Approx(1.0).epsilon(0.05));
+  CHECK(value_of(iwan, "elements[1].stiffness") == Approx(500.0).epsilon(0.05));
+  CHECK(value_of(iwan, "elements[1].limit") == Approx(1.5).epsilon(0.05));
+  // What is stated of an item is known.
+  const nlohmann::json partly = result_of_text(
+      fit_scenario("friction: {law: iwan, elements: [{stiffness: 3000 N/m}, {limit: 1.5 N}]}", analysis));
+  CHECK(partly.at("parameters").size() == 2);
+  CHECK(value_of(partly, "elements[0].limit") == Approx(1.0).epsilon(0.05));
+  CHECK(value_of(partly, "elements[1].stiffness") == Approx(500.0).epsilon(0.05));
+  CHECK_THAT(fault_of("schema: dualdamp/1\nsystem: {" + std::string(rig) +
+                      ", friction: {law: iwan, elements: [{}, {}]}}\ninitial: {position: 1 mm}\n"
+                      "analysis: {type: simulate, duration: 1 s}\n"),
+             Catch::Contains("'system.friction.elements[0].stiffness' is missing"));
+  CHECK_THAT(fault_of(fit_scenario("friction: {law: generalized_maxwell_slip}", analysis)),
+             Catch::Contains("state the list, such as [{}, {}]"));
+}
