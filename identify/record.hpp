@@ -93,6 +93,8 @@ struct History {
   /// For messages: what gaps in the times have left out; why it gives no x-Y pair. Empty: nothing, or not asked.
   std::string gaps = {};
   std::string no_pair = {};
+  /// Why the motion is not free although no drive was measured; empty: it may be free, or was not asked.
+  std::string unknown_drive = {};
   bool is_clipped = false;   ///< samples at the end of a sensor's range were found, and warned of
   bool begins_free = false;  ///< a measured blow has ended: nothing pushes the mass from the first sample on
 

@@ -69,12 +69,6 @@ std::string copies(std::string_view first, std::string_view second) {
 
 constexpr const char* measured_columns = "two columns that were measured";
 
-double range_of(Samples signal) {
-  if (signal.empty()) return 0.0;
-  const auto [low, high] = std::ranges::minmax(signal);
-  return high - low;
-}
-
 /// How often the signal turns back by more than `height`.
 std::size_t turns(Samples signal, double height) {
   const std::size_t extremes = zigzag(signal, height).size();

@@ -7,6 +7,7 @@
 #include "core/numbers.hpp"
 #include "core/uncertain_quantity.hpp"
 #include "core/units.hpp"
+#include "identify/readers/amplitude_words.hpp"
 #include "identify/readers/text.hpp"
 
 namespace dualdamp::identify {
@@ -51,8 +52,12 @@ bool is_angular(const KnownColumn& known, core::Coordinate coordinate) {
   return core::unit_for(coordinate, known.unit).starts_with("rad");
 }
 
-/// What else a column of the base's acceleration is good for.
-std::string other_reading(const KnownColumn& known, const std::string& unit, core::Coordinate coordinate) {
+/// What else a column of the base's acceleration, or of a force in place of the base, is good for.
+std::string other_reading(const KnownColumn& known, const std::string& unit, core::Coordinate coordinate,
+                          const core::SettingWords& words) {
+  if (known.name == "Y" && core::unit_factor(unit, "N", coordinate).value)
+    return "; the amplitude of a force on the mass acts as a base that moves by F/k: for k = 2000 N/m " +
+           words(core::Setting::scale, "Y", "0.0005 m/N");
   if (known.name != "y" || !core::unit_factor(unit, "m/s^2", coordinate).value) return {};
   return "; where friction acts against the base, its acceleration is the column 'force' with the scale -m, and x is "
          "the motion relative to the base";
@@ -113,7 +118,7 @@ double ColumnFactors::factor_of(KnownColumn known, const std::string& stated, co
   const std::string name(known.name);
   if (options_.force_levels && name == "Y") known.unit = "N";
   const std::string* given = find_for(options_.units, known);
-  const std::string& unit = given != nullptr ? *given : stated;
+  const std::string unit = without_amplitude_words(given != nullptr ? *given : stated);
   if (known.unit.empty())
     return unit.empty() ? 1.0 : refuse(where, "column " + name + " is a label and has no unit", name);
   if (given != nullptr && !stated.empty() && stated != *given)
@@ -142,7 +147,8 @@ double ColumnFactors::factor_of(KnownColumn known, const std::string& stated, co
                     (known.unit == "N" && name == "Y" ? ", the amplitude of the force" : "") + ": " + factor.fault,
                 core::describe_dimension(known.unit, options_.coordinate) + "; in the file as '" + name +
                     " [unit]', or as " + options_.words(core::Setting::unit, name, "UNIT") +
-                    scale_of_voltage(known, unit) + other_reading(known, unit, options_.coordinate) +
+                    scale_of_voltage(known, unit) +
+                    other_reading(known, unit, options_.coordinate, options_.words) +
                     (options_.coordinate_reason.empty() ? "" : "; " + options_.coordinate_reason),
                 factor.suggestion);
 }
@@ -163,6 +169,28 @@ void ColumnFactors::check_suffix(const KnownColumn& known, const std::string& na
                         (unit == "in" ? ", inches" : ", metres") +
                         "; if it belongs to the name, state the unit: " + stated;
   if (std::ranges::find(warnings_, warning) == warnings_.end()) warnings_.push_back(std::move(warning));
+}
+
+void ColumnFactors::check_amplitude(const KnownColumn& known, const std::string& heading, const std::string& unit,
+                                    const core::Diagnostic& where) {
+  if (known.name != "Y" && known.name != "x" && known.name != "fundamental") return;
+  std::optional<AmplitudeWords> said = amplitude_words(heading);
+  if (!said) said = amplitude_words(unit);
+  if (!said) return;
+  const std::string column(known.name);
+  const bool has_unit = find_for(options_.units, known) != nullptr;
+  const std::string* scale = find_for(options_.scales, known);
+  const bool is_number = scale != nullptr && core::read_number(*scale).length == trimmed(*scale).size();
+  if (scale != nullptr && (is_number || has_unit)) return;
+  const std::string factor(said->to_amplitude);
+  refuse(where,
+         "column " + column + " is " + std::string(said->name) +
+             " by its heading, and an amplitude is half of peak to trough",
+         scale == nullptr
+             ? options_.words(core::Setting::scale, column, factor) +
+                   (factor == "0.5" ? "" : ", right for a sine") + "; or amplitudes under a heading that says so"
+             : "a scale that contains the factor " + factor + ", beside the unit of the signal, " +
+                   options_.words(core::Setting::unit, column, "V"));
 }
 
 double ColumnFactors::scaled(const KnownColumn& known, const std::string& scale, const std::string& unit,

@@ -42,6 +42,11 @@ class ColumnFactors {
   void check_suffix(const KnownColumn& known, const std::string& name, const std::string& unit, bool has_output,
                     const core::Diagnostic& where);
 
+  /// Refuses amplitudes that the heading calls rms or peak to peak, unless a scale states what becomes of them: a
+  /// number, or a scale with a unit beside a stated unit of the column, which replaces the heading.
+  void check_amplitude(const KnownColumn& known, const std::string& heading, const std::string& unit,
+                       const core::Diagnostic& where);
+
   /// The units of all columns. Adds one warning for all columns without a unit.
   ColumnUnits take_units();
 

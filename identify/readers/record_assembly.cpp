@@ -14,6 +14,7 @@
 #include "identify/readers/signal_checks.hpp"
 #include "identify/readers/time_base.hpp"
 #include "identify/records/derived_records.hpp"
+#include "identify/records/turning_points.hpp"
 
 namespace dualdamp::identify {
 
@@ -157,16 +158,9 @@ class Assembly {
     return true;
   }
 
-  /// Number of rows at which x turns back.
-  [[nodiscard]] static std::size_t turns(const std::vector<double>& x) {
-    std::size_t count = 0;
-    for (std::size_t i = 2; i < x.size(); ++i) count += (x[i] - x[i - 1]) * (x[i - 1] - x[i - 2]) < 0.0 ? 1 : 0;
-    return count;
-  }
-
   /// Whether x turns back at less than four of five rows, with three rows or more.
   [[nodiscard]] static bool turn_too_seldom(const std::vector<double>& x) {
-    return 5 * turns(x) < 4 * (x.size() - 2);
+    return 5 * rows_that_turn(x) < 4 * (x.size() - 2);
   }
 
   /// Refuses amplitudes of a response without the excitation: they are no extremes.
@@ -201,7 +195,7 @@ class Assembly {
   /// seldom do, and those of noise at two rows of three.
   void refuse_samples_without_times(const std::vector<double>& x) const {
     constexpr std::size_t many = 40;
-    const std::size_t back = turns(x);
+    const std::size_t back = rows_that_turn(x);
     const bool are_samples = x.size() > 2 && (back == 0 || (x.size() >= many && turn_too_seldom(x)));
     if (!are_samples) return;
     const std::string often =
@@ -235,10 +229,19 @@ class Assembly {
     if (values("t") == nullptr) {
       std::vector<std::string> names;
       for (const DataColumn& column : table_.columns) names.emplace_back(column.known->name);
-      refuse_file(table_.file, "signals need their times: there is no column t",
-                  std::string(allowed_columns) + "; or samples of one rate, with " +
-                      words_(core::Setting::sample_rate, {}, "1 kHz"),
-                  "columns " + listed(names));
+      const bool are_amplitudes = values("omega") != nullptr || values("phase") != nullptr;
+      refuse_file(
+          table_.file,
+          are_amplitudes ? "amplitudes need that of the base: there is no column Y"
+                         : "signals need their times: there is no column t",
+          are_amplitudes && values("force") != nullptr
+              ? "Y and x; the amplitude of a force on the mass acts as a base that moves by F/k: for k = 2000 "
+                "N/m " +
+                    words_(core::Setting::column, "Y", "FORCE") + ", " +
+                    words_(core::Setting::scale, "Y", "0.0005 m/N")
+              : std::string(allowed_columns) + "; or samples of one rate, with " +
+                    words_(core::Setting::sample_rate, {}, "1 kHz"),
+          "columns " + listed(names));
     }
     if (!check_signals()) return {};
     drop_doubled_rows();

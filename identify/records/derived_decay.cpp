@@ -9,6 +9,7 @@
 
 #include "core/numbers.hpp"
 #include "identify/records/derived_records.hpp"
+#include "identify/records/swings.hpp"
 #include "identify/records/turning_points.hpp"
 #include "identify/statistics/decompositions.hpp"
 #include "identify/statistics/median.hpp"
@@ -51,11 +52,6 @@ LocalFit local_fit(std::span<const double> x, std::size_t first, std::size_t las
   return fit;
 }
 
-double swing_of(std::span<const double> x) {
-  const auto [low, high] = std::ranges::minmax(x);
-  return high - low;
-}
-
 class DecayReader {
  public:
   explicit DecayReader(const History& history) : history_(history), x_(history.x) {}
@@ -79,7 +75,7 @@ class DecayReader {
     // If a period has few samples, differences of second order take the motion for noise.
     constexpr double many = 32.0;
     if (half_period_ < many) turns = read_turns(robust_noise_level(history_.x));
-    if (turns.size() < 3) return refused(no_turns(), swing_of(x_) > 2.0 * band_);
+    if (turns.size() < 3) return refused(no_turns(), range_of(x_) > 2.0 * band_);
     if (half_period_ < fewest_in_half_period) {
       DerivedDecay slow = refused(turns.size() > 3 ? too_slow() : "x turns back once" + duration(), true);
       slow.warnings.push_back("no extremes are read: " + slow.fault);
@@ -93,13 +89,14 @@ class DecayReader {
     add_first(result, turns.front(), held);
     add_last(result, turns.back());
     const std::string fault = keep_decay(result);
-    return fault.empty() ? result : refused(fault, result.is_coarse);
+    return fault.empty() ? result : refused(fault, result.is_coarse, result.is_driven);
   }
 
-  static DerivedDecay refused(std::string fault, bool is_coarse = false) {
+  static DerivedDecay refused(std::string fault, bool is_coarse = false, bool is_driven = false) {
     DerivedDecay result;
     result.fault = std::move(fault);
     result.is_coarse = is_coarse;
+    result.is_driven = is_driven;
     return result;
   }
 
@@ -123,7 +120,7 @@ class DecayReader {
     // step.
     constexpr double steps = 2.5;
     constexpr std::size_t fewest_levels = 6;
-    return std::max({noises * noise, steps * converter_step(history_.x, fewest_levels), rounding * swing_of(x_)});
+    return std::max({noises * noise, steps * converter_step(history_.x, fewest_levels), rounding * range_of(x_)});
   }
 
   /// The median of the swings that are not much smaller than the largest one; ripple, and the motion of a mass that
@@ -148,7 +145,7 @@ class DecayReader {
 
   /// The first and the last of two turning points of a zigzag are its ends.
   [[nodiscard]] std::string no_turns() const {
-    const double range = swing_of(x_);
+    const double range = range_of(x_);
     if (!(range > 0.0)) return "x does not move" + duration();
     const auto share = [range](double length) { return core::percent(length / range, 3); };
     return "x does not turn back" + duration() + ", where swings count above " + share(band_) +
@@ -341,24 +338,24 @@ class DecayReader {
     result.last = std::min(x_.size(), result.last + static_cast<std::size_t>(half_swing));
   }
 
-  /// The swings of a free decay shrink and last equally long. They may grow before the release, while a blow pushes
-  /// the mass, and in the noise at the end; a mass that sticks to a contact that gives moves faster. These parts
-  /// are cut off. Returns why the history is no free decay; empty if it is one.
+  /// The swings of a free decay shrink and last equally long. They may be equal until a drive stops, grow while a
+  /// blow pushes the mass, and in the noise at the end; a mass that sticks to a contact that gives moves faster.
+  /// These parts are cut off. Returns why the history is no free decay; empty if it is one.
   [[nodiscard]] std::string keep_decay(DerivedDecay& result) const {
     const std::vector<double>& extremes = result.record.extremes;
     if (extremes.size() < 3) return too_few(result, " extremes" + duration(), extremes.size());
     const auto swing = [&extremes](std::size_t i) { return std::abs(extremes[i] - extremes[i - 1]); };
-    std::size_t largest = 1;
-    for (std::size_t i = 2; i < extremes.size(); ++i)
-      if (swing(i) > swing(largest)) largest = i;
+    const std::size_t steady = steady_swings(extremes, result.standard_errors);
+    const std::size_t largest = first_of_largest(extremes, result.standard_errors, steady + 1);
     constexpr double too_short = 0.7;
     constexpr double too_long = 1.4;
     const auto is_fast = [&](std::size_t i) { return lasting(result, i) < too_short * half_period_; };
     // Largest share of the swings that may be left where they grow again. Above it, there is another release or a
     // drive.
     constexpr double most_left = 0.25;
+    const double usual = upper_median(result.standard_errors);
     const auto is_growing = [&](std::size_t i) {
-      const double error = swing(i) > most_left * swing(largest) ? error_of_growth(result, i) : 0.0;
+      const double error = swing(i) > most_left * swing(largest) ? error_of_growth(result, i, usual) : 0.0;
       return swing(i) - swing(i - 1) >= error;
     };
     std::size_t end = largest + 1;
@@ -368,13 +365,15 @@ class DecayReader {
     // The cause of the growth may have acted already in the swings before; these last too long.
     while (grows && end > largest + 1 && lasting(result, end - 1) > too_long * half_period_) --end;
     if (fails && swing(end) > most_left * swing(largest))
-      return "the swings do not shrink as in a free vibration: the drive of the motion was not recorded";
+      return driven(result, "the swings do not shrink as in a free vibration");
     // A blow may last to the begin of the largest swing. It is over at the end of this swing.
     constexpr std::size_t longest_start = 3;
     const std::size_t begin = largest > 1 ? largest : 0;
-    if (begin > longest_start + 1)
-      return "the swings grow at the beginning: the drive of the motion was not recorded";
+    if (begin > steady + longest_start + 1) return driven(result, "the swings grow at the beginning");
     if (end < begin + 3) return too_few(result, " extremes from its largest swing on", end - begin);
+    const std::span<const double> errors = result.standard_errors;
+    if (!swings_shrink(std::span(extremes).subspan(begin, end - begin), errors.subspan(begin, end - begin)))
+      return driven(result, std::to_string(end - begin - 1) + " swings do not shrink beyond their noise");
     if (fails) {
       const std::string where = " at t = " + core::format_number(result.record.times[end], 4) + " s, where " +
                                 core::percent(swing(end - 1) / swing(largest), 2) +
@@ -393,17 +392,22 @@ class DecayReader {
     return {};
   }
 
+  static std::string driven(DerivedDecay& result, const std::string& what) {
+    result.is_driven = true;
+    return what + ": the drive of the motion was not recorded";
+  }
+
   static std::string too_few(DerivedDecay& result, const std::string& extremes, std::size_t count) {
     result.is_coarse = true;
     return "x has " + std::to_string(count) + extremes;
   }
 
   /// Between two swings that shrink hardly, the noise of their extremes may show a growth up to this. `extreme`,
-  /// the last of the three, is the third or a later one.
-  static double error_of_growth(const DerivedDecay& result, std::size_t extreme) {
-    constexpr double deviations = 4.0;
-    const std::vector<double>& errors = result.standard_errors;
-    return deviations * std::hypot(errors[extreme - 2], 2.0 * errors[extreme - 1], errors[extreme]);
+  /// the last of the three, is the third or a later one. Few samples tell each error: none is below the usual one.
+  static double error_of_growth(const DerivedDecay& result, std::size_t extreme, double usual) {
+    constexpr double deviations = 5.0;
+    const auto error = [&](std::size_t i) { return std::max(result.standard_errors[i], usual); };
+    return deviations * std::hypot(error(extreme - 2), 2.0 * error(extreme - 1), error(extreme));
   }
 
   [[nodiscard]] std::size_t sample_of(const DerivedDecay& result, std::size_t extreme) const {

@@ -53,6 +53,9 @@ std::vector<std::string> complete(Record& record, double frequency, double stiff
     return warnings;
   }
   const auto is_free = [](const History& history) { return !history.x.empty() && !history.has_drive(); };
+  for (History& history : record.histories)
+    if (is_free(history))
+      if (const DerivedDecay decay = decay_of(history); decay.is_driven) history.unknown_drive = decay.fault;
   if (!std::ranges::all_of(record.histories, is_free)) return warnings;
   std::vector<DecayRecord> decays;
   for (History& history : record.histories) {

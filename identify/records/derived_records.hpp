@@ -40,6 +40,7 @@ struct DerivedDecay {
   std::string fault;                    ///< why there are no extremes
   /// The fault is that x has few extremes, or few samples between them: a simulated motion may still fit it.
   bool is_coarse = false;
+  bool is_driven = false;    ///< the fault is that something drives the motion
   std::size_t held = 0;      ///< first samples that are equal within the noise
   double half_period = 0.0;  ///< samples of a half swing; 0: x does not turn back
 };

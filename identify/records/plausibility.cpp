@@ -13,6 +13,7 @@
 #include "identify/records/phase_checks.hpp"
 #include "identify/records/sensor_agreement.hpp"
 #include "identify/records/sine_fit.hpp"
+#include "identify/records/turning_points.hpp"
 #include "identify/statistics/median.hpp"
 
 namespace dualdamp::identify {
@@ -249,32 +250,34 @@ class Check {
     }
   }
 
-  /// Checks that the work of the force is at least the growth of the energy of the motion: friction returns no
-  /// energy.
+  /// Checks that the work of force or base is at least the growth of the energy of the motion: friction gives none.
   void check_work(const History& history, double omega) {
-    if (history.force.empty() || history.x.empty()) return;
-    double work = 0.0;
-    double moved = 0.0;
+    const bool is_force = !history.force.empty();
+    // Of both at once, either may be wrong. Phases of pairs tell more of a base.
+    if (history.x.empty() || is_force != history.y.empty() || (!is_force && record_.pairs)) return;
+    const std::vector<double>& drive = is_force ? history.force : history.y;
+    double work = 0.0, moved = 0.0;
     for (std::size_t i = 1; i < history.x.size(); ++i) {
-      const double part = 0.5 * (history.force[i] + history.force[i - 1]) * (history.x[i] - history.x[i - 1]);
+      const double force = 0.5 * (drive[i] + drive[i - 1]) * (is_force ? 1.0 : constants_.stiffness);
+      const double part = force * (history.x[i] - history.x[i - 1]);
       work += part;
       moved += std::abs(part);
     }
-    const auto [low, high] = std::ranges::minmax(history.x);
+    const double range = range_of(history.x);
     const double stiffness =
         std::fmax(constants_.mass * omega * omega, std::fmax(constants_.stiffness, 0.0));  // either may be unknown
-    const double energy = 0.125 * stiffness * (high - low) * (high - low);  // at most, at the beginning
+    const double energy = 0.125 * stiffness * range * range;  // at most, at the beginning
     constexpr double clearly = 0.2;
     if (!(work + 2.0 * energy < -clearly * moved)) return;
-    refuse("the force takes " + shown(-work) + unit("J") +
+    const auto [name, who] = is_force ? std::pair("force", "force") : std::pair("y", "base");
+    refuse("the " + std::string(who) + " takes " + shown(-work) + unit("J") +
                " out of the motion x, more than the motion has: one of them has the wrong sign",
-           "force and x positive in one direction: " + turned("force"));
+           std::string(name) + " and x positive in one direction: " + turned(name));
   }
 
   [[nodiscard]] std::string unit(const char* name) const { return " " + constants_.unit(name); }
 
-  /// Checks |k - m w^2| x <= F. Friction and damping act at right angles to this force. Near resonance, the check
-  /// has no effect.
+  /// Checks |k - m w^2| x <= F. Friction and damping act at right angles to it. No effect near resonance.
   void check_force(double force, double x, double omega) {
     const double needed = std::abs(constants_.stiffness - constants_.mass * omega * omega) * x;
     constexpr double unit_error = 100.0;

@@ -8,6 +8,7 @@
 
 #include "core/numbers.hpp"
 #include "identify/records/derived_records.hpp"
+#include "identify/records/turning_points.hpp"
 #include "identify/statistics/median.hpp"
 #include "identify/statistics/noise_level.hpp"
 
@@ -34,12 +35,7 @@ bool is_quiet(std::span<const double> force, double peak) {
          (force.size() < fewest || size <= std::max(smoothed * noise_level(force), rounding * peak));
 }
 
-double range_of(std::span<const double> x) {
-  const auto [low, high] = std::ranges::minmax(x);
-  return high - low;
-}
-
-double range_of(const std::vector<double>& x, const FreeVibration& part) {
+double range_of_part(const std::vector<double>& x, const FreeVibration& part) {
   return range_of(std::span(x).subspan(part.first, part.samples()));
 }
 
@@ -139,12 +135,12 @@ void choose_vibrations(const std::vector<double>& x, ShortBlows& found) {
   double largest = 0.0;
   for (const FreeVibration& part : parts) {
     longest = std::max(longest, part.samples());
-    if (part.samples() >= fewest) largest = std::max(largest, range_of(x, part));
+    if (part.samples() >= fewest) largest = std::max(largest, range_of_part(x, part));
   }
   std::size_t samples = 0;
   for (const FreeVibration& part : parts) {
-    const bool is_used =
-        part.samples() >= fewest && shorter * part.samples() >= longest && range_of(x, part) >= smaller * largest;
+    const bool is_used = part.samples() >= fewest && shorter * part.samples() >= longest &&
+                         range_of_part(x, part) >= smaller * largest;
     (is_used ? found.vibrations : found.unused).push_back(part);
     if (is_used) samples += part.samples();
   }

@@ -9,6 +9,8 @@
 ///
 /// Cost: two passes over the samples.
 
+#include <cstddef>
+#include <span>
 #include <vector>
 
 namespace dualdamp::identify {
@@ -21,5 +23,19 @@ namespace dualdamp::identify {
 
 /// Angular frequency of samples over a duration [s], from the crossings of their mean [rad/s].
 [[nodiscard]] double crossing_frequency(const std::vector<double>& samples, double duration);
+
+/// Whether a line through the swings between extremes falls, beyond the errors of the extremes and the scatter
+/// about the line; true of fewer than eight swings. Those of a motion that something drives need not.
+[[nodiscard]] bool swings_shrink(std::span<const double> extremes, std::span<const double> standard_errors);
+
+/// The extreme, from `first` > 0 on, at which the first swing ends that the largest one does not exceed by more
+/// than the errors of both (four deviations).
+[[nodiscard]] std::size_t first_of_largest(std::span<const double> extremes,
+                                           std::span<const double> standard_errors, std::size_t first);
+
+/// Number of swings at the beginning that are equal, where those behind them shrink: a drive was taken away. A free
+/// vibration shrinks from its beginning on. At least six swings, equal within 1 % or their errors, before six that
+/// shrink more than eight times as fast, and two more, in which the drive may end; else 0.
+[[nodiscard]] std::size_t steady_swings(std::span<const double> extremes, std::span<const double> standard_errors);
 
 }  // namespace dualdamp::identify

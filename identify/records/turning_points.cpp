@@ -1,5 +1,6 @@
 #include "identify/records/turning_points.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -25,6 +26,18 @@ std::vector<std::size_t> zigzag(std::span<const double> x, double band) {
   }
   turns.push_back(direction > 0 ? high : low);
   return turns;
+}
+
+double range_of(std::span<const double> x) {
+  if (x.empty()) return 0.0;
+  const auto [low, high] = std::ranges::minmax(x);
+  return high - low;
+}
+
+std::size_t rows_that_turn(std::span<const double> x) {
+  std::size_t count = 0;
+  for (std::size_t i = 2; i < x.size(); ++i) count += (x[i] - x[i - 1]) * (x[i - 1] - x[i - 2]) < 0.0 ? 1 : 0;
+  return count;
 }
 
 std::vector<std::size_t> without_ripple(std::span<const double> x, std::vector<std::size_t> turns,

@@ -49,6 +49,12 @@ std::string fault_of(const History& history) {
   return sample_fault(history);
 }
 
+std::string fault_of_drive(const History& history) {
+  if (history.unknown_drive.empty()) return {};
+  return history.unknown_drive +
+         ": record the force or the motion of the base too, or keep the part in which nothing drives the mass";
+}
+
 std::string fault_of_cutoff(const History& history, double cutoff) {
   if (cutoff == 0.0) return {};
   const std::string text = "a cut-off frequency of " + core::format_number(cutoff, 4) + " Hz ";
@@ -62,7 +68,7 @@ std::string fault_of_cutoff(const History& history, double cutoff) {
 }
 
 std::vector<NumberedHistory> usable_histories(const Record& record, const FilterOptions& options,
-                                              Estimate& estimate) {
+                                              Estimate& estimate, UnmeasuredDrive drive) {
   std::vector<NumberedHistory> usable;
   if (std::string lack = lacks_histories(record); !lack.empty()) {
     refuse(estimate, std::move(lack));
@@ -71,6 +77,7 @@ std::vector<NumberedHistory> usable_histories(const Record& record, const Filter
   for (std::size_t i = 0; i < record.histories.size(); ++i) {
     const History& history = record.histories[i];
     std::string fault = fault_of(history);
+    if (fault.empty() && drive == UnmeasuredDrive::none) fault = fault_of_drive(history);
     if (fault.empty()) {
       for (const double cutoff : cutoffs_for(history, options))
         if (fault.empty()) fault = fault_of_cutoff(history, cutoff);
@@ -86,8 +93,8 @@ std::vector<NumberedHistory> usable_histories(const Record& record, const Filter
 }
 
 std::optional<NumberedHistory> longest_history(const Record& record, const KnownConstants& constants,
-                                               Estimate& estimate) {
-  const std::vector<NumberedHistory> histories = usable_histories(record, {.cutoffs = {0.0}}, estimate);
+                                               Estimate& estimate, UnmeasuredDrive drive) {
+  const std::vector<NumberedHistory> histories = usable_histories(record, {.cutoffs = {0.0}}, estimate, drive);
   if (histories.empty()) return std::nullopt;
   if (std::string fault = fault_of(constants); !fault.empty()) {
     refuse(estimate, std::move(fault));

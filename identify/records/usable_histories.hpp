@@ -24,6 +24,9 @@ namespace dualdamp::identify {
 /// Why a history cannot be used: no x, signals of different lengths or not finite, no sample rate. Empty: no fault.
 [[nodiscard]] std::string fault_of(const History& history);
 
+/// Why a method that takes a motion without a measured drive for free cannot use a history; empty: no fault.
+[[nodiscard]] std::string fault_of_drive(const History& history);
+
 /// Why a history cannot be filtered with this cut-off. Empty: no fault.
 [[nodiscard]] std::string fault_of_cutoff(const History& history, double cutoff);
 
@@ -33,13 +36,17 @@ struct NumberedHistory {
   int number = 0;
   const History* history = nullptr;
 };
+/// A drive that was not measured: none is there, or noise that a method of random responses takes for unknown.
+enum class UnmeasuredDrive { none, noise };
 [[nodiscard]] std::vector<NumberedHistory> usable_histories(const Record& record, const FilterOptions& options,
-                                                            Estimate& estimate);
+                                                            Estimate& estimate,
+                                                            UnmeasuredDrive drive = UnmeasuredDrive::none);
 
 /// The longest usable history, for methods that use a single history and need mass and stiffness. Others are added
 /// to the exclusions. Nothing: the estimate is refused.
 [[nodiscard]] std::optional<NumberedHistory> longest_history(const Record& record, const KnownConstants& constants,
-                                                             Estimate& estimate);
+                                                             Estimate& estimate,
+                                                             UnmeasuredDrive drive = UnmeasuredDrive::none);
 
 /// m/s
 [[nodiscard]] double largest_speed(const PreparedHistory& motion);

@@ -12,20 +12,12 @@
 #include "identify/methods/histories/acceleration_velocity_displacement.hpp"
 #include "identify/models/force_parameters.hpp"
 #include "identify/records/derived_records.hpp"
+#include "identify/records/turning_points.hpp"
 #include "identify/statistics/noise_level.hpp"
 
 namespace dualdamp::identify {
 
 using By = SampledOscillator::By;
-
-namespace {
-
-double range_of(const std::vector<double>& signal) {
-  const auto [low, high] = std::ranges::minmax_element(signal);
-  return *high - *low;
-}
-
-}  // namespace
 
 ForwardTest::ForwardTest(const NumberedHistory& item)
     : number(item.number), history(item.history), model(*item.history) {

@@ -97,7 +97,8 @@ ForceParameters line_through(const EstimateCurve& curve, const KnownConstants& c
 Estimate random_decrement(const Record& record, const KnownConstants& constants) {
   Estimate estimate;
   estimate.method = random_decrement_method.name;
-  const std::optional<NumberedHistory> longest = longest_history(record, constants, estimate);
+  const std::optional<NumberedHistory> longest =
+      longest_history(record, constants, estimate, UnmeasuredDrive::noise);
   if (!longest) return estimate;
   const auto& [number, history] = *longest;
   const double W = constants.natural_frequency();

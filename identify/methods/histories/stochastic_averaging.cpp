@@ -243,7 +243,8 @@ std::optional<BootstrapSpread> spread_of(const History& history, const Averages&
 Estimate stochastic_averaging(const Record& record, const KnownConstants& constants) {
   Estimate estimate;
   estimate.method = stochastic_averaging_method.name;
-  const std::optional<NumberedHistory> longest = longest_history(record, constants, estimate);
+  const std::optional<NumberedHistory> longest =
+      longest_history(record, constants, estimate, UnmeasuredDrive::noise);
   if (!longest) return estimate;
   const auto& [number, history] = *longest;
   const double W = constants.natural_frequency();

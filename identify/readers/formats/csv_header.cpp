@@ -274,6 +274,7 @@ class HeaderReader {
     }
     factors_.check_suffix(known, excerpt(heading.text), heading.unit,
                           std::ranges::any_of(headings_, is_output, &Heading::text), where);
+    factors_.check_amplitude(known, heading.text, heading.unit, where);
     field.factor = factors_.factor_of(known, excerpt(heading.unit), where);
     if (holds_stamps && field.factor != 1.0)
       complain(heading.column, "column t holds time stamps, and a unit or a scale is stated for it",
@@ -316,11 +317,43 @@ class HeaderReader {
                                                          [](const Heading& h) { return is_like_number(h.text); });
   }
 
-  /// A column with the other case of its one letter.
+  /// A column with the other case of its one letter; else the only one with a unit of length, together with the
+  /// only one with a unit of time.
   [[nodiscard]] std::string suggestion() const {
     for (const Heading& heading : headings_)
       if (heading.name == "X") return options_.words(core::Setting::column, "x", heading.text);
-    return {};
+    const KnownColumn& x = *known_column("x");
+    const KnownColumn& t = *known_column("t");
+    const Heading* const moves = only_one_in(x);
+    if (moves == nullptr || is_taken(*known_column("Y"))) return {};
+    std::string text = options_.words(core::Setting::column, x.name, name_for(*moves, x));
+    if (const Heading* const times = only_one_in(t); times != nullptr && !is_taken(t))
+      text = options_.words(core::Setting::column, t.name, name_for(*times, t)) + " " + text;
+    return text;
+  }
+
+  /// The heading, with its unit moved out of its name.
+  [[nodiscard]] Heading in_parts(Heading heading, const KnownColumn& known) const {
+    choose_unit(heading, known);
+    if (heading.unit.empty()) split_unit(heading, known);
+    if (const auto below = below_.find(heading.column); heading.unit.empty() && below != below_.end())
+      heading.unit = below->second;
+    return heading;
+  }
+
+  [[nodiscard]] std::string name_for(const Heading& heading, const KnownColumn& known) const {
+    return in_parts(heading, known).name;
+  }
+
+  /// The only column of another name that states a unit of this one; nullptr: none, or several.
+  [[nodiscard]] const Heading* only_one_in(const KnownColumn& known) const {
+    const Heading* found = nullptr;
+    for (std::size_t i = 0; i < headings_.size(); ++i) {
+      if (fields_[i].known != nullptr || !is_unit_of(in_parts(headings_[i], known).unit, known)) continue;
+      if (found != nullptr) return nullptr;
+      found = &headings_[i];
+    }
+    return found;
   }
 
   const Layout& layout_;

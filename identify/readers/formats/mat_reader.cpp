@@ -348,6 +348,7 @@ class Reader {
     if (std::ranges::any_of(test.columns, [&](const DataColumn& column) { return column.known == &known; }))
       return complain("column " + std::string(known.name) + " appears twice", {}, where.found);
     factors_.check_suffix(known, to_utf8(entry.name), unit, has_output_, where);
+    factors_.check_amplitude(known, to_utf8(entry.name), unit, where);
     // `omega` means rad/s; the word "frequency" does not state a unit.
     const double factor = factors_.factor_of(known, unit.empty() && entry.name == "omega" ? "rad/s" : unit, where);
     for (double& value : *values) value *= factor;

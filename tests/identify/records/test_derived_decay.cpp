@@ -4,6 +4,7 @@
 
 #include "identify/ledger/histories/history_rows.hpp"
 #include "identify/records/derived_records.hpp"
+#include "identify/records/usable_histories.hpp"
 #include "sim/analytic/free_decay.hpp"
 #include "tests/identify/histories.hpp"
 #include "tests/identify/records/bearing_records.hpp"
@@ -222,6 +223,64 @@ TEST_CASE("Swings that shrink by less than the noise of their extremes are a fre
     CAPTURE(seed, decay.fault);
     CHECK(decay.fault.empty());
     CHECK(decay.record.extremes.size() > 60);
+  }
+}
+
+TEST_CASE("A motion that something drives is no free vibration, whose swings shrink") {
+  constexpr double rate = 200.0;
+  const auto driven = [](double duration, auto swing) {
+    testing::Normal normal(3);
+    History history{.sample_rate = rate};
+    for (int i = 0; i < static_cast<int>(duration * rate); ++i) {
+      const double t = i / rate;
+      history.x.push_back(swing(t) * std::sin(natural * t) + 1e-3 * normal());
+    }
+    return history;
+  };
+  // Resonance from rest, a sweep through it, and a steady motion.
+  for (const History& history : {driven(20.0, [](double t) { return 1.0 - std::exp(-0.5 * t); }),
+                                 driven(20.0, [](double t) { return 1.0 / (1.0 + (t - 8.0) * (t - 8.0)); }),
+                                 driven(20.0, [](double) { return 1.0; })}) {
+    const DerivedDecay decay = decay_of(history);
+    CHECK(decay.is_driven);
+    CHECK(decay.fault.ends_with("the drive of the motion was not recorded"));
+    Record record;
+    record.histories = {history};
+    static_cast<void>(complete(record));
+    CHECK_FALSE(record.decay.has_value());
+    Estimate estimate;
+    CHECK(usable_histories(record, {}, estimate).empty());
+    CHECK(estimate.outcome.reason.find("record the force or the motion of the base too") != std::string::npos);
+    // Methods of random responses know no drive either.
+    Estimate of_noise;
+    CHECK(usable_histories(record, {}, of_noise, UnmeasuredDrive::noise).size() == 1);
+  }
+  const DerivedDecay free = decay_of(driven(20.0, [](double t) { return std::exp(-0.0005 * t); }));
+  CHECK(free.fault.empty());  // a hundredth in 40 periods
+  CHECK_FALSE(free.is_driven);
+}
+
+TEST_CASE("A free vibration begins where a steady drive is taken away") {
+  constexpr double zeta = 0.02;
+  constexpr double rate = 200.0;
+  for (const std::uint64_t seed : {1, 2, 3, 4, 5, 6, 7, 8}) {
+    testing::Normal normal(seed);
+    History history{.sample_rate = rate};
+    constexpr double stop = 1.5;
+    for (int i = 0; i < 800; ++i) {
+      const double t = i / rate;
+      history.x.push_back(std::exp(-zeta * natural * std::max(0.0, t - stop)) * std::sin(natural * t) +
+                          2e-3 * normal());
+    }
+    const DerivedDecay decay = decay_of(history);
+    CAPTURE(seed, decay.fault);
+    REQUIRE(decay.fault.empty());
+    const double half = M_PI / natural;
+    CHECK(decay.record.times.front() > stop);
+    CHECK(decay.record.times.front() < stop + 4.5 * half);
+    const double first = std::abs(decay.record.extremes[1] - decay.record.extremes[0]);
+    const double third = std::abs(decay.record.extremes[3] - decay.record.extremes[2]);
+    CHECK(third / first == Approx(std::exp(-2.0 * M_PI * zeta)).epsilon(0.01));
   }
 }
 

@@ -286,11 +286,11 @@ TEST_CASE("A motion faster than 1000 m/s in its stated unit gets a warning") {
   CHECK(odd_readings({.histories = {history}}, constants).size() == 1);
 }
 
-TEST_CASE("A force of the wrong sign takes work out of the motion, and is refused") {
+TEST_CASE("A force or a base of the wrong sign takes work out of the motion, and is refused") {
   const double m = 2.0;
   const double w = 2.0 * pi * 5.0;
   const KnownConstants constants{m, m * w * w, unknown};
-  const auto faults_with = [&](double sign, double ratio, double released) {
+  const auto faults_with = [&](double sign, double ratio, double released, bool base = false) {
     // x lags the force by a quarter period at resonance; beside it a free vibration that dies.
     History history{.sample_rate = 400.0};
     const double c = 2.0 * 0.03 * m * w;
@@ -302,6 +302,9 @@ TEST_CASE("A force of the wrong sign takes work out of the motion, and is refuse
       history.x.push_back(std::imag(response * phase) + released * std::exp(-0.03 * w * t) * std::cos(w * t));
       history.force.push_back(sign * 10.0 * std::imag(phase));
     }
+    for (const double force : history.force)
+      if (base) history.y.push_back(force / constants.stiffness);
+    if (base) history.force.clear();
     Record record;
     record.histories.push_back(history);
     std::string text;
@@ -313,9 +316,14 @@ TEST_CASE("A force of the wrong sign takes work out of the motion, and is refuse
     CAPTURE(ratio);
     CHECK(faults_with(1.0, ratio, 0.0).empty());
     CHECK(faults_with(1.0, ratio, 0.05).empty());
+    CHECK(faults_with(1.0, ratio, 0.05, true).empty());
   }
-  for (const double ratio : {0.95, 1.0, 1.05})
-    CHECK(faults_with(-1.0, ratio, 0.0).find("one of them has the wrong sign") != std::string::npos);
+  for (const double ratio : {0.95, 1.0, 1.05}) {
+    CHECK(mentions(faults_with(-1.0, ratio, 0.0), "one of them has the wrong sign"));
+    const std::string of_base = faults_with(-1.0, ratio, 0.0, true);
+    CHECK(mentions(of_base, "the base takes "));
+    CHECK(mentions(of_base, "y and x positive in one direction: "));
+  }
 }
 
 namespace {
