@@ -48,6 +48,8 @@ bool misses(Estimate& estimate, const Ledger& ledger) {
   if (!estimate.sound) return false;
   if (!ledger.gross_error.empty())
     estimate.reason = ledger.gross_error;
+  else if (!ledger.other_geometry.empty())
+    estimate.reason = ledger.other_geometry;
   else if (const std::string none = no_law_fits(estimate); !none.empty())
     estimate.reason = none;
   else if (!ledger.force_excess.empty())

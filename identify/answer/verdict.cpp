@@ -252,6 +252,10 @@ std::string why_none(const Identification& all) {
   if (!all.ledger.gross_error.empty())
     return all.ledger.gross_error +
            "; what would help: correct this reading or remove it, or 'robust', which leaves it out";
+  if (!all.ledger.other_geometry.empty())
+    return all.ledger.other_geometry +
+           "; what would help: state x and the drive for this geometry, as docs/choosing.md says under 'Friction "
+           "against a base that moves'";
   if (all.ledger.misfit)
     return misfit_text(*all.ledger.misfit) +
            (all.ledger.departures.empty() ? "" : "; " + why_contradicted(all.ledger));

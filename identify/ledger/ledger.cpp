@@ -18,6 +18,7 @@
 #include "identify/ledger/estimate/stated_shares.hpp"
 #include "identify/ledger/force_balance.hpp"
 #include "identify/ledger/histories/history_model.hpp"
+#include "identify/ledger/other_geometry.hpp"
 #include "identify/ledger/relaxation_tests.hpp"
 #include "identify/ledger/stated_noise.hpp"
 #include "identify/statistics/decompositions.hpp"
@@ -407,6 +408,8 @@ Ledger tested_ledger(const Record& record, const KnownConstants& constants, cons
 
 Ledger ledger_of(const Record& record, const KnownConstants& constants, const LedgerOptions& options) {
   Ledger ledger = tested_ledger(record, constants, options);
+  explain_by_geometry(
+      record, constants, [&](const Record& other) { return tested_ledger(other, constants, options); }, ledger);
   ledger.largest = largest_friction(record, constants);
   charge_force_balance(record, constants, options.uncertainties, ledger);
   join_at_one_frequency(constants, ledger);

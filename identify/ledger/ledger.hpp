@@ -116,6 +116,9 @@ struct Ledger {
   /// Steady states that need more force than their drive gives, a sentence (force_balance.hpp). No estimate with
   /// the constants as stated describes them.
   std::string force_excess = {};
+  /// The record contradicts its assumptions, and would contradict none if x were measured, or friction acted,
+  /// against something else, a sentence (other_geometry.hpp). No estimate with x as stated describes the rig.
+  std::string other_geometry = {};
   LargestFriction largest = {};  ///< no estimate above it is usable
   /// A test that matters still rejects beside all departures found: no joint estimate describes the record.
   bool is_unexplained = false;
