@@ -255,7 +255,8 @@ std::string why_none(const Identification& all) {
   if (!all.ledger.other_geometry.empty())
     return all.ledger.other_geometry +
            "; what would help: state x and the drive for this geometry, as docs/choosing.md says under 'Friction "
-           "against a base that moves'";
+           "against a base that moves'" +
+           (all.ledger.departures.empty() ? "" : "; if x is as stated, " + why_contradicted(all.ledger));
   if (all.ledger.misfit)
     return misfit_text(*all.ledger.misfit) +
            (all.ledger.departures.empty() ? "" : "; " + why_contradicted(all.ledger));

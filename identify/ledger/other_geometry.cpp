@@ -105,6 +105,7 @@ void explain_by_geometry(const Record& record, const KnownConstants& constants,
     ledger.other_geometry = "these data contradict no assumption if " + other.words +
                             ", with zeta = " + core::format_number(value.zeta, digits) +
                             " and F0 = " + core::format_number(value.F0, digits) + " " + constants.unit("N");
+    if (!ledger.tests_histories) return;
     for (LedgerEntry& entry : ledger.entries)
       if (entry.standing != Standing::untested)
         entry = {.assumption = entry.assumption, .reason = "nothing departs if " + other.words};

@@ -28,7 +28,8 @@ struct OtherGeometry {
 [[nodiscard]] std::vector<OtherGeometry> other_geometries(const Record& record, const KnownConstants& constants);
 
 /// Where no joint estimate describes a record as stated, and one describes it in another geometry, beside which
-/// nothing departs: names that geometry and takes back what is charged. `test`: the ledger of another record.
+/// nothing departs: names that geometry. Histories tell it from all else, so that what is charged is taken back; a
+/// dozen steady states may fit it by chance, and both are left. `test`: the ledger of another record.
 void explain_by_geometry(const Record& record, const KnownConstants& constants,
                          const std::function<Ledger(const Record&)>& test, Ledger& ledger);
 

@@ -86,8 +86,8 @@ static Record history_of(const Setup& rig, double noise, Normal& normal) {
   return record;
 }
 
-/// How many of some records are named as those of this setup, and how many have a joint estimate as they are. None
-/// charges friction.
+/// How many of some records are named as those of this setup, and how many have a joint estimate as they are.
+/// Histories that are named charge nothing.
 struct Count {
   int named = 0, joint = 0;
 };
@@ -103,8 +103,10 @@ Count count(const Setup& setup, Recorded recorded) {
     if (ledger.other_geometry.empty()) continue;
     found.named += mentions(ledger.other_geometry, setup.words) && setup.words[0] != 0 ? 1 : 0;
     CHECK(mentions(ledger.other_geometry, "zeta = 0.0"));
-    CHECK(ledger.departures.empty());
-    for (const LedgerEntry& entry : ledger.entries) CHECK(entry.standing == Standing::untested);
+    // A dozen steady states may fit another geometry by chance: what departs otherwise is left beside it.
+    CHECK(ledger.tests_histories == (ledger.departures.empty() && !ledger.misfit));
+    for (const LedgerEntry& entry : ledger.entries)
+      CHECK((entry.standing == Standing::untested || !ledger.tests_histories));
   }
   return found;
 }
