@@ -53,13 +53,13 @@ std::vector<std::string> complete(Record& record, double frequency, double stiff
     return warnings;
   }
   const auto is_free = [](const History& history) { return !history.x.empty() && !history.has_drive(); };
-  for (History& history : record.histories)
-    if (is_free(history))
-      if (const DerivedDecay decay = decay_of(history); decay.is_driven) history.unknown_drive = decay.fault;
-  if (!std::ranges::all_of(record.histories, is_free)) return warnings;
+  const bool all_are_free = std::ranges::all_of(record.histories, is_free);
   std::vector<DecayRecord> decays;
   for (History& history : record.histories) {
+    if (!is_free(history)) continue;
     DerivedDecay decay = decay_of(history);
+    if (decay.is_driven) history.unknown_drive = decay.fault;
+    if (!all_are_free) continue;
     for (const std::string& warning : decay.warnings) warn(history, warning);
     if (decay.record.extremes.empty()) continue;
     warn(history, keep_free_motion(history, decay.first, decay.last));

@@ -7,6 +7,9 @@
 /// three crossings from below, and has no value without. `cutoffs_for` (`signals.hpp`) needs the mean frequency of
 /// a motion with many harmonics, in which the fast ones count: it is that of a sine with the same rms of x and v.
 ///
+/// And what swings between the extremes of a motion without a measured drive say of one: whether they shrink, where
+/// the largest ones begin, and how many are equal before they shrink.
+///
 /// Cost: two passes over the samples.
 
 #include <cstddef>
