@@ -6,7 +6,7 @@
 
 #include "core/constants.hpp"
 #include "core/numbers.hpp"
-#include "identify/fit/steps.hpp"
+#include "identify/fit/search/steps.hpp"
 #include "identify/statistics/decompositions.hpp"
 #include "identify/statistics/distributions.hpp"
 #include "identify/statistics/residual_covariance.hpp"

@@ -22,7 +22,7 @@
 #include <vector>
 
 #include "identify/fit/problem.hpp"
-#include "identify/fit/search.hpp"
+#include "identify/fit/search/search.hpp"
 
 namespace dualdamp::identify {
 

@@ -17,9 +17,9 @@
 #include "identify/fit/freedom.hpp"
 #include "identify/fit/intervals/uncertainty.hpp"
 #include "identify/fit/residual_test.hpp"
-#include "identify/fit/search.hpp"
+#include "identify/fit/search/search.hpp"
+#include "identify/fit/search/steps.hpp"
 #include "identify/fit/serial_test.hpp"
-#include "identify/fit/steps.hpp"
 #include "identify/statistics/huber.hpp"
 #include "identify/statistics/residual_covariance.hpp"
 
@@ -235,8 +235,8 @@ std::optional<Eigen::VectorXd> describe(const FitProblem& problem, const Request
                     zero_gains_of(problem, found.weights, misses, jacobian), result);
   problem.limit(request.options.most_work);
   std::optional<Eigen::VectorXd> lower =
-      add_uncertainty({problem, found.weights, found.unbounded, q, misses, jacobian, request.options.profile,
-                       request.options.robust},
+      add_uncertainty({problem, found.weights, found.unbounded, q, misses, jacobian, found.rivals,
+                       request.options.profile, request.options.robust},
                       result);
   if (!request.options.profile) warn_of_ends(result);
   return lower;
@@ -286,9 +286,13 @@ SearchOptions search_options(const Request& request, const DataScale& scale) {
 /// Tells the elements of laws in the order in which they slip.
 void sort_elements(const std::vector<ParallelElements>& all, const FitProblem& problem, SearchResult& found) {
   if (all.empty()) return;
-  Eigen::VectorXd values = problem.space().values(found.coordinates);
-  for (const ParallelElements& elements : all) elements.sort(values);
-  found.coordinates = problem.space().point(values);
+  const auto sort = [&](Eigen::VectorXd& q) {
+    Eigen::VectorXd values = problem.space().values(q);
+    for (const ParallelElements& elements : all) elements.sort(values);
+    q = problem.space().point(values);
+  };
+  sort(found.coordinates);
+  std::ranges::for_each(found.rivals, sort);
 }
 
 /// The fit of one rig, step by step.
@@ -358,6 +362,8 @@ class RigFit {
             "end: try more starts, bounds or stated values");
         return described;
       }
+      next->rivals = std::move(found_->rivals);
+      next->rivals.push_back(std::move(found_->coordinates));
       found_ = std::move(next);
     }
   }

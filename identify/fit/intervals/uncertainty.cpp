@@ -8,6 +8,7 @@
 #include "core/constants.hpp"
 #include "identify/fit/freedom.hpp"
 #include "identify/fit/intervals/profile.hpp"
+#include "identify/fit/intervals/rivals.hpp"
 #include "identify/fit/intervals/signal_variance.hpp"
 #include "identify/fit/intervals/trade_offs.hpp"
 #include "identify/statistics/decompositions.hpp"
@@ -41,13 +42,12 @@ class Uncertainty {
     for (FittedParameter& fitted : fit_.parameters) end_above_other(fitted);
     if (end_.profile || end_.problem.has_stepped()) add_profiles();
     for (Eigen::Index i = 0; i < size_; ++i) judge_profile(i);
+    const auto limit = [this](Eigen::Index i) { return limit_of(i); };
+    if (!end_.rivals.empty()) add_rivals(end_, Eigen::VectorXd::NullaryExpr(size_, limit), mean_variance(), fit_);
     add_trade_offs();
     add_undetermined();
-    for (Eigen::Index i = 0; i < size_; ++i) {
-      if (!needs_noise(scaled_row(i))) continue;
-      fit_.covariance.row(i).setZero();
-      fit_.covariance.col(i).setZero();
-    }
+    for (Eigen::Index i = 0; i < size_; ++i)
+      if (needs_noise(scaled_row(i))) fit_.covariance.row(i).setZero(), fit_.covariance.col(i).setZero();
   }
 
  private:
@@ -237,9 +237,7 @@ class Uncertainty {
     return (rows_ * change.asDiagonal()).colwise().norm();
   }
 
-  [[nodiscard]] static bool is_alone(const Eigen::VectorXd& direction, Eigen::Index i) {
-    return std::abs(direction[i]) > 0.99 * direction.norm();
-  }
+  static bool is_alone(const Eigen::VectorXd& way, Eigen::Index i) { return std::abs(way[i]) > 0.99 * way.norm(); }
 
   /// Whether a parameter that is sought by its logarithm has, by itself, no effect near the estimate. It may have
   /// one further off, as an exponent of a sharp yield has, and others may trade off with it there.
@@ -325,30 +323,33 @@ class Uncertainty {
     }
   }
 
+  /// Of the square root by which the sum of squares grows to an end of the interval. Correlated residuals widen it
+  /// as they widen the covariance.
+  [[nodiscard]] double limit_of(Eigen::Index i) const {
+    const double variance = variance_along(slope_.row(i), classical_);
+    const bool is_at_bound = fit_.parameters[static_cast<std::size_t>(i)].at_bound;
+    const double widening = is_at_bound || is_flat(i) || !(variance > 0.0) ? 1.0 : fit_.covariance(i, i) / variance;
+    return quantiles_[static_cast<std::size_t>(i)] * std::sqrt(widening * mean_variance());
+  }
+
   void add_profiles() {
     const Eigen::MatrixXd rows = end_.weights.asDiagonal() * end_.jacobian;
     const Eigen::VectorXd residuals = end_.weights.cwiseProduct(end_.misses);
     const Profiler profiler(end_.problem, end_.weights, end_.q, rows, residuals);
-    std::vector<double> limits(static_cast<std::size_t>(size_), 0.0);
+    Eigen::VectorXd limits = Eigen::VectorXd::Zero(size_);
     Profiler::for_each(size_, [&](Eigen::Index i) {
       FittedParameter& fitted = fit_.parameters[static_cast<std::size_t>(i)];
       if ((is_lost(i) && !acts_in_steps(i) && !is_flat(i)) || (fitted.at_bound && free_.empty())) return;
       if (needs_noise(scaled_row(i))) return;
       // What acts in steps has no other interval.
       if (!end_.profile && !end_.problem.is_stepped(i)) return;
-      // Correlated residuals widen the profile as they widen the covariance.
-      const double variance = variance_along(slope_.row(i), classical_);
-      const double widening = fitted.at_bound || is_flat(i) || !(variance > 0.0)
-                                  ? mean_variance()
-                                  : fit_.covariance(i, i) / variance * mean_variance();
-      double& limit = limits[static_cast<std::size_t>(i)];
-      limit = quantiles_[static_cast<std::size_t>(i)] * std::sqrt(widening);
-      fitted.profile95 = profiler.interval(i, fitted, limit);
+      limits[i] = limit_of(i);
+      fitted.profile95 = profiler.interval(i, fitted, limits[i]);
     });
     for (Eigen::Index i = 0; i < size_; ++i) {
-      if (limits[static_cast<std::size_t>(i)] == 0.0) continue;
+      if (limits[i] == 0.0) continue;
       FittedParameter& fitted = fit_.parameters[static_cast<std::size_t>(i)];
-      fitted.profile95 = profiler.widened(i, fitted.profile95, limits[static_cast<std::size_t>(i)]);
+      fitted.profile95 = profiler.widened(i, fitted.profile95, limits[i]);
     }
     if (end_.problem.is_exhausted())
       drop_profiles();

@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <optional>
+#include <vector>
 
 #include "identify/fit/fit.hpp"
 
@@ -12,11 +13,12 @@ namespace dualdamp::identify {
 /// The end of a search.
 struct FitEnd {
   const FitProblem& problem;
-  const Eigen::VectorXd& weights;    ///< 1/deviation of each row, bounded if the fit is robust
-  const Eigen::VectorXd& unbounded;  ///< the same without the bound
-  const Eigen::VectorXd& q;          ///< coordinates
-  const Eigen::VectorXd& misses;     ///< outputs - measured
-  const Eigen::MatrixXd& jacobian;   ///< of the outputs by the coordinates
+  const Eigen::VectorXd& weights;              ///< 1/deviation of each row, bounded if the fit is robust
+  const Eigen::VectorXd& unbounded;            ///< the same without the bound
+  const Eigen::VectorXd& q;                    ///< coordinates
+  const Eigen::VectorXd& misses;               ///< outputs - measured
+  const Eigen::MatrixXd& jacobian;             ///< of the outputs by the coordinates
+  const std::vector<Eigen::VectorXd>& rivals;  ///< coordinates of other minima that fit nearly as well
   bool profile = true;
   bool robust = false;
 };

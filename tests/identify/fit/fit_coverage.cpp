@@ -1,5 +1,5 @@
 /// How often the truth lies within the intervals of fits: each law fitted to its own noisy records.
-/// usage: fit_coverage [history|pairs|loop [SEEDS|FIRST-LAST [LAW]...]]
+/// usage: fit_coverage [--no-profiles] [history|pairs|loop [SEEDS|FIRST-LAST [LAW]...]]
 ///        fit_coverage small [SEEDS|FIRST-LAST]: records of few readings
 
 #include <algorithm>
@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <ctime>
 #include <iostream>
+#include <iterator>
 #include <map>
 #include <string>
 #include <vector>
@@ -53,7 +54,7 @@ struct Seeds {
   int last = 100;
 };
 
-void run(const test::LawCase& law, test::RecordKind kind, const Seeds& seeds) {
+void run(const test::LawCase& law, test::RecordKind kind, const Seeds& seeds, bool profile) {
   std::map<std::string, Count> counts;
   std::vector<std::string> order;
   std::string beside;
@@ -64,7 +65,7 @@ void run(const test::LawCase& law, test::RecordKind kind, const Seeds& seeds) {
   const identify::Rig rig = test::rig_with(law);
   const test::Laboratory laboratory(law, kind);
   for (int seed = seeds.first; seed <= seeds.last; ++seed) {
-    const test::KnownFit known = laboratory.fit(static_cast<std::uint64_t>(seed));
+    const test::KnownFit known = laboratory.fit(static_cast<std::uint64_t>(seed), profile);
     const identify::Fit& fit = known.fit;
     if (!fit.outcome.ok()) {
       ++failed;
@@ -133,23 +134,25 @@ Seeds seeds_of(const std::string& text) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  const std::string kind = argc > 1 ? argv[1] : "history";
-  const Seeds seeds = argc > 2 ? seeds_of(argv[2]) : Seeds{};
+  std::vector<std::string> words(argv + 1, argv + argc);
+  const bool profile = std::erase(words, "--no-profiles") == 0;
+  const std::string kind = words.empty() ? "history" : words[0];
+  const Seeds seeds = words.size() > 1 ? seeds_of(words[1]) : Seeds{};
   if (kind == "small") {
     run_small(seeds);
     return 0;
   }
   if (kind != "history" && kind != "pairs" && kind != "loop") {
-    std::cerr << "usage: fit_coverage [history|pairs|loop [SEEDS|FIRST-LAST [LAW]...]]\n"
+    std::cerr << "usage: fit_coverage [--no-profiles] [history|pairs|loop [SEEDS|FIRST-LAST [LAW]...]]\n"
                  "       fit_coverage small [SEEDS|FIRST-LAST]\n";
     return 64;
   }
-  const std::vector<std::string> wanted(argv + std::min(argc, 3), argv + argc);
+  words.erase(words.begin(), words.begin() + std::min<std::ptrdiff_t>(2, std::ssize(words)));
   const test::RecordKind records = kind == "pairs"  ? test::RecordKind::pairs
                                    : kind == "loop" ? test::RecordKind::loop
                                                     : test::RecordKind::history;
   for (const test::LawCase& law : test::law_cases())
-    if ((wanted.empty() || std::ranges::find(wanted, name_of(law)) != wanted.end()) && test::shows(law, records))
-      run(law, records, seeds);
+    if ((words.empty() || std::ranges::find(words, name_of(law)) != words.end()) && test::shows(law, records))
+      run(law, records, seeds, profile);
   return 0;
 }

@@ -332,11 +332,11 @@ identify::Record Laboratory::record(std::uint64_t seed) const {
   return steady_states_of(rig, levels, noise_x, noise_phase, seed);
 }
 
-KnownFit Laboratory::fit(std::uint64_t seed) const {
+KnownFit Laboratory::fit(std::uint64_t seed, bool profile) const {
   // Draws of its own for each law: the luck of one seed is not that of all laws.
   const auto number = static_cast<std::uint64_t>(&law_ - law_cases().data());
   const identify::Experiments experiments = experiments_of(record(1000 * number + seed), kind_);
-  KnownFit known{fit_of(rig_, law_.sought, experiments, true)};
+  KnownFit known{fit_of(rig_, law_.sought, experiments, profile)};
   Eigen::VectorXd truth;
   if (!experiments.front()->predict(*identify::model_of(rig_), {}, truth))
     throw std::runtime_error("the true rig of " + law_.law + " has no motion");

@@ -80,7 +80,7 @@ struct KnownFit {
 class Laboratory {
  public:
   Laboratory(const LawCase& law, RecordKind kind);
-  [[nodiscard]] KnownFit fit(std::uint64_t seed) const;
+  [[nodiscard]] KnownFit fit(std::uint64_t seed, bool profile = true) const;
 
  private:
   [[nodiscard]] identify::Record record(std::uint64_t seed) const;

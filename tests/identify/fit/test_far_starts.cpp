@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "identify/experiments/starts.hpp"
-#include "identify/fit/far_starts.hpp"
 #include "identify/fit/problem.hpp"
+#include "identify/fit/search/far_starts.hpp"
 #include "tests/identify/fit/synthetic.hpp"
 
 using namespace dualdamp;

@@ -7,7 +7,7 @@
 
 #include "core/random.hpp"
 #include "identify/fit/fit.hpp"
-#include "identify/fit/steps.hpp"
+#include "identify/fit/search/steps.hpp"
 #include "tests/identify/fit/synthetic.hpp"
 
 using namespace dualdamp;

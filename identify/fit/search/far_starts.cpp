@@ -1,4 +1,4 @@
-#include "identify/fit/far_starts.hpp"
+#include "identify/fit/search/far_starts.hpp"
 
 #include <Eigen/Core>
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "identify/fit/steps.hpp"
+#include "identify/fit/search/steps.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "identify/fit/search.hpp"
+#include "identify/fit/search/search.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,11 +9,11 @@
 
 #include "core/constants.hpp"
 #include "identify/experiments/starts.hpp"
-#include "identify/fit/far_starts.hpp"
-#include "identify/fit/linear_starts.hpp"
 #include "identify/fit/residual_test.hpp"
-#include "identify/fit/steps.hpp"
-#include "identify/fit/weighted_search.hpp"
+#include "identify/fit/search/ended_searches.hpp"
+#include "identify/fit/search/far_starts.hpp"
+#include "identify/fit/search/linear_starts.hpp"
+#include "identify/fit/search/weighted_search.hpp"
 #include "identify/statistics/least_squares.hpp"
 #include "sim/parallel.hpp"
 
@@ -64,20 +64,6 @@ std::vector<Eigen::VectorXd> best_starts(const std::vector<Eigen::VectorXd>& poi
 
 /// Tolerance of the first steps, which only choose among several searches.
 constexpr double rough = 1e-3;
-
-void take_better(LeastSquaresFit found, const WeightedSearch& search, const FitProblem& problem,
-                 std::optional<LeastSquaresFit>& best) {
-  found.sum_of_squares = search.squares(found);
-  if (!std::isfinite(found.sum_of_squares) || found.jacobian.rows() != problem.readings().size()) return;
-  if (!best || found.sum_of_squares < best->sum_of_squares) best = std::move(found);
-}
-
-/// Whether two searches came to the same minimum: by their sums of squares, and by the change of the readings
-/// between them.
-bool is_same_place(const LeastSquaresFit& a, const LeastSquaresFit& b, double alike = 0.01) {
-  const double between = (b.jacobian * (a.parameters - b.parameters)).squaredNorm();
-  return std::abs(a.sum_of_squares / b.sum_of_squares - 1.0) < alike && between < alike * b.sum_of_squares;
-}
 
 /// The best of these points for `part`, after a few steps of a search; of those at one place the first, and none
 /// that is far worse than another one. No more of them are tried when the problem has spent `most`.
@@ -214,67 +200,25 @@ std::optional<LeastSquaresFit> search_roughly(const std::vector<Eigen::VectorXd>
   return best;
 }
 
-/// Scans the parameters that act in steps, from the end of another search.
-LeastSquaresFit scan(LeastSquaresFit from, const WeightedSearch& search, const FitProblem& problem) {
-  if (!problem.has_stepped()) return from;
-  constexpr double close = 1e-6;
-  constexpr int few = 8;
-  const SearchPlace best = scan_steps(problem, {from.parameters, search.squares(from.parameters)},
-                                      [&](const Eigen::VectorXd& q) -> SearchPlace {
-                                        const LeastSquaresFit found = search.improve(q, close, few);
-                                        return {found.parameters, search.squares(found.parameters)};
-                                      });
-  from.parameters = best.q;
-  from.sum_of_squares = best.squares;
-  return from;
-}
-
-/// Continues a search to its end, with weights from the residuals of each signal.
-std::optional<LeastSquaresFit> finish(LeastSquaresFit found, WeightedSearch& search, const FitProblem& problem,
-                                      bool several_weights) {
-  constexpr double fine = 1e-8;
-  constexpr int most_rounds = 12;
-  constexpr double settled = 1e-3;
-  // While the weights still change by a multiple, a minimum by them need not be found to its last digits.
-  constexpr double coarse = 1e-5;
-  constexpr double large = 0.1;
-  double last = several_weights && search.begins_anew() ? core::infinity : 0.0;
-  for (int round = 0; round < most_rounds; ++round) {
-    Eigen::VectorXd outputs;
-    LeastSquaresFit next = search.improve(found.parameters, last > large ? coarse : fine, 100);
-    if (next.jacobian.rows() == problem.readings().size() && next.jacobian.allFinite()) found = std::move(next);
-    if (!problem.outputs(found.parameters, outputs)) return std::nullopt;
-    const double change = search.reweight(outputs, found.jacobian);
-    if (!several_weights || (change < settled && last <= large)) break;
-    last = change;
-  }
-  return found;
-}
-
-bool has_several_weights(const FitProblem& problem, const SearchOptions& options) {
-  return options.robust || problem.readings().signals().size() > 1;
-}
-
 /// The first steps need only find the region of the minimum.
 constexpr Accuracy of_first_steps{.tolerance = 1e-7, .step = 1e-3, .is_one_sided = true};
 
-/// Whether a sum of squares is less than another one by more than chance between places of one valley.
-bool is_clearly_less(double squares, double than, const FitProblem& problem) {
-  constexpr double enough = 4.0;  // variances
-  return squares < than - enough * than / std::max(1.0, problem.readings().count());
-}
+/// Searches from places far from the end of another one.
+struct FarSearch {
+  std::optional<LeastSquaresFit> best;  ///< if one of them ends clearly lower
+  std::vector<LeastSquaresFit> ends;    ///< of all of them, and of the other one
+};
 
-/// Searches from places far from the end of another one, along each parameter that is open there. Nothing, unless
-/// one of them ends clearly lower. When the problem has spent `most`, only a place that is clearly lower already is
-/// searched from.
-std::optional<LeastSquaresFit> search_far(const SearchResult& from, const std::vector<FitParameter>& parameters,
-                                          const WeightedSearch& search, const FitProblem& problem,
-                                          const SearchOptions& options, long most) {
+/// Searches from far places along each parameter that is open at the end of another search. When the problem has
+/// spent `most`, only a place that is clearly lower already is searched from.
+FarSearch search_far(const SearchResult& from, const std::vector<FitParameter>& parameters,
+                     const WeightedSearch& search, const FitProblem& problem, const SearchOptions& options,
+                     long most) {
   constexpr int few = 4;
   constexpr int some = 16;
   LeastSquaresFit end = search.improve(from.coordinates, rough, some);
   end.sum_of_squares = search.squares(end);
-  if (end.jacobian.rows() != problem.readings().size() || !std::isfinite(end.sum_of_squares)) return std::nullopt;
+  if (end.jacobian.rows() != problem.readings().size() || !std::isfinite(end.sum_of_squares)) return {};
   const auto fit_held = [&](const FitProblem& held, const std::vector<Eigen::VectorXd>& points) -> SearchPlace {
     const std::vector<Eigen::VectorXd> first = best_of(points, search, 1);
     if (first.empty() || problem.spent() > most) return {points.front(), infinity};
@@ -282,89 +226,37 @@ std::optional<LeastSquaresFit> search_far(const SearchResult& from, const std::v
     return {there, search.squares(there)};
   };
   std::optional<LeastSquaresFit> best = end;
+  FarSearch all{.ends = {end}};
   for (const std::size_t i :
        open_parameters(problem, parameters, {{end.parameters, end.sum_of_squares}, end.jacobian}))
-    for (const SearchPlace& place : far_starts(problem, parameters, i, best->parameters, options.scale, fit_held))
-      if (problem.spent() <= most || is_clearly_less(place.squares, best->sum_of_squares, problem))
-        take_better(search.improve(place.q, rough, some), search, problem, best);
-  if (!is_clearly_less(best->sum_of_squares, end.sum_of_squares, problem)) return std::nullopt;
-  return best;
+    for (const SearchPlace& place : far_starts(problem, parameters, i, best->parameters, options.scale, fit_held)) {
+      if (problem.spent() > most && !is_clearly_less(place.squares, best->sum_of_squares, problem)) continue;
+      std::optional<LeastSquaresFit> found;
+      take_better(search.improve(place.q, rough, some), search, problem, found);
+      if (!found) continue;
+      all.ends.push_back(*found);
+      if (found->sum_of_squares < best->sum_of_squares) best = std::move(found);
+    }
+  if (is_clearly_less(best->sum_of_squares, end.sum_of_squares, problem)) all.best = std::move(best);
+  return all;
 }
 
-/// Searches that were ended, with weights from the residuals, and the best of them.
-class EndedSearches {
- public:
-  EndedSearches(const FitProblem& problem, const SearchOptions& options,
-                std::optional<SearchResult> best = std::nullopt)
-      : problem_(problem),
-        options_(options),
-        several_weights_(has_several_weights(problem, options)),
-        alike_(problem, options),
-        best_(std::move(best)) {}
-
-  [[nodiscard]] const std::optional<SearchResult>& best() const { return best_; }
-  [[nodiscard]] bool is_cut_short() const { return problem_.is_exhausted() || (best_ && best_->is_cut_short); }
-  [[nodiscard]] bool is_at_end() const { return is_cut_short() || (best_ && !holds_motion(*best_, problem_)); }
-
-  [[nodiscard]] std::optional<SearchResult> result() {
-    if (best_ && problem_.is_exhausted()) best_->is_cut_short = true;
-    return std::move(best_);
+/// Ends searches that begin far from the best one, until none of them is better.
+void take_far(EndedSearches& ended, const FitProblem& problem, const std::vector<FitParameter>& parameters,
+              const WeightedSearch& rough_search, const FitProblem& rough_problem, const SearchOptions& options) {
+  constexpr int most_rounds = 4;
+  const long most = 3 * rough_problem.spent();
+  for (int round = 1; ended.best() && !ended.is_cut_short(); ++round) {
+    const double before = ended.least();
+    FarSearch far = search_far(*ended.best(), parameters, rough_search, rough_problem, options, most);
+    const bool is_better = ended.take(far.best) && is_clearly_less(ended.least(), before, problem);
+    if (is_better && round < most_rounds) continue;
+    ended.take_rivals(std::move(far.ends), rough_search, rough_problem);
+    // Where a far start was better, and no work is left for others, another one may be better still.
+    ended.set_settled(!is_better && (round == 1 || rough_problem.spent() <= most));
+    return;
   }
-
-  /// Ends another search. Returns whether it is the best one.
-  bool take(const std::optional<LeastSquaresFit>& found) {
-    // With several weights the end of a search takes most of its time. With one, it tells closer places apart.
-    const double alike = several_weights_ ? 0.01 : rough;
-    if (!found || std::ranges::any_of(
-                      ended_, [&](const LeastSquaresFit& other) { return is_same_place(*found, other, alike); }))
-      return false;
-    ended_.push_back(*found);
-    std::optional<SearchResult> result;
-    if (!problem_.is_exhausted()) result = end(*found);
-    const bool is_cut = problem_.is_exhausted();
-    if (is_cut && !best_) {
-      // The first place that was found is finished, with as much work again.
-      problem_.extend(1.0);
-      result = end(*found);
-    }
-    const bool is_best =
-        result && (!best_ || alike_.squares(result->coordinates) < alike_.squares(best_->coordinates));
-    if (is_best) best_ = std::move(result);
-    if (best_) best_->is_cut_short = is_cut;
-    return is_best;
-  }
-
-  /// Ends searches that begin far from the best one, until none of them is better.
-  void take_far(const std::vector<FitParameter>& parameters, const WeightedSearch& rough_search,
-                const FitProblem& rough_problem) {
-    constexpr int most_rounds = 4;
-    const long most = 3 * rough_problem.spent();
-    for (int round = 1; best_ && !is_cut_short(); ++round) {
-      const double before = alike_.squares(best_->coordinates);
-      const bool is_better = take(search_far(*best_, parameters, rough_search, rough_problem, options_, most)) &&
-                             is_clearly_less(alike_.squares(best_->coordinates), before, problem_);
-      if (is_better && round < most_rounds) continue;
-      // Where a far start was better, and no work is left for others, another one may be better still.
-      best_->is_settled = !is_better && (round == 1 || rough_problem.spent() <= most);
-      return;
-    }
-  }
-
- private:
-  [[nodiscard]] std::optional<SearchResult> end(const LeastSquaresFit& found) const {
-    WeightedSearch search(problem_, options_);
-    const std::optional<LeastSquaresFit> ended =
-        finish(scan(found, search, problem_), search, problem_, several_weights_);
-    return ended ? std::optional(search.result(*ended)) : std::nullopt;
-  }
-
-  const FitProblem& problem_;
-  const SearchOptions& options_;
-  bool several_weights_;
-  WeightedSearch alike_;  ///< compares ended searches with equal weights
-  std::optional<SearchResult> best_;
-  std::vector<LeastSquaresFit> ended_;  ///< before their weights were found
-};
+}
 
 }  // namespace
 
@@ -396,12 +288,9 @@ std::optional<SearchResult> search_near(const FitProblem& problem, const std::ve
 
 std::optional<SearchResult> search_from(const FitProblem& problem, const Eigen::VectorXd& coordinates,
                                         const SearchOptions& options) {
-  WeightedSearch search(problem, options);
   LeastSquaresFit start;
   start.parameters = coordinates;
-  const std::optional<LeastSquaresFit> found =
-      finish(std::move(start), search, problem, has_several_weights(problem, options));
-  return found ? std::optional(search.result(*found)) : std::nullopt;
+  return ended_search(problem, std::move(start), options);
 }
 
 std::optional<SearchResult> search_parameters(const FitProblem& problem,
@@ -429,7 +318,7 @@ SearchResult search_far_from(SearchResult found, const FitProblem& problem,
   const WeightedSearch rough_search(rough_problem, options);
   SearchResult before = found;
   EndedSearches ended(problem, options, std::move(found));
-  ended.take_far(parameters, rough_search, rough_problem);
+  take_far(ended, problem, parameters, rough_search, rough_problem, options);
   return ended.result().value_or(std::move(before));
 }
 

@@ -1,4 +1,4 @@
-#include "identify/fit/linear_starts.hpp"
+#include "identify/fit/search/linear_starts.hpp"
 
 #include <algorithm>
 #include <cmath>

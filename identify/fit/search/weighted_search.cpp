@@ -1,4 +1,4 @@
-#include "identify/fit/weighted_search.hpp"
+#include "identify/fit/search/weighted_search.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "identify/fit/problem.hpp"
-#include "identify/fit/search.hpp"
+#include "identify/fit/search/search.hpp"
 #include "identify/statistics/least_squares.hpp"
 
 namespace dualdamp::identify {

@@ -24,7 +24,7 @@
 
 #include "identify/experiments/starts.hpp"
 #include "identify/fit/problem.hpp"
-#include "identify/fit/steps.hpp"
+#include "identify/fit/search/steps.hpp"
 
 namespace dualdamp::identify {
 

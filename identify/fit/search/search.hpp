@@ -39,6 +39,8 @@ struct SearchResult {
   std::vector<double> deviations;  ///< of each signal
   bool is_cut_short = false;       ///< the limit of the work was reached; this is the best until then
   bool is_settled = true;          ///< the last searches from far starts (`far_starts.hpp`) found nothing better
+  std::vector<Eigen::VectorXd> rivals =
+      {};  ///< coordinates elsewhere that fit nearly as well (`ended_searches.hpp`)
 };
 
 /// All of these searches but those from far starts. `sizes`: of each parameter, as in the problem. Nothing if the

@@ -1,0 +1,169 @@
+#include "identify/fit/search/ended_searches.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/constants.hpp"
+#include "identify/fit/search/steps.hpp"
+
+namespace dualdamp::identify {
+
+namespace {
+
+/// In variances of a reading: twice the growth within which a 95 % interval lies, for residuals that are
+/// correlated.
+constexpr double most_excess = 8.0;
+
+bool has_several_weights(const FitProblem& problem, const SearchOptions& options) {
+  return options.robust || problem.readings().signals().size() > 1;
+}
+
+/// Of a reading, by the least sum of squares.
+double variance_of(double least, const FitProblem& problem) {
+  return least / std::max(1.0, problem.readings().count());
+}
+
+}  // namespace
+
+void take_better(LeastSquaresFit found, const WeightedSearch& search, const FitProblem& problem,
+                 std::optional<LeastSquaresFit>& best) {
+  found.sum_of_squares = search.squares(found);
+  if (!std::isfinite(found.sum_of_squares) || found.jacobian.rows() != problem.readings().size()) return;
+  if (!best || found.sum_of_squares < best->sum_of_squares) best = std::move(found);
+}
+
+bool is_same_place(const LeastSquaresFit& a, const LeastSquaresFit& b, double alike) {
+  const double between = (b.jacobian * (a.parameters - b.parameters)).squaredNorm();
+  return std::abs(a.sum_of_squares / b.sum_of_squares - 1.0) < alike && between < alike * b.sum_of_squares;
+}
+
+bool is_clearly_less(double squares, double than, const FitProblem& problem) {
+  constexpr double enough = 4.0;  // variances
+  return squares < than - enough * variance_of(than, problem);
+}
+
+LeastSquaresFit scan(LeastSquaresFit from, const WeightedSearch& search, const FitProblem& problem) {
+  if (!problem.has_stepped()) return from;
+  constexpr double close = 1e-6;
+  constexpr int few = 8;
+  const SearchPlace best = scan_steps(problem, {from.parameters, search.squares(from.parameters)},
+                                      [&](const Eigen::VectorXd& q) -> SearchPlace {
+                                        const LeastSquaresFit found = search.improve(q, close, few);
+                                        return {found.parameters, search.squares(found.parameters)};
+                                      });
+  from.parameters = best.q;
+  from.sum_of_squares = best.squares;
+  return from;
+}
+
+std::optional<SearchResult> ended_search(const FitProblem& problem, LeastSquaresFit from,
+                                         const SearchOptions& options) {
+  constexpr double fine = 1e-8;
+  constexpr int most_rounds = 12;
+  constexpr double settled = 1e-3;
+  // While the weights still change by a multiple, a minimum by them need not be found to its last digits.
+  constexpr double coarse = 1e-5;
+  constexpr double large = 0.1;
+  WeightedSearch search(problem, options);
+  const bool several_weights = has_several_weights(problem, options);
+  double last = several_weights && search.begins_anew() ? core::infinity : 0.0;
+  for (int round = 0; round < most_rounds; ++round) {
+    Eigen::VectorXd outputs;
+    LeastSquaresFit next = search.improve(from.parameters, last > large ? coarse : fine, 100);
+    if (next.jacobian.rows() == problem.readings().size() && next.jacobian.allFinite()) from = std::move(next);
+    if (!problem.outputs(from.parameters, outputs)) return std::nullopt;
+    const double change = search.reweight(outputs, from.jacobian);
+    if (!several_weights || (change < settled && last <= large)) break;
+    last = change;
+  }
+  return search.result(from);
+}
+
+EndedSearches::EndedSearches(const FitProblem& problem, const SearchOptions& options,
+                             std::optional<SearchResult> best)
+    : problem_(problem),
+      options_(options),
+      several_weights_(has_several_weights(problem, options)),
+      alike_(problem, options),
+      best_(std::move(best)) {
+  if (best_) others_ = std::move(best_->rivals);
+}
+
+std::optional<SearchResult> EndedSearches::result() {
+  if (!best_) return std::nullopt;
+  if (problem_.is_exhausted()) best_->is_cut_short = true;
+  const double most = least() + most_excess * variance_of(least(), problem_);
+  for (Eigen::VectorXd& q : others_)
+    if (alike_.squares(q) < most) best_->rivals.push_back(std::move(q));
+  others_.clear();
+  return std::move(best_);
+}
+
+bool EndedSearches::take(const std::optional<LeastSquaresFit>& found) {
+  // With several weights the end of a search takes most of its time. With one, it tells closer places apart.
+  const double alike = several_weights_ ? 0.01 : 1e-3;
+  if (!found || std::ranges::any_of(
+                    ended_, [&](const LeastSquaresFit& other) { return is_same_place(*found, other, alike); }))
+    return false;
+  ended_.push_back(*found);
+  std::optional<SearchResult> result;
+  if (!problem_.is_exhausted()) result = end(*found);
+  const bool is_cut = problem_.is_exhausted();
+  if (is_cut && !best_) {
+    // The first place that was found is finished, with as much work again.
+    problem_.extend(1.0);
+    result = end(*found);
+  }
+  const bool is_best = result && compare(std::move(*result));
+  if (best_) best_->is_cut_short = is_cut;
+  return is_best;
+}
+
+void EndedSearches::take_rivals(std::vector<LeastSquaresFit> ends, const WeightedSearch& search,
+                                const FitProblem& problem) {
+  if (ends.empty() || !best_) return;
+  constexpr std::size_t most = 4;
+  std::ranges::sort(ends, {}, &LeastSquaresFit::sum_of_squares);
+  const double least = ends.front().sum_of_squares;
+  std::vector<SearchPlace> valleys = {{best_->coordinates, search.squares(best_->coordinates)}};
+  const auto is_known = [&](const LeastSquaresFit& found) {
+    return std::ranges::any_of(valleys, [&](const SearchPlace& valley) {
+      const double between = search.squares(0.5 * (found.parameters + valley.q));
+      return !is_clearly_less(std::max(found.sum_of_squares, valley.squares), between, problem);
+    });
+  };
+  for (LeastSquaresFit& found : ends) {
+    const bool is_rival = found.sum_of_squares < least + most_excess * variance_of(least, problem);
+    if (!is_rival || valleys.size() == most || problem_.is_exhausted()) return;
+    if (is_known(found)) continue;
+    // On the floor of a bent valley, a search is slow.
+    constexpr double close = 1e-6;
+    constexpr int many = 32;
+    found = search.improve(found.parameters, close, many);
+    found.sum_of_squares = search.squares(found);
+    if (is_known(found)) continue;
+    valleys.push_back({found.parameters, found.sum_of_squares});
+    if (std::optional<SearchResult> result = end(found); result && !problem_.is_exhausted())
+      compare(std::move(*result));
+  }
+}
+
+bool EndedSearches::compare(SearchResult result) {
+  if (best_ && !(alike_.squares(result.coordinates) < least())) {
+    others_.push_back(std::move(result.coordinates));
+    return false;
+  }
+  if (best_) {
+    others_.push_back(std::move(best_->coordinates));
+    result.is_settled = best_->is_settled;
+  }
+  best_ = std::move(result);
+  return true;
+}
+
+std::optional<SearchResult> EndedSearches::end(const LeastSquaresFit& found) const {
+  return ended_search(problem_, scan(found, WeightedSearch(problem_, options_), problem_), options_);
+}
+
+}  // namespace dualdamp::identify
