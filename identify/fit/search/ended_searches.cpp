@@ -130,7 +130,8 @@ void EndedSearches::take_rivals(std::vector<LeastSquaresFit> ends, const Weighte
   const auto is_known = [&](const LeastSquaresFit& found) {
     return std::ranges::any_of(valleys, [&](const SearchPlace& valley) {
       const double between = search.squares(0.5 * (found.parameters + valley.q));
-      return !is_clearly_less(std::max(found.sum_of_squares, valley.squares), between, problem);
+      const double higher = std::max(found.sum_of_squares, valley.squares);
+      return std::isfinite(between) && !is_clearly_less(higher, between, problem);
     });
   };
   for (LeastSquaresFit& found : ends) {

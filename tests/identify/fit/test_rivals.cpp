@@ -22,7 +22,7 @@ constexpr double coefficient = 2.0;  // N.s/m
 /// with a noise of 1: minima near t = -1 and t = 1.
 class TwoMinima final : public Experiment {
  public:
-  TwoMinima(double slope, double middle) : slope_(slope), middle_(middle) {
+  TwoMinima(double slope, double middle, double gap) : slope_(slope), middle_(middle), gap_(gap) {
     label = "two minima";
     Signal signal{.name = "x", .unit = "m", .at_name = "t", .at_unit = "s", .noise = 1.0, .is_stated = true};
     for (Eigen::Index i = 0; i < 3 * group; ++i) {
@@ -37,6 +37,7 @@ class TwoMinima final : public Experiment {
     // At this speed the law's force is its limit.
     const friction::Instant fast{.v = 1e12};
     const double t = std::log(model.friction.front().force({}, fast, friction::Direction::forward) / coefficient);
+    if (std::abs(t) < gap_) return false;
     const std::array parts = {steepness * (t * t - 1.0), slope_ * (t - middle_), model.oscillator.damping - 100.0};
     outputs.resize(3 * group);
     for (Eigen::Index part = 0; part < 3; ++part)
@@ -48,14 +49,15 @@ class TwoMinima final : public Experiment {
  private:
   double slope_;
   double middle_;
+  double gap_;  ///< there is no motion for a smaller |t|
 };
 
-Fit fit_of_two_minima(double slope, double middle, double begun_at) {
+Fit fit_of_two_minima(double slope, double middle, double begun_at, double gap = 0.0) {
   Rig rig = test::rig_with(test::law_case_of("viscous_saturating"));
   rig.known.oscillator.damping = 100.0;
   rig.laws.front().values = {{"coefficient", coefficient}, {"saturation_velocity", std::exp(begun_at)}};
   Experiments experiments;
-  experiments.push_back(std::make_unique<TwoMinima>(slope, middle));
+  experiments.push_back(std::make_unique<TwoMinima>(slope, middle, gap));
   std::vector<FitParameter> parameters = test::sought_in(rig, {"damping", "saturation_velocity"}, 1.0);
   return fit_rig(rig, std::move(parameters), experiments);
 }
@@ -81,6 +83,12 @@ TEST_CASE("rivals: of two minima that the noise does not tell apart, the lower o
     CHECK(fit.warnings.front().find("another minimum, only 2.4 variances") != std::string::npos);
     CHECK(fit.warnings.front().find("saturation_velocity = 2.69") != std::string::npos);
   }
+}
+
+TEST_CASE("rivals: there may be no motion between them", "[identify][fit]") {
+  const Fit fit = fit_of_two_minima(std::sqrt(3.0), -0.2, 0.9, 0.3);
+  CHECK(std::log(test::fitted(fit, "saturation_velocity").value) == Approx(-1.0).margin(0.02));
+  CHECK(fit.warnings.size() == 1);
 }
 
 TEST_CASE("rivals: a minimum beyond the noise is none", "[identify][fit]") {
