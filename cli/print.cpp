@@ -158,6 +158,9 @@ std::string verification_text(const scenarios::Verification& verification) {
   if (verification.multipliers_left_out > 0)
     text += std::to_string(verification.multipliers_left_out) +
             " of the Floquet multipliers depend on a slider that only just reaches its limit, ";
+  if (verification.time_shift > 0.0)
+    text += "events up to " + core::format_number(verification.time_shift, 2) +
+            " s apart as their errors add up, numbers at a given time compared as long after the last of them, ";
   return text + "largest difference " + core::format_number(verification.largest_difference, 2) + " (" +
          verification.quantity + ", " + core::format_number(verification.tolerance, 2) + " allowed) of " +
          std::to_string(verification.quantities) +

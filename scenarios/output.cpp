@@ -80,6 +80,7 @@ Json verification_json(const Verification& verification) {
   if (verification.others_left_out > 0) json["others_left_out"] = verification.others_left_out;
   if (verification.times_left_out > 0) json["times_left_out"] = verification.times_left_out;
   if (verification.multipliers_left_out > 0) json["multipliers_left_out"] = verification.multipliers_left_out;
+  if (verification.time_shift > 0.0) json["time_shift"] = verification.time_shift;
   json["agrees"] = verification.agrees;
   if (!verification.reason.empty()) json["reason"] = verification.reason;
   return json;

@@ -48,6 +48,7 @@ function verification() {
   if (v.times_left_out) rows.push(["times of events, not compared, at which the mass hardly moves", v.times_left_out]);
   if (v.multipliers_left_out) rows.push(["Floquet multipliers that depend on a slider which only just reaches its limit", v.multipliers_left_out]);
   if (v.others_left_out) rows.push(["other steady states that only one of the two computations knows", v.others_left_out]);
+  if (v.time_shift) rows.push(["shift of events whose errors add up, by which numbers at a given time were compared [s]", v.time_shift]);
   if (v.reason) rows.push(["reason", { text: v.reason, class: "long" }]);
   return [heading("Verification"), grid(["", ""], rows)];
 }

@@ -145,6 +145,7 @@ Answer SimulateQuestion::run(const RunContext& context) const {
   Answer answer;
   answer.result["events"] = nullptr;
   answer.result["final"] = {{"t", history.final.t}, {"x", history.final.x}, {"v", history.final.v}};
+  answer.final_acceleration = history.final.a;
   answer.result["energy"] = energy_json(history.energy);
   add_certificate(answer.result, context.model, history.certificate);
   answer.tables.push_back(event_table(history.events));

@@ -31,6 +31,7 @@ struct Answer {
   std::vector<Table> tables;
   std::vector<TextFile> files = {};
   std::shared_ptr<const sim::State> orbit = {};  ///< of a steady state: its state at t = 0
+  double final_acceleration = none;              ///< of a motion: at its end [m/s^2]
 };
 
 /// No result, and why.

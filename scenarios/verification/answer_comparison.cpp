@@ -10,6 +10,7 @@
 #include "core/numbers.hpp"
 #include "scenarios/verification/aligned_answer.hpp"
 #include "scenarios/verification/telling_events.hpp"
+#include "scenarios/verification/time_shift.hpp"
 
 namespace dualdamp::scenarios {
 
@@ -74,6 +75,11 @@ bool is_compared(const Table& table, const Column& column) {
   return !table.key.empty() || column.name == "t" || column.name == "x" || column.name == "v";
 }
 
+/// Whether it is a position or a velocity at a time.
+bool is_sample(const Table& table, const Column& column) {
+  return table.key.empty() && table.find("t") != nullptr && (column.name == "x" || column.name == "v");
+}
+
 /// The largest mean speed between two rows of a motion [m/s], which the motion reaches; at events the speed is
 /// often 0.
 double fastest_between_rows(const Table& table) {
@@ -105,6 +111,7 @@ class Comparison {
     collect(answer_.result, {}, mine);
     collect(other_.result, {}, theirs);
     size_up(mine);
+    find_shift();
     // It follows from the Floquet multipliers, which are compared. With a Floquet multiplier on the unit circle
     // rounding would decide it.
     if (answer_.result.contains("multipliers")) {
@@ -165,6 +172,28 @@ class Comparison {
           quantity + ": " + core::format_number(mine) + ", the other result " + core::format_number(theirs);
   }
 
+  void find_shift() {
+    const auto events = std::ranges::find(answer_.tables, "events", &Table::key);
+    const auto others = std::ranges::find(other_.tables, "events", &Table::key);
+    if (events == answer_.tables.end() || others == other_.tables.end()) return;
+    shift_ = TimeShift(*events, telling_rows(*events, rows_of(*events), sizes_["m"]), *others,
+                       telling_rows(*others, rows_of(*others), sizes_["m"]));
+  }
+
+  /// Numbers at time t [s]; `rate`: of the other one [unit/s].
+  void compare_at(double t, const std::string& quantity, const std::string& unit, double mine, double theirs,
+                  double rate) {
+    const double size = sizes_[unit];
+    const double allowed = verification_tolerance(unit) * size;
+    const double shift = shift_.at(t, rate, allowed);
+    const double shifted = theirs + rate * shift;
+    if (!(std::abs(mine - theirs) <= allowed) && std::abs(mine - shifted) < std::abs(mine - theirs)) {
+      result_.time_shift = std::max(result_.time_shift, std::abs(shift));
+      theirs = shifted;
+    }
+    compare_numbers(quantity, unit, mine, theirs, size);
+  }
+
   void compare_numbers(const std::string& quantity, const std::string& unit, double mine, double theirs,
                        double size) {
     if (std::isnan(mine) && std::isnan(theirs)) return;
@@ -182,7 +211,13 @@ class Comparison {
     if (other == others.end()) return differ(path, "only this result has it");
     if (value.is_number_float() && other->second.is_number()) {
       const std::string unit = unit_of(fields_, path);
-      return compare_numbers(path, unit, value.get<double>(), other->second.get<double>(), sizes_[unit]);
+      const double mine = value.get<double>();
+      const double theirs = other->second.get<double>();
+      if (path == "final.x" || path == "final.v") {
+        const double rate = path == "final.x" ? others.at("final.v").get<double>() : other_.final_acceleration;
+        return compare_at(others.at("final.t").get<double>(), path, unit, mine, theirs, rate);
+      }
+      return compare_numbers(path, unit, mine, theirs, sizes_[unit]);
     }
     if (value != other->second) return differ(path, value.dump() + ", the other result " + other->second.dump());
     ++result_.quantities;
@@ -282,7 +317,7 @@ class Comparison {
       }
       for (std::size_t i = 0; i < mine.size(); ++i)
         if (compared[i] && (timed[i] || column.name != "t"))
-          compare_cell(name + "[" + std::to_string(i) + "]." + column.name, table, column, mine[i], *peer,
+          compare_cell(name + "[" + std::to_string(i) + "]." + column.name, table, column, mine[i], *other, *peer,
                        theirs[i]);
     }
   }
@@ -319,7 +354,7 @@ class Comparison {
   }
 
   void compare_cell(const std::string& quantity, const Table& table, const Column& column, std::size_t row,
-                    const Column& peer, std::size_t peer_row) {
+                    const Table& other, const Column& peer, std::size_t peer_row) {
     if (column.kind == CellKind::text) {
       if (column.text(row) != peer.text(peer_row))
         return differ(quantity, column.text(row) + ", the other result " + peer.text(peer_row));
@@ -328,6 +363,10 @@ class Comparison {
     }
     const double mine = column.numbers[row];
     const double theirs = peer.numbers[peer_row];
+    const Column* const rate = is_sample(table, column) ? other.find(column.name == "x" ? "v" : "a") : nullptr;
+    if (rate != nullptr)
+      return compare_at(table.find("t")->numbers[row], quantity, column.unit, mine, theirs,
+                        rate->numbers[peer_row]);
     if (column.kind == CellKind::number) {
       // Each point of a curve is a separate motion.
       const double size = table.key == "points" ? std::abs(mine) : sizes_[column.unit];
@@ -342,6 +381,7 @@ class Comparison {
   const Answer& other_;
   const std::vector<ResultField>& fields_;
   SizesOfUnits sizes_;
+  TimeShift shift_;
   double slow_swing_ = 0.0;  ///< length of a swing below which the times of its ends are not known [m]
   double share_ = -1.0;
   Verification result_;

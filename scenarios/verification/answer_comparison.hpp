@@ -7,7 +7,8 @@
 /// is relative to a finest size, and times of events are not compared. Phases differ modulo 2 pi, Floquet
 /// multipliers are compared as a set. Counts, words and truth values must be equal. Numbers about the computation
 /// (`certificate`, `energy.defect`) and grazings, which rounding decides, are left out. The order of events at one
-/// time and the period with which a subharmonic motion begins do not count as differences (`aligned_answer.hpp`).
+/// time and the period with which a subharmonic motion begins do not count as differences (`aligned_answer.hpp`). A
+/// number at a given time is compared at the same time after the last event (`time_shift.hpp`).
 
 #include <map>
 #include <string>
@@ -30,6 +31,7 @@ struct Verification {
   long others_left_out = 0;         ///< other steady states that only one computation knows
   long times_left_out = 0;          ///< times of events of a mass that hardly moves
   long multipliers_left_out = 0;    ///< Floquet multipliers that depend on a slider at its limit
+  double time_shift = 0.0;          ///< largest one by which a number at a given time was compared [s]
   bool agrees = true;
   std::string reason;  ///< why it does not agree or could not be computed
 };

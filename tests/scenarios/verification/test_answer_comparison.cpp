@@ -4,6 +4,7 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <string>
 #include <tuple>
@@ -219,6 +220,53 @@ TEST_CASE("comparison of answers: a creep has places, and no times of its turns"
   CHECK(differs(2.1, 0.11, 0.11) == "events[1].t");
   CHECK(differs(2.1, 0.09, 0.0901) == "events[1].x");
   CHECK_FALSE(scenarios::compare_answers(turning_at(2.0, 0.09), turning_at(2.1, 0.09), {}).agrees);
+}
+
+TEST_CASE("comparison of answers: errors of events that add up shift a motion in time, a single one does not",
+          "[scenarios][verification]") {
+  // A mass that turns once a second, v = sin(pi t) m/s, and a second computation of it: the shift of each event.
+  constexpr int count = 1000;
+  const std::vector<scenarios::ResultField> kinds = {{"final.v", "m/s", ""}};
+  const auto motion = [](const std::function<double(int)>& shift, double end, double error) {
+    constexpr double pi = std::numbers::pi;
+    std::vector<double> t;
+    std::vector<double> x;
+    for (int i = 1; i <= count; ++i) {
+      t.push_back(i + shift(i));
+      x.push_back((1.0 - std::cos(pi * i)) / pi);
+    }
+    Answer result;
+    const double s = end - shift(count);
+    result.result = {{"events", nullptr}, {"final", {{"t", end}, {"v", std::sin(pi * s) + error}}}};
+    result.final_acceleration = pi * std::cos(pi * s);
+    result.tables.push_back({.name = "events",
+                             .columns = {{.name = "t", .unit = "s", .numbers = t},
+                                         {.name = "kind",
+                                          .texts = std::vector<std::string>(count, "reversal"),
+                                          .kind = scenarios::CellKind::text},
+                                         {.name = "x", .unit = "m", .numbers = x}},
+                             .key = "events"});
+    result.tables.push_back({.name = "history",
+                             .columns = {{.name = "t", .unit = "s", .numbers = {end}},
+                                         {.name = "x", .unit = "m", .numbers = {(1.0 - std::cos(pi * s)) / pi}},
+                                         {.name = "v", .unit = "m/s", .numbers = {std::sin(pi * s) + error}},
+                                         {.name = "a", .unit = "m/s^2", .numbers = {result.final_acceleration}}}});
+    return result;
+  };
+  const auto none = [](int) { return 0.0; };
+  const auto small = [](int i) { return 2e-8 * i; };
+  const auto single = [](int i) { return i < 500 ? 0.0 : 2e-5; };
+  const double end = count + 0.2;
+  const Verification sum = scenarios::compare_answers(motion(none, end, 0.0), motion(small, end, 0.0), kinds);
+  CHECK(sum.agrees);
+  CHECK(sum.time_shift == Approx(2e-5));
+  const Verification one = scenarios::compare_answers(motion(none, end, 0.0), motion(single, end, 0.0), kinds);
+  CHECK_FALSE(one.agrees);
+  CHECK(one.time_shift == 0.0);
+  // What the shift does not explain is a difference, and so are events that are late by too much.
+  CHECK(scenarios::compare_answers(motion(none, end, 0.0), motion(small, end, 5e-7), kinds).quantity == "final.v");
+  const auto late = [](int i) { return i < 950 ? 0.0 : 3e-8 * (i - 950.0) * 1e3; };
+  CHECK_FALSE(scenarios::compare_answers(motion(none, end, 0.0), motion(late, end, 0.0), kinds).agrees);
 }
 
 TEST_CASE("comparison of answers: events at one time may come in another order, others not",
