@@ -54,9 +54,16 @@ void FreePlay::jump(Memory& memory, Trigger trigger, const Instant& now, Directi
         memory.state = {now.x};
       }
       return;
-    default:
-      memory.mode = trigger.cause == 0 ? 1 : -1;
+    default: {
+      const int side = trigger.cause == 0 ? 1 : -1;
+      // A mass that creeps away from a stop by less than its position is known to has not come back to it.
+      if (sign(direction) == -side) {
+        memory.state = {now.x - side * half_};
+        return;
+      }
+      memory.mode = side;
       memory.state.clear();
+    }
   }
 }
 

@@ -178,6 +178,9 @@ void SmoothEngine::stop_at_short_steps() {
 }
 
 bool SmoothEngine::advance(double left) {
+  // Of a creep explicit steps know neither the sign of the speed nor, at a speed of zero, that it is one.
+  if (!steps_.are_implicit() && search_.guards().would_creep(steps_.begin(), local_time_) && steps_.make_implicit())
+    steps_.propose(0.0);
   const Steps::Result result = steps_.advance(local_time_, time(), left);
   if (result == Steps::Result::too_many) stop_at_many_steps();
   if (result == Steps::Result::too_short) stop_at_short_steps();

@@ -26,6 +26,7 @@ EventSearch::EventSearch(const Model& model, const Flow& flow) : model_(model), 
 
 void EventSearch::begin_interval(std::span<const double> X, double t, double force) {
   guards_.list(X, t);
+  guards_.resolve_speeds_to(0.0);
   watches_.assign(guards_.size(), {});
   const bool sticks = !watches_.empty() && is<StickEnd>(guards_.ending(0));
   const double pulls = sticks ? force + flow_.limit(X, t) : 0.0;
@@ -68,7 +69,8 @@ double EventSearch::value(std::size_t guard, const SmoothStep& step, double part
   return guards_.value(guard, state_, step.time(part));
 }
 
-/// Of a guard, `length` [s] after the begin of the step by steps of the classical Runge-Kutta method.
+/// Of a guard, `length` [s] after the begin of the step by steps of the classical Runge-Kutta method. They would
+/// not follow a creep, the speed of which stays as it is here.
 double EventSearch::value_along_flow(std::size_t guard, const SmoothStep& step, double length, int steps) const {
   constexpr std::array<double, 4> next = {0.5, 0.5, 1.0, 0.0};
   constexpr std::array<double, 4> at = {0.0, 0.5, 0.5, 1.0};
@@ -77,12 +79,14 @@ double EventSearch::value_along_flow(std::size_t guard, const SmoothStep& step, 
   std::vector<double> X(step.begin.begin(), step.begin.end());
   std::vector<double> sum(X.size());
   rates_.resize(X.size());
+  const bool creeps = guards_.would_creep(X, step.t);
   for (int i = 0; i < steps; ++i) {
     const double t = step.t + i * s;
     std::ranges::fill(sum, 0.0);
     state_ = X;
     for (std::size_t stage = 0; stage < weights.size(); ++stage) {
       flow_.evaluate(state_, t + at[stage] * s, rates_);
+      if (creeps) rates_[1] = 0.0;
       for (std::size_t k = 0; k < X.size(); ++k) {
         sum[k] += weights[stage] * s * rates_[k];
         state_[k] = X[k] + next[stage] * s * rates_[k];
@@ -182,6 +186,8 @@ std::optional<EventSearch::Hit> EventSearch::find(const SmoothStep& step) {
       watches_[w].scale = std::max(watches_[w].scale, std::abs(values_[w]));
     }
   }
+  // The end of a slip is the first guard.
+  if (flow_.direction() != friction::Direction::none) guards_.resolve_speeds_to(resolution * watches_[0].scale);
   std::optional<Hit> first;
   for (std::size_t w = 0; w < watches_.size(); ++w) {
     const double part = first_negative(w, step);

@@ -70,10 +70,11 @@ double Guards::acceleration_at(double speed, std::span<const double> X, double t
   return sign * slowed_rates_[1];
 }
 
-/// The time within which a speed below the tolerance of steps dies out [s]; 0: the mass does not creep.
+/// The time within which a speed that steps do not know dies out [s]; 0: the mass does not creep.
 double Guards::relaxation(std::span<const double> X, double t) const {
-  if (!passes_over_ || flow_.direction() == Direction::none) return 0.0;
-  const double least = model_.solver.tolerance * flow_.scales()[1];
+  if (flow_.direction() == Direction::none) return 0.0;
+  const bool against = friction::sign(flow_.direction()) * X[1] < 0.0;
+  const double least = std::max(model_.solver.tolerance * flow_.scales()[1], against ? resolved_ : 0.0);
   if (!(std::abs(X[1]) <= least)) return 0.0;
   const double faster = acceleration_at(least, X, t);
   if (!(faster < 0.0)) return 0.0;
@@ -83,7 +84,9 @@ double Guards::relaxation(std::span<const double> X, double t) const {
   return time * omega_ < steep ? time : 0.0;
 }
 
-bool Guards::creeps(std::span<const double> X, double t) const { return relaxation(X, t) > 0.0; }
+bool Guards::would_creep(std::span<const double> X, double t) const { return relaxation(X, t) > 0.0; }
+
+bool Guards::creeps(std::span<const double> X, double t) const { return passes_over_ && would_creep(X, t); }
 
 bool Guards::creeps_backward(std::span<const double> X, double t) const {
   return friction::sign(flow_.direction()) * X[1] < 0.0 && creeps(X, t);
@@ -91,7 +94,7 @@ bool Guards::creeps_backward(std::span<const double> X, double t) const {
 
 /// The speed in the direction of the slip, or what stands for it while the mass creeps [m/s].
 double Guards::speed_in_direction(std::span<const double> X, double t) const {
-  const double late = relaxation(X, t);
+  const double late = passes_over_ ? relaxation(X, t) : 0.0;
   if (late == 0.0) return friction::sign(flow_.direction()) * X[1];
   const double most = flow_.scales()[1];
   return std::clamp(forced_speed(X, t - late), -most, most);

@@ -9,10 +9,11 @@
 /// Direction and modes are those for which the flow is frozen, for every state.
 ///
 /// Creep. Where friction is a dashpot so steep that it balances all other forces at a speed within the tolerance of
-/// steps, that speed is known to its sign at best. The forces are known: the speed has the sign of the acceleration
-/// a0 with which they would drive the mass off from v = 0, as it was one relaxation of the dashpot ago. So the end
-/// of such a slip is where a0 changes its sign; a0/omega stands for the speed. Explicit steps resolve the
-/// relaxation instead, as far as they follow a creep at all.
+/// steps, or beyond zero within the rounding of the interval's largest speed, that speed is known to its sign at
+/// best. The forces are known: the speed has the sign of the acceleration a0 with which they would drive the mass
+/// off from v = 0, as it was one relaxation of the dashpot ago. So the end of such a slip is where a0 changes its
+/// sign; a0/omega stands for the speed. Explicit steps resolve the relaxation instead, as far as they follow a
+/// creep at all.
 
 #include <span>
 #include <vector>
@@ -51,11 +52,15 @@ class Guards {
 
   /// Whether steps pass over the relaxation of a creep, as implicit ones do.
   void pass_over_relaxation(bool pass) { passes_over_ = pass; }
+  /// A speed against the direction by up to `speed` [m/s] has not changed its sign.
+  void resolve_speeds_to(double speed) { resolved_ = speed; }
   /// Whether the mass creeps: see above.
   [[nodiscard]] bool creeps(std::span<const double> X, double t) const;
   /// Whether it does so and has a speed against its direction, which is an error of steps then. It is less than
   /// they may err by, but on that side of zero the dashpot acts the other way, and steps would not come back.
   [[nodiscard]] bool creeps_backward(std::span<const double> X, double t) const;
+  /// Whether it would do so under steps that pass over the relaxation.
+  [[nodiscard]] bool would_creep(std::span<const double> X, double t) const;
   /// What stands for the speed of a mass that creeps at X, a0/omega, in the direction of the slip [m/s].
   [[nodiscard]] double forced_speed(std::span<const double> X, double t) const;
 
@@ -70,7 +75,8 @@ class Guards {
   bool some_memory_ = false;
   bool can_stick_ = false;  ///< some law has a static limit
   bool passes_over_ = false;
-  double omega_ = 0.0;  ///< natural frequency [rad/s]
+  double resolved_ = 0.0;  ///< m/s
+  double omega_ = 0.0;     ///< natural frequency [rad/s]
   std::vector<Ending> endings_;
   // Scratch.
   mutable std::vector<double> displaced_;
