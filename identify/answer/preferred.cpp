@@ -91,6 +91,10 @@ std::optional<std::size_t> preferred(const std::vector<Estimate>& estimates, con
   // It uses all data, and relaxes what is violated: another estimate has a narrower interval by chance.
   const auto joint = std::ranges::find(estimates, "joint_fit", &Estimate::method);
   if (joint != estimates.end() && std::isfinite(area(*joint))) {
+    // A joint fit with one law of friction knows no other: a range over laws has more of them.
+    const auto ranges = std::ranges::find_if(
+        estimates, [](const Estimate& e) { return e.laws != nullptr && std::isfinite(area(e)); });
+    if (ledger.frees_law && ranges != estimates.end()) return place(ranges);
     const std::optional<std::size_t> better = better_range(estimates, *joint);
     return better ? *better : place(joint);
   }

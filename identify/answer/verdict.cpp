@@ -198,6 +198,11 @@ std::string range_text(const Identification& all) {
   return " The tests of these data do not exclude " + core::joined(texts, " and ") + ".";
 }
 
+/// Is the answer that of the joint model with terms of friction free?
+bool frees_law(const Identification& all) {
+  return all.ledger.frees_law && all.estimates[*all.answer].method == "joint_fit";
+}
+
 /// Does the answer rest on an assumption that is violated? A range over laws does, where that may depart in place
 /// of friction.
 bool rests_on_violated(const Identification& all) {
@@ -223,7 +228,9 @@ std::string statements_of(const std::vector<Assumption>& list, const std::string
 std::string why_preferred(const Identification& all) {
   const auto rivals =
       std::ranges::count_if(all.estimates, [](const Estimate& e) { return std::isfinite(area(e)); });
+  const bool has_terms = frees_law(all);
   std::string text = all.ledger.data.empty() ? "no assumption could be tested in this record"
+                     : has_terms ? "it has free what the data contradict, and follows every sample to the noise"
                      : rests_on_violated(all)
                          ? "its interval also holds what explains the departure as well as friction does"
                          : "none of the assumptions it rests on is violated";
@@ -243,6 +250,7 @@ std::string why_preferred(const Identification& all) {
   const std::vector<std::string> untested = names_of(all.ledger, Standing::untested);
   if (!all.ledger.data.empty() && !untested.empty()) text += "; untested: " + core::joined(untested, ", ");
   text += what_would_test_friction(all.ledger);
+  if (has_terms) text += "; what would help further: " + what_would_help(all.ledger);
   if (all.estimates[*all.answer].laws && all.ledger.violates_law())
     text += "; it is a range over laws, and what would narrow it: " + what_would_help(all.ledger);
   return text;
@@ -284,6 +292,9 @@ std::string verdict_of(const Identification& all) {
            over_laws(all);
   const Estimate& best = all.estimates[*all.answer];
   const bool untested = all.ledger.data.empty();
+  if (frees_law(all))
+    text += " zeta and F0 are those of Coulomb and viscous friction beside what joint_fit has free: " +
+            core::joined(all.ledger.relaxed, ", ") + ".";
   if (!all.ledger.departures.empty() && best.method == "joint_fit")
     if (const std::string& fitted = all.ledger.entry(Assumption::constants).fitted; !fitted.empty())
       text += " zeta and F0 are those of " + fitted + ".";

@@ -33,6 +33,8 @@ struct Relaxation {
   bool is_like_speed = false;
   /// A fit with it begins far from the plain fit, where the linear model may not see that it explains the record.
   bool is_far = false;
+  /// A positive coefficient makes a law of friction of it, with a Coulomb force and a viscous damping of its own.
+  bool is_law = false;
 };
 
 /// What was read.

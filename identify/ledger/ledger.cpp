@@ -390,12 +390,14 @@ Ledger tested_ledger(const Record& record, const KnownConstants& constants, cons
   ledger.misfit = tests.misfit;
   if (ledger.misfit) writer.withdraw(*ledger.misfit, ledger);
   // If friction over speed or displacement may be what departs, and it matters, no relaxed model has one zeta and
-  // one F0. With friction that differs between the directions, they are the means of both.
+  // one F0, unless it is a law that has them and follows every sample. With friction that differs between the
+  // directions, they are the means of both.
   const bool is_friction = std::ranges::any_of(ledger.departures, [](const std::vector<Assumption>& named) {
     return std::ranges::any_of(named, is_of_law);
   });
-  const bool is_fitted = !is_friction && !ledger.is_unexplained && !ledger.misfit;
+  const bool is_fitted = (!is_friction || follows_law(model, tests)) && !ledger.is_unexplained && !ledger.misfit;
   if (!is_fitted || !(constants.stiffness > 0.0 && constants.mass > 0.0)) return ledger;
+  ledger.frees_law = is_friction;
   ledger.joint = relaxed_estimate(model, tests, shares);
   ledger.unseen = unseen_friction(model, tests, *ledger.joint);
   for (const FoundDeparture& departure : tests.departures)

@@ -124,9 +124,12 @@ struct Ledger {
   bool is_unexplained = false;
   std::vector<std::string> relaxed;  ///< tests of the relaxations that the joint estimate has free
   /// Estimate of the joint model with the departures relaxed. Nothing without a model, without mass and stiffness,
-  /// or if a departure that matters may be one of friction over speed or displacement, or beside a misfit or an
-  /// unexplained rest.
+  /// or beside a misfit or an unexplained rest; nor, but of histories, if a departure that matters may be one of
+  /// friction over speed or displacement.
   std::optional<Estimate> joint;
+  /// The joint estimate has a term of friction over speed or displacement free, of histories whose every sample the
+  /// model follows to the noise: zeta and F0 are those beside it.
+  bool frees_law = false;
   /// The interval of `joint`, and beyond it what departures that no test sees may make of zeta and F0.
   std::optional<UnseenRange> unseen;
 

@@ -96,7 +96,7 @@ std::vector<OtherGeometry> other_geometries(const Record& record, const KnownCon
 
 void explain_by_geometry(const Record& record, const KnownConstants& constants,
                          const std::function<Ledger(const Record&)>& test, Ledger& ledger) {
-  if (ledger.joint || !contradicts(ledger)) return;
+  if ((ledger.joint && !ledger.frees_law) || !contradicts(ledger)) return;
   for (const OtherGeometry& other : other_geometries(record, constants)) {
     const Ledger tested = test(other.record);
     if (!tested.joint || contradicts(tested)) continue;

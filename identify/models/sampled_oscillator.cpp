@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "core/cancellation.hpp"
+#include "identify/models/series.hpp"
 #include "identify/statistics/decompositions.hpp"
 #include "identify/statistics/finer_samples.hpp"
 #include "sim/engine/sticking_gate.hpp"
@@ -15,27 +16,6 @@ namespace dualdamp::identify {
 namespace {
 
 constexpr int nodes = 8;
-
-template <std::size_t N>
-double value_at(const std::array<double, N>& series, int terms, double u) {
-  double sum = 0.0;
-  for (int j = terms - 1; j >= 0; --j) sum = sum * u + series[static_cast<std::size_t>(j)];
-  return sum;
-}
-
-template <std::size_t N>
-double slope_at(const std::array<double, N>& series, int terms, double u) {
-  double sum = 0.0;
-  for (int j = terms - 1; j >= 1; --j) sum = sum * u + j * series[static_cast<std::size_t>(j)];
-  return sum;
-}
-
-template <std::size_t N>
-double curvature_at(const std::array<double, N>& series, int terms, double u) {
-  double sum = 0.0;
-  for (int j = terms - 1; j >= 2; --j) sum = sum * u + j * (j - 1) * series[static_cast<std::size_t>(j)];
-  return sum;
-}
 
 /// The same polynomial in powers of u - by.
 std::array<double, nodes> shifted(std::array<double, nodes> p, double by) {
@@ -114,17 +94,6 @@ std::vector<std::array<double, nodes>> interpolate(const std::vector<double>& sa
   return polynomials;
 }
 
-/// A sign change of f between low and high, to rounding.
-template <class Function>
-double root(const Function& f, double low, double high) {
-  const bool rising = f(high) > 0.0;
-  for (int step = 0; step < 60; ++step) {
-    const double middle = 0.5 * (low + high);
-    ((f(middle) > 0.0) == rising ? high : low) = middle;
-  }
-  return 0.5 * (low + high);
-}
-
 /// Chebyshev's points of (0, 1).
 const std::array<double, nodes>& places() {
   static const std::array<double, nodes> points = [] {
@@ -150,9 +119,6 @@ const Eigen::Array<double, nodes, powers>& powers_of_places() {
   return all;
 }
 
-/// Parts of an interval that are searched for a change of sign, by the values at their ends.
-constexpr int parts = 4;
-
 }  // namespace
 
 SampledOscillator::SampledOscillator(const History& history)
@@ -166,7 +132,8 @@ bool SampledOscillator::run(const Parameters& parameters, const std::vector<By>&
   p_ = parameters;
   inertia_ = p_.m * rate_ * rate_;
   damping_ = p_.c * rate_;
-  const double fastest = std::max(std::sqrt(p_.k / inertia_), std::abs(damping_) / inertia_);
+  const double stiffest = p_.k + (yields() ? p_.F0 / p_.yield : 0.0);
+  const double fastest = std::max(std::sqrt(stiffest / inertia_), std::abs(damping_) / inertia_);
   if (!(fastest < 2.0)) return false;
   // Under a drive of degree seven all further terms are those of the oscillator's own motion, which decrease.
   terms_ = nodes + 3;
@@ -197,6 +164,7 @@ bool SampledOscillator::run(const Parameters& parameters, const std::vector<By>&
   // A mass that moves at the start has slid far before the record began.
   constexpr double far = 1e3;
   reversal_ = direction_ == 0 ? x_ : x_ + far;
+  start_contact();
   for (std::size_t i = 0; i + 1 < count_; ++i) {
     core::stop_if_cancelled();
     store(i, x, derivatives, v);
@@ -232,7 +200,7 @@ double SampledOscillator::acceleration(std::size_t sample) const {
   here.drive = p_.k * here.y + value_at(force_[interval], nodes, at);
   here.path = std::abs(x_ - reversal_);
   here.course = static_cast<double>(sample) / static_cast<double>(count_ - 1);
-  double force = here.drive - p_.k * x_ - p_.c * here.v - p_.F0 * direction_;
+  double force = here.drive - p_.k * x_ - p_.c * here.v - friction_at(x_);
   for (const auto& [further, g] : acting_) force -= g * (*further)(here);
   return force / p_.m;
 }
@@ -246,7 +214,7 @@ bool SampledOscillator::walk_interval(std::size_t interval) {
   if (interval == 0 && direction_ == 0) settle(0.0);
   for (int event = 0; at < 1.0; ++event) {
     if (direction_ != 0) {
-      at = event < most_events ? slip(at, 1.0) : 1.0;
+      at = event < most_events ? yields() ? slip_or_yield(at, 1.0) : slip(at, 1.0) : 1.0;
     } else {
       at = rest(at, 1.0);
       if (at < 1.0) direction_ = balance(at).pull > 0.0 ? 1 : -1;
@@ -285,8 +253,8 @@ double SampledOscillator::rest(double begin, double end) const {
   const bool changes =
       !acting_.empty() || std::any_of(drive_.begin() + 1, drive_.end(), [](double c) { return c != 0.0; });
   double low = begin;
-  for (int i = 1; i <= parts; ++i) {
-    const double high = begin + (end - begin) * i / parts;
+  for (int i = 1; i <= parts_of_interval; ++i) {
+    const double high = begin + (end - begin) * i / parts_of_interval;
     if (excess(high) > 0.0) return excess(low) > 0.0 ? low : root(excess, low, high);
     if (!changes) break;
     low = high;
@@ -323,8 +291,8 @@ double SampledOscillator::first_reversal(double length) const {
   if (std::abs(v_) > most_change) return -1.0;
   const double rounding = 1e-14 * fastest_;
   double low = 0.0;
-  for (int i = 1; i <= parts; ++i) {
-    const double high = length * i / parts;
+  for (int i = 1; i <= parts_of_interval; ++i) {
+    const double high = length * i / parts_of_interval;
     if (speed(high) < -rounding) return speed(low) > 0.0 ? root(speed, low, high) : low;
     low = high;
   }
@@ -423,8 +391,9 @@ void SampledOscillator::expand_motion(const Drive& drive) {
   for (int j = 0; j + 2 < terms_; ++j) {
     const auto i = static_cast<std::size_t>(j);
     double force = j < nodes ? drive[i] : 0.0;
-    if (j == 0) force -= p_.F0 * direction_;
-    series_[i + 2] = (force - damping_ * (j + 1) * series_[i + 1] - p_.k * series_[i]) * integration_[i];
+    if (j == 0) force -= friction_at(0.0);
+    series_[i + 2] =
+        (force - damping_ * (j + 1) * series_[i + 1] - (p_.k + contact_) * series_[i]) * integration_[i];
   }
 }
 

@@ -11,6 +11,9 @@
 /// Further forces, smooth within an interval, are approximated by polynomials along the motion. Force and motion
 /// are computed in three rounds.
 ///
+/// A contact may yield by the distance d before it slides (jenkins1962): its force F0 z/d, |z| <= d, takes the
+/// place of F0 sgn x'. While it holds, z moves with x; while it slides, z is d sgn x'. Its force has no jump.
+///
 /// Derivatives S = dx/dp obey  m S'' + c S' + k S = terms of dm, dc, dk, dF0  within an interval. At v = 0 the
 /// acceleration jumps from a- to a+, and S_x+ = S_x-, S_v+ = S_v- a+/a- (filippov1988, leine2004); at a stop S_v =
 /// 0.
@@ -38,6 +41,7 @@ class SampledOscillator {
     double v0 = 0.0;  ///< m/s
     /// Coefficients of the `forces` of `run`; empty: all zero.
     std::vector<double> further = {};
+    double yield = 0.0;  ///< of the contact before it slides [m]; 0: it is rigid
   };
   /// State of the motion that a further force depends on.
   struct Instant {
@@ -51,9 +55,9 @@ class SampledOscillator {
   };
   /// A force on the mass, positive against its positive direction; smooth except at reversals; in any unit.
   using Force = std::function<double(const Instant&)>;
-  /// What the motion is differentiated by. For internal use: `force`, a further force, and `constant`, a force of
-  /// 1 N.
-  enum class By { mass, damping, stiffness, friction, position, velocity, force, constant };
+  /// What the motion is differentiated by; `yield` only where it is not zero. For internal use: `force`, a further
+  /// force, and `constant`, a force of 1 N.
+  enum class By { mass, damping, stiffness, friction, position, velocity, yield, force, constant };
 
   /// From one sample to the next: how a small disturbance of (x, v) changes, and the effect of a force of 1 N.
   struct Step {
@@ -90,6 +94,7 @@ class SampledOscillator {
     std::vector<By> by;
     std::vector<const Force*> forces;  ///< null but for By::force
     Eigen::ArrayXd x, v;
+    Eigen::ArrayXd anchor;    ///< of a contact that yields
     Eigen::ArrayXXd forcing;  ///< its Taylor series [N per unit of the parameter]
 
     void add(By what, const Force* force = nullptr);
@@ -109,10 +114,12 @@ class SampledOscillator {
 
   bool walk_interval(std::size_t interval);
   double slip(double begin, double end);
+  double slip_or_yield(double begin, double end);
   double rest(double begin, double end) const;
   void expand(double begin);
   void expand_motion(const Drive& drive);
   void force_tangent(std::size_t number);
+  void force_contact(Eigen::Index row, double factor);
   void move_tangents(double u);
   void linearise();
   void look_along();
@@ -128,6 +135,16 @@ class SampledOscillator {
   [[nodiscard]] double course(double at) const;
   [[nodiscard]] Instant instant(double u) const;
   [[nodiscard]] double first_reversal(double length) const;
+  /// Time at which a contact that holds begins to slide; negative: it does not.
+  [[nodiscard]] double first_slide(double length) const;
+  void start_contact();
+  void hold(double stretch);
+  void let_slide(int direction);
+  [[nodiscard]] bool yields() const { return p_.yield > 0.0; }
+  /// Force of friction on the mass at this position [N].
+  [[nodiscard]] double friction_at(double x) const {
+    return holds_ ? contact_ * (x - anchor_) : p_.F0 * direction_;
+  }
 
   std::size_t count_;
   double rate_;
@@ -144,6 +161,9 @@ class SampledOscillator {
   double v_ = 0.0;  ///< m per sample interval
   double fastest_ = 0.0;
   double reversal_ = 0.0;  ///< position of the last one [m]
+  bool holds_ = false;     ///< a contact that yields, and has not yielded so far that it slides
+  double contact_ = 0.0;   ///< its stiffness while it holds [N/m]; else 0
+  double anchor_ = 0.0;    ///< position at which it has no force [m]
   double begin_ = 0.0;     ///< of the expansion, within the interval
   Drive y_here_{};
   Drive drive_here_{};

@@ -16,6 +16,7 @@ void SampledOscillator::Tangents::start(double per_velocity) {
   const auto rows = static_cast<Eigen::Index>((by.size() + side_by_side - 1) / side_by_side * side_by_side);
   x.setZero(rows);
   v.setZero(rows);
+  anchor.setZero(rows);
   forcing.setZero(rows, most_terms);
   for (std::size_t i = 0; i < by.size(); ++i) {
     const auto row = static_cast<Eigen::Index>(i);
@@ -45,11 +46,12 @@ void SampledOscillator::store_step(std::vector<Step>& steps) {
   step.pushed << x[2], v[2] * rate_;
   x << 1.0, 0.0, 0.0;
   v << 0.0, direction_ == 0 ? 0.0 : 1.0 / rate_, 0.0;  // a mass that sticks has no velocity to disturb
+  tangents_.anchor.segment<3>(first).setZero();
 }
 
 /// Stiffness and damping in the rest of the interval, with the slopes of the acting forces at its middle.
 void SampledOscillator::linearise() {
-  local_stiffness_ = p_.k;
+  local_stiffness_ = p_.k + contact_;
   local_damping_ = damping_;
   if (acting_.empty()) return;
   const Instant middle = instant(0.5 * (1.0 - begin_));
@@ -74,7 +76,9 @@ void SampledOscillator::linearise() {
 
 /// What drives a tangent: the derivative of the forces with respect to its parameter, the motion held.
 void SampledOscillator::force_tangent(std::size_t number) {
-  auto forcing = tangents_.forcing.row(static_cast<Eigen::Index>(number));
+  const auto row = static_cast<Eigen::Index>(number);
+  auto forcing = tangents_.forcing.row(row);
+  if (yields()) forcing.setZero();  // its terms are others while the contact holds
   switch (tangents_.by[number]) {
     case By::mass:
       for (int j = 0; j + 2 < terms_; ++j)
@@ -88,18 +92,33 @@ void SampledOscillator::force_tangent(std::size_t number) {
       for (int j = 0; j < nodes; ++j) forcing[j] += y_here_[static_cast<std::size_t>(j)];
       break;
     case By::friction:
-      forcing[0] = -static_cast<double>(direction_);
+      if (holds_)
+        force_contact(row, -1.0 / p_.yield);
+      else
+        forcing[0] = -static_cast<double>(direction_);
+      break;
+    case By::yield:
+      if (holds_) force_contact(row, contact_ / p_.yield);
       break;
     case By::force: {
       const Drive pushed = push(*tangents_.forces[number]);
       for (int j = 0; j < nodes; ++j) forcing[j] = -pushed[static_cast<std::size_t>(j)];
       break;
     }
+    case By::constant:
+      forcing[0] = 1.0;
+      break;
     case By::position:
     case By::velocity:
-    case By::constant:
       break;
   }
+  forcing[0] += contact_ * tangents_.anchor[row];
+}
+
+/// The stretch of the contact that holds, times a factor, drives a tangent.
+void SampledOscillator::force_contact(Eigen::Index row, double factor) {
+  for (int j = 0; j + 2 < terms_; ++j) tangents_.forcing(row, j) = factor * series_[static_cast<std::size_t>(j)];
+  tangents_.forcing(row, 0) -= factor * anchor_;
 }
 
 /// Sums the Taylor series of all tangents as their terms are computed.

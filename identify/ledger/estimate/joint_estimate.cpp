@@ -261,6 +261,13 @@ std::optional<UnseenRange> unseen_friction(const JointModel& model, const Relaxa
   return range;
 }
 
+bool follows_law(const JointModel& model, const RelaxationTests& tests) {
+  if (tests.departures.size() != 1) return false;
+  return std::ranges::any_of(tests.departures.front().explanations, [&](const RelaxationTest& test) {
+    return model.relaxations[test.index].is_law && test.coefficient > 0.0;
+  });
+}
+
 void note_nearly_seen(const JointModel& model, const RelaxationTests& tests, Ledger& ledger) {
   for (const RelaxationTest& test : tests.tests) {
     LedgerEntry& entry = ledger.entry(model.relaxations[test.index].assumption);

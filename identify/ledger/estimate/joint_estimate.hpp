@@ -40,4 +40,8 @@ void note_nearly_seen(const JointModel& model, const RelaxationTests& tests, Led
 [[nodiscard]] std::optional<UnseenRange> unseen_friction(const JointModel& model, const RelaxationTests& tests,
                                                          const Estimate& estimate);
 
+/// Does one term that is a law of its own explain all that departs? Several terms together may follow any other law
+/// with a wrong zeta and F0.
+[[nodiscard]] bool follows_law(const JointModel& model, const RelaxationTests& tests);
+
 }  // namespace dualdamp::identify

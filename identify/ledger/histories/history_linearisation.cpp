@@ -47,8 +47,12 @@ Place HistoryLinearisation::stepped(Place at, const Eigen::VectorXd& step, const
   const Eigen::Index base = count_of_base();
   at.p += step.head(at.p.size());
   at.zeros += step.segment(at.p.size(), at.zeros.size());
-  for (std::size_t j = 0; j < taken.size(); ++j)
-    at.g[static_cast<Eigen::Index>(taken[j])] += step[base + static_cast<Eigen::Index>(j)];
+  for (std::size_t j = 0; j < taken.size(); ++j) {
+    double& g = at.g[static_cast<Eigen::Index>(taken[j])];
+    const double moved = g + step[base + static_cast<Eigen::Index>(j)];
+    constexpr double least = 0.5;  // of a contact's yielding: no step makes it rigid
+    g = is_contact(taken[j]) ? std::max(least * g, moved * (g > 0.0 ? 1.0 : 0.0)) : moved;
+  }
   at.p[1] = std::max(0.0, at.p[1]);
   const ForceParameters after = force_at(at);
   if (after.m > 0.0 && after.k > 0.0) at.p[0] = zeta * critical_damping(after.m, after.k) / scale;
@@ -103,16 +107,26 @@ SampledOscillator::Parameters HistoryLinearisation::parameters_of(std::size_t t,
     const double g = at.g[static_cast<Eigen::Index>(j)];
     if (part.kind == FreedPart::Kind::friction_of_history)
       parameters.F0 += g * share_of(part, t, fit_.tests().size());
-    if (part.kind == FreedPart::Kind::force) parameters.further.push_back(g);
+    if (is_force(j, at)) parameters.further.push_back(g);
+    if (yields(j, at)) parameters.yield = g * scale_.length;
   }
   return parameters;
 }
 
-std::vector<SampledOscillator::Force> HistoryLinearisation::forces_of(const Taken& wanted) const {
+/// A contact that does not yield yet is tested by the force of its term.
+bool HistoryLinearisation::is_force(std::size_t number, const Place& at) const {
+  return list_.parts[number].kind == FreedPart::Kind::force || (is_contact(number) && !yields(number, at));
+}
+
+bool HistoryLinearisation::yields(std::size_t number, const Place& at) const {
+  return is_contact(number) && at.g[static_cast<Eigen::Index>(number)] > 0.0;
+}
+
+std::vector<SampledOscillator::Force> HistoryLinearisation::forces_of(const Place& at, const Taken& wanted) const {
   std::vector<SampledOscillator::Force> forces;
   for (const std::size_t j : wanted) {
     const FreedPart& part = list_.parts[j];
-    if (part.kind != FreedPart::Kind::force) continue;
+    if (!is_force(j, at)) continue;
     const double unit = part.term->assumption == Assumption::sensors ? 1.0 : unit_force_;
     forces.emplace_back([term = part.term, unit, scale = scale_](const SampledOscillator::Instant& instant) {
       return unit * term->force(instant, scale);
@@ -121,11 +135,14 @@ std::vector<SampledOscillator::Force> HistoryLinearisation::forces_of(const Take
   return forces;
 }
 
-std::vector<SampledOscillator::By> HistoryLinearisation::columns_of(std::size_t t, const Taken& wanted) const {
+std::vector<SampledOscillator::By> HistoryLinearisation::columns_of(std::size_t t, const Place& at,
+                                                                    const Taken& wanted) const {
   std::vector<SampledOscillator::By> by;
   for (const ForwardLayout::Column& column : fit_.layout().columns(t, fit_.tests()[t])) by.push_back(column.by);
   for (const std::size_t j : wanted)
     if (is_constant(j)) by.push_back(list_.parts[j].by);
+  for (const std::size_t j : wanted)
+    if (yields(j, at)) by.push_back(SampledOscillator::By::yield);
   return by;
 }
 
@@ -133,8 +150,8 @@ bool HistoryLinearisation::add_test(std::size_t t, const Place& at, const Taken&
                                     Channels& channels) {
   ForwardTest& test = fit_.tests()[t];
   const SampledOscillator::Parameters parameters = parameters_of(t, at, wanted);
-  const std::vector<SampledOscillator::By> by = columns_of(t, wanted);
-  const std::vector<SampledOscillator::Force> forces = forces_of(wanted);
+  const std::vector<SampledOscillator::By> by = columns_of(t, at, wanted);
+  const std::vector<SampledOscillator::Force> forces = forces_of(at, wanted);
   Motion motion;
   const auto move = [&](SampledOscillator& model) {
     return model.run(parameters, by, motion.x, &motion.derivatives, &motion.v, forces);
@@ -166,11 +183,10 @@ SensorRows HistoryLinearisation::rows_of(std::size_t t, const Place& at, const T
                                          const Motion& motion) {
   const History& history = *fit_.tests()[t].history;
   const double rate = history.sample_rate;
-  const ForceParameters force = force_at(at);
   const Eigen::VectorXd& a = motion.derivatives.a;
   const Eigen::VectorXd jerk = finely_differentiated(a, rate);
-  const Eigen::MatrixXd columns_x = arranged(t, wanted, force, motion.derivatives.x);
-  const Eigen::MatrixXd columns_v = arranged(t, wanted, force, motion.derivatives.v);
+  const Eigen::MatrixXd columns_x = arranged(t, at, wanted, motion.derivatives.x);
+  const Eigen::MatrixXd columns_v = arranged(t, at, wanted, motion.derivatives.v);
   const HistoryReader read{list_.parts, zeros_, scale_.length, at, wanted, t};
   SensorRows rows;
   rows.x = read(MotionSensor::x, history.x, {motion.x, motion.v, a, rate}, columns_x, columns_v);
@@ -184,9 +200,10 @@ SensorRows HistoryLinearisation::rows_of(std::size_t t, const Place& at, const T
   return rows;
 }
 
-Eigen::MatrixXd HistoryLinearisation::arranged(std::size_t t, const Taken& wanted, const ForceParameters& force,
+Eigen::MatrixXd HistoryLinearisation::arranged(std::size_t t, const Place& at, const Taken& wanted,
                                                const Eigen::MatrixXd& derivatives) {
   const ForwardLayout& layout = fit_.layout();
+  const ForceParameters force = force_at(at);
   const Eigen::Index base = count_of_base();
   Eigen::MatrixXd result =
       Eigen::MatrixXd::Zero(derivatives.rows(), base + static_cast<Eigen::Index>(wanted.size()));
@@ -206,10 +223,13 @@ Eigen::MatrixXd HistoryLinearisation::arranged(std::size_t t, const Taken& wante
       result.col(base + static_cast<Eigen::Index>(j)) = at_constant_zeta(part.by);
       ++from;
     }
+  for (std::size_t j = 0; j < wanted.size(); ++j)
+    if (yields(wanted[j], at))
+      result.col(base + static_cast<Eigen::Index>(j)) = derivatives.col(from++) * scale_.length;
   for (std::size_t j = 0; j < wanted.size(); ++j) {
     const FreedPart& part = list_.parts[wanted[j]];
     const Eigen::Index to = base + static_cast<Eigen::Index>(j);
-    if (part.kind == FreedPart::Kind::force) result.col(to) = derivatives.col(from++);
+    if (is_force(wanted[j], at)) result.col(to) = derivatives.col(from++);
     if (part.kind == FreedPart::Kind::friction_of_history)
       result.col(to) = result.col(1) * (share_of(part, t, fit_.tests().size()) / layout.shared()[1].scale);
   }

@@ -57,6 +57,11 @@ class HistoryLinearisation {
   /// Always free: parameters of the fit, then the zeros of v and a.
   [[nodiscard]] Eigen::Index count_of_base() const { return fit_.layout().count() + start_.zeros.size(); }
 
+  /// Whether it is that of a contact that yields, by g times the length of the motion.
+  [[nodiscard]] bool is_contact(std::size_t number) const {
+    return list_.parts[number].kind == FreedPart::Kind::contact;
+  }
+
   /// Whether a relaxation sets a constant free.
   [[nodiscard]] bool is_constant(std::size_t number) const {
     return list_.parts[number].kind == FreedPart::Kind::constant;
@@ -88,13 +93,16 @@ class HistoryLinearisation {
   bool add_test(std::size_t t, const Place& at, const Taken& wanted, bool shake, Channels& channels);
   [[nodiscard]] SampledOscillator::Parameters parameters_of(std::size_t t, const Place& at,
                                                             const Taken& wanted) const;
-  [[nodiscard]] std::vector<SampledOscillator::Force> forces_of(const Taken& wanted) const;
-  /// By what the motion of a test is differentiated: base parameters, then constants.
-  [[nodiscard]] std::vector<SampledOscillator::By> columns_of(std::size_t t, const Taken& wanted) const;
+  [[nodiscard]] bool is_force(std::size_t number, const Place& at) const;
+  [[nodiscard]] bool yields(std::size_t number, const Place& at) const;
+  [[nodiscard]] std::vector<SampledOscillator::Force> forces_of(const Place& at, const Taken& wanted) const;
+  /// By what the motion of a test is differentiated: base parameters, then constants, then a contact that yields.
+  [[nodiscard]] std::vector<SampledOscillator::By> columns_of(std::size_t t, const Place& at,
+                                                              const Taken& wanted) const;
   [[nodiscard]] SensorRows rows_of(std::size_t t, const Place& at, const Taken& wanted, const Motion& motion);
   /// Base columns, then those of the relaxations wanted, from the derivatives of one test; zero for those of
   /// sensors. Columns of mass and stiffness are at constant zeta.
-  [[nodiscard]] Eigen::MatrixXd arranged(std::size_t t, const Taken& wanted, const ForceParameters& force,
+  [[nodiscard]] Eigen::MatrixXd arranged(std::size_t t, const Place& at, const Taken& wanted,
                                          const Eigen::MatrixXd& derivatives);
 
   const Record& record_;

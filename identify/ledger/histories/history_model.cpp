@@ -39,6 +39,8 @@ class Histories {
       is_near = is_near || (other && (motion_.is_constant(number) ||
                                       freed_.with(motion_.list().parts[number]) == freed_.much_nearer()));
     }
+    if (const std::optional<Place> yielding = yielding_at(taken))
+      best.take_nearer({*yielding, motion_.at(*yielding, taken, Whitening::off)});
     descend(taken, best);
     if (!is_near) best.take_nearer(through_constant(taken));
     return joint(best.at, taken, all);
@@ -76,6 +78,26 @@ class Histories {
       at = std::move(moved);
       here = std::move(next);
     }
+  }
+
+  /// Where a contact that yields, taken alone, comes nearest: no step leads there from a rigid one.
+  [[nodiscard]] std::optional<Place> yielding_at(const Taken& taken) {
+    const auto found = std::ranges::find_if(taken, [&](std::size_t number) { return motion_.is_contact(number); });
+    if (found == taken.end()) return std::nullopt;
+    if (!yielding_) yielding_ = with_contact(*found);
+    return yielding_->here ? std::optional(yielding_->at) : std::nullopt;
+  }
+
+  [[nodiscard]] Fitted with_contact(std::size_t number) {
+    Fitted best{motion_.start(), std::nullopt};
+    for (const double yield : {0.003, 0.01, 0.03, 0.06, 0.12, 0.25, 0.5}) {  // of the length of the motion
+      Fitted next{motion_.start(), std::nullopt};
+      next.at.g[static_cast<Eigen::Index>(number)] = yield;
+      next.here = motion_.at(next.at, {number}, Whitening::off);
+      best.take_nearer(std::move(next));
+    }
+    descend({number}, best);
+    return best;
   }
 
   /// A fit out of step with the motion is at a minimum of its own, which no step leaves, whatever is relaxed. A fit
@@ -175,6 +197,7 @@ class Histories {
   const Record& record_;  // outlives the tests
   KnownConstants constants_;
   HistoryLinearisation motion_;
+  std::optional<Fitted> yielding_;  ///< with a contact that yields, once it was sought
   FreedConstants freed_{record_, constants_, motion_.fit()};
 };
 

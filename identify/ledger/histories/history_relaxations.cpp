@@ -19,6 +19,7 @@ void add(HistoryRelaxations& list, Assumption assumption, std::string test, cons
   if (part.term != nullptr) {
     relaxation.sign = part.term->sign;
     relaxation.freed = part.term->freed;
+    relaxation.is_law = part.term->is_law;
   }
   if (assumption == Assumption::constants) relaxation.freed = part.by == By::mass ? Freed::mass : Freed::stiffness;
   if (part.kind == Kind::gain) relaxation.freed = Freed::gain;
@@ -54,7 +55,8 @@ bool are_alike_decays(const std::vector<ForwardTest>& tests) {
 
 void add_terms(HistoryRelaxations& list, bool are_alike) {
   for (const HistoryTerm& term : history_terms()) {
-    add(list, term.assumption, std::string(term.test), {.kind = Kind::force, .term = &term});
+    add(list, term.assumption, std::string(term.test),
+        {.kind = term.is_of_contact ? Kind::contact : Kind::force, .term = &term});
     list.relaxations.back().is_like_speed = are_alike && term.assumption == Assumption::stationarity;
   }
 }

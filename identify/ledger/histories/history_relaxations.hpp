@@ -35,6 +35,7 @@ struct FreedPart {
   enum class Kind {
     constant,
     force,
+    contact,  ///< tested by the force of `term`; taken into the model, it yields before it slides
     friction_of_history,
     gain,
     delay,
@@ -43,7 +44,7 @@ struct FreedPart {
     zero_drift
   } kind = Kind::constant;
   SampledOscillator::By by = SampledOscillator::By::mass;  ///< of a constant
-  const HistoryTerm* term = nullptr;                       ///< of a force
+  const HistoryTerm* term = nullptr;                       ///< of a force, or of a contact
   std::size_t history = 0;
   MotionSensor sensor = MotionSensor::x;
 };

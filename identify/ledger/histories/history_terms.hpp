@@ -24,6 +24,8 @@ struct HistoryTerm {
   int sign = 0;            ///< of the coefficient in such a departure; 0: either
   bool one_sided = false;  ///< damping that is larger in one direction
   Freed freed = Freed::effect;
+  bool is_of_contact = false;  ///< shows a contact that yields before it slides
+  bool is_law = false;         ///< with a positive coefficient, as drag beside Coulomb and viscous friction
 };
 
 /// The terms, by assumption.

@@ -332,3 +332,28 @@ TEST_CASE("The relaxations of histories that free a gain are marked, whatever th
   }
   CHECK(gains == 3);  // of x, of v and of the drive
 }
+
+TEST_CASE("Histories with drag or a contact that yields have zeta and F0 beside it, with a Stribeck force none") {
+  const auto ledger_with = [](void (*alter)(Rig&)) {
+    const Measured m = measured(Kind::ramp, 880'003, alter);
+    return std::pair(ledger_of(m.record, m.constants), m.rig);
+  };
+  const auto holds = [](const Interval& interval, double truth) {
+    return interval[0] <= truth && truth <= interval[1] && interval[1] - interval[0] < 0.2 * truth;
+  };
+  const auto check = [&](void (*alter)(Rig&), const std::string& term) {
+    const auto [ledger, rig] = ledger_with(alter);
+    CAPTURE(term, rig.zeta, rig.F0);
+    CHECK(ledger.violates_law());
+    CHECK(ledger.frees_law);
+    CHECK(ledger.relaxed == std::vector<std::string>{term});
+    REQUIRE(ledger.joint);
+    CHECK(holds(ledger.joint->interval95->zeta, rig.zeta));
+    CHECK(holds(ledger.joint->interval95->F0, rig.F0));
+  };
+  check([](Rig& rig) { rig.drag = 0.5; }, "quadratic term over speed");
+  check([](Rig& rig) { rig.compliance = 0.05; }, "friction that builds up after a reversal");
+  const Ledger other = ledger_with([](Rig& rig) { rig.stribeck = 0.5; }).first;
+  CHECK(other.violates_law());
+  CHECK_FALSE(other.joint);
+}

@@ -106,7 +106,7 @@ Identification identified(Measured& measured, bool with_ranges) {
   reach_over_unstated(record, measured.constants, options, ledger);
   std::vector<Estimate> estimates;
   // If the estimate of the joint model is usable it answers, and the other methods need not run.
-  if (ledger.joint && ledger.joint->usable && ledger.joint->interval95) {
+  if (ledger.joint && ledger.joint->usable && ledger.joint->interval95 && (!ledger.frees_law || !with_ranges)) {
     estimates.push_back(*ledger.joint);
     return concluded(std::move(estimates), std::move(ledger));
   }

@@ -111,3 +111,49 @@ TEST_CASE("The acceleration at the samples is that of the motion, at the ends an
   INFO("at sample " << off.size() << ", median " << off[off.size() / 2]);
   CHECK(off.maxCoeff() < 1e-4 * a.cwiseAbs().maxCoeff());
 }
+
+TEST_CASE("A motion with a contact that yields is that of another integrator") {
+  Rig altered = rig();
+  altered.compliance = 0.1;
+  altered.L = 0.02;
+  const Motion motion = motion_of(altered, drive, 3.0, rate);
+  SampledOscillator::Parameters at = parameters_of(altered);
+  at.yield = altered.compliance * altered.L;
+  Eigen::VectorXd x;
+  REQUIRE(SampledOscillator(history_of(motion)).run(at, {}, x, nullptr));
+  const Eigen::Map<const Eigen::VectorXd> true_x(motion.x.data(), x.size());
+  // The other integrator takes the begin of a slide at the end of its step, a 300th of a period.
+  CHECK((x - true_x).lpNorm<Eigen::Infinity>() < 1e-4 * true_x.lpNorm<Eigen::Infinity>());
+}
+
+TEST_CASE("Derivatives beside a contact that yields, from rest and from a slow start, are those of differences") {
+  using By = SampledOscillator::By;
+  const Motion motion = motion_of(rig(), drive, 1.5, rate);
+  SampledOscillator oscillator(history_of(motion));
+  const std::vector<By> by{By::mass,     By::damping,  By::stiffness, By::friction,
+                           By::position, By::velocity, By::yield};
+  const double first_speed = GENERATE(0.0, 0.02);
+  SampledOscillator::Parameters at = parameters_of(rig());
+  at.yield = 0.001;
+  at.v0 = first_speed;
+  Eigen::VectorXd x;
+  SampledOscillator::Derivatives derivatives;
+  REQUIRE(oscillator.run(at, by, x, &derivatives));
+  const std::vector<double SampledOscillator::Parameters::*> members{
+      &SampledOscillator::Parameters::m,    &SampledOscillator::Parameters::c,  &SampledOscillator::Parameters::k,
+      &SampledOscillator::Parameters::F0,   &SampledOscillator::Parameters::x0, &SampledOscillator::Parameters::v0,
+      &SampledOscillator::Parameters::yield};
+  for (std::size_t j = 0; j < by.size(); ++j) {
+    CAPTURE(j, first_speed);
+    const double step = j == 4 ? 1e-7 : j == 5 ? 1e-5 : 1e-5 * at.*members[j];
+    const auto moved = [&](double sign) {
+      SampledOscillator::Parameters there = at;
+      there.*members[j] += sign * step;
+      Eigen::VectorXd result;
+      REQUIRE(oscillator.run(there, {}, result, nullptr));
+      return result;
+    };
+    const Eigen::VectorXd slope = (moved(1.0) - moved(-1.0)) / (2.0 * step);
+    CHECK((derivatives.x.col(static_cast<Eigen::Index>(j)) - slope).norm() < 1e-3 * slope.norm());
+  }
+}
