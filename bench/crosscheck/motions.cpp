@@ -160,6 +160,17 @@ class Motions {
     return !std::isfinite(first_.energy_scale) || !std::isfinite(first_.energy.defect);
   }
 
+  /// Whether implicit steps have the motion of the exact engine, with its events, whatever explicit ones make of
+  /// it.
+  [[nodiscard]] bool implicit_steps_agree() {
+    if (!is_exact_) return false;
+    sim::Model model = model_;
+    model.solver = {sim::SolverKind::implicit_steps, tight};
+    const Walk other = walk(model, options_);
+    if (!other.outcome.ok() || !other.finite || other.ended_early) return false;
+    return difference(first_, other, sensitivity(), agreed_tolerance).fault.empty();
+  }
+
   /// Compares with the other integration: explicit steps, or implicit steps where the explicit ones are too many.
   void compare_engines(const std::string& name) {
     sim::Model model = model_;
@@ -199,6 +210,8 @@ class Motions {
         model.solver.tolerance = tight / looser;
         add(wider.unresolved, approach(first_, other, walk(model, options_)));
       }
+      if (!difference(first_, other, wider, agreed_tolerance).fault.empty() && implicit_steps_agree())
+        return findings_.push_back({name, Verdict::exception, gap.worst, "only implicit steps resolve it"});
       judge(name, other, wider);
     }
   }

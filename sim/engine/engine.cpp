@@ -75,6 +75,7 @@ Engine::~Engine() = default;
 void Engine::start(double x, double v) {
   local_time_ = period_begin_ = 0.0;
   periods_passed_ = 0;
+  is_woken_ = false;
   x_ = x;
   v_ = v;
   const InitialState& initial = model_.initial;
@@ -90,6 +91,7 @@ void Engine::start(double x, double v) {
 void Engine::restart(const State& state) {
   local_time_ = period_begin_ = 0.0;
   periods_passed_ = 0;
+  is_woken_ = false;
   x_ = state.x;
   v_ = state.v;
   direction_ = state.direction;
@@ -129,7 +131,7 @@ const Interval* Engine::next(double horizon) {
     local_time_ = 0.0;
     drive_.enter(periods_passed_);
     // If no law holds the mass, there are no guards that release it, and a piece of the drive sets it in motion.
-    if (direction_ == Direction::none && !can_stick_) settle();
+    is_woken_ = direction_ == Direction::none && !can_stick_ && balance().direction != Direction::none;
   }
   const double left = (horizon - period_begin_) - local_time_;
   const double in_piece = drive_.period() - local_time_;
@@ -238,8 +240,10 @@ EventKind Engine::after_change() {
   return direction_ == Direction::none ? EventKind::switching : EventKind::release;
 }
 
-/// The next time at which some law changes its mode whatever the motion does [s].
+/// The next time at which some law changes its mode whatever the motion does, or at which a piece of the drive
+/// moves the mass [s].
 double Engine::next_schedule() const {
+  if (is_woken_) return time();
   double next = std::numeric_limits<double>::infinity();
   if (!scheduled_) return next;
   for (std::size_t i = 0; i < model_.friction.size(); ++i)
@@ -247,8 +251,9 @@ double Engine::next_schedule() const {
   return next;
 }
 
-/// The mode changes of all laws that are due.
+/// The mode changes of all laws that are due, or the release of a mass at rest.
 EventKind Engine::act_on_schedule(double due) {
+  is_woken_ = false;
   for (std::size_t i = 0; i < model_.friction.size(); ++i) {
     if (model_.friction[i].next_change(memories_[i]) <= due) jump(i, {friction::Trigger::scheduled});
   }

@@ -145,6 +145,7 @@ class Engine {
   EventKind after_change();
   [[nodiscard]] bool turns_freely() const;
 
+  bool is_woken_ = false;  ///< a mass at rest that no law holds is released now
   int repeats_ = 0;
   std::size_t changed_last_ = std::numeric_limits<std::size_t>::max();  ///< the law that changed its mode last
 };

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <memory>
@@ -344,4 +345,22 @@ TEST_CASE("the energy account under a cubic drive holds where the mass only cree
   CHECK(std::abs(exact.energy.defect) < 1e-10 * exact.energy.viscous);
   CHECK(exact.energy.viscous == Approx(smooth.energy.viscous).epsilon(1e-9));
   CHECK(exact.energy.input == Approx(smooth.energy.input).epsilon(1e-9));
+}
+
+TEST_CASE("sampled drive: a piece that sets a resting mass in motion releases it", "[sim][engine]") {
+  // No law holds the mass here, so no guard lets it go: it rests while all forces on it cancel, up to a step of the
+  // drive at 1 s. The motion was the same without the release in its list of events.
+  Model model = standard_case();
+  model.excitation = {.type = ExcitationType::base_samples,
+                      .samples = std::make_shared<SampledSignal>(
+                          std::vector{0.0, 0.5, 1.0, 1.5}, std::vector{0.0, 0.0, -0.1, 0.1}, Interpolation::step)};
+  model.friction = {test::law("contact_compliance", {{"kinetic", 2.0}, {"contact_stiffness", 1e4}})};
+  const sim::History history = sim::simulate(model, {.duration = 1.4});
+  REQUIRE(history.outcome.ok());
+  REQUIRE(history.events.size() > 1);
+  CHECK(history.events.front().kind == sim::EventKind::release);
+  CHECK(history.events.front().t == 1.0);
+  CHECK(history.events.front().x == 0.0);
+  CHECK(history.final.x < 0.0);
+  CHECK(std::ranges::count(history.events, sim::EventKind::release, &sim::Event::kind) == 1);
 }
