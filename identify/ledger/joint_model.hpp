@@ -89,6 +89,7 @@ struct JointModel {
   /// in between it steps is not known. 0: there is no such step.
   double step_interval = 0.0;
   ParameterSet value;        ///< of the fit
+  bool is_possible = true;   ///< friction takes work in either direction
   KnownConstants constants;  ///< as stated, or as fitted
   /// The model fitted again with these relaxations free, and linearised there; empty: no such fit is needed.
   std::function<JointModel(const Taken& taken)> refit;

@@ -77,9 +77,11 @@ class Writer {
   }
 
   /// States for each assumption that holds how large a departure must be to be seen. A test that
-  /// would see only huge departures does not count as a test.
+  /// would see only huge departures does not count as a test, nor of few states one that would miss 10 %.
   void add_sight(Ledger& ledger) const {
-    constexpr double most = 0.3;
+    constexpr std::ptrdiff_t few = 9;
+    const auto states = std::ranges::count(model_.readings, ReadingKind::amplitude, &Reading::kind);
+    const double most = states > 0 && states <= few ? 0.1 : 0.3;
     for (LedgerEntry& entry : ledger.entries) {
       const double blind = blind_[static_cast<std::size_t>(entry.assumption)];
       if (entry.standing != Standing::holds || !entry.reason.empty() || !std::isfinite(blind)) continue;

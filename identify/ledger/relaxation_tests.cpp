@@ -8,6 +8,7 @@
 #include "core/constants.hpp"
 #include "identify/ledger/drift_or_speed.hpp"
 #include "identify/ledger/family_of_tests.hpp"
+#include "identify/ledger/sensor_or_symmetry.hpp"
 #include "identify/statistics/decompositions.hpp"
 #include "identify/statistics/ties.hpp"
 
@@ -24,7 +25,6 @@ constexpr double found_at = 2.8;
 /// Noise that columns and residuals share changes their product by at most this many times what one draw of it
 /// does.
 constexpr double at_most_shared = 2.0;
-
 /// Twice the gain of the log-likelihood that a relaxation needs where only the misfit as a whole rejects.
 constexpr double far_better = 4.0 * equal_likelihood;
 
@@ -209,7 +209,7 @@ std::vector<RelaxationTest> candidates(const JointModel& model, const TestOption
   sort_by_explained(model, options, tests);
   std::vector<RelaxationTest> list;
   for (const RelaxationTest& test : tests) {
-    if (missed && test.explained == 0.0) continue;  // of a sign that its departure cannot have
+    if (missed && test.explained == 0.0) continue;  // of an impossible sign
     const Relaxation& own = model.relaxations[test.index];
     const double share = own.assumption == Assumption::constants || own.is_far ? 0.0 : 0.5;
     const double least = std::min(tests.front().explained - equal_likelihood, share * tests.front().explained);
@@ -220,12 +220,8 @@ std::vector<RelaxationTest> candidates(const JointModel& model, const TestOption
     if (missed || own.is_far || known < 2) list.push_back(test);
   }
   if (!model.refit || list.empty()) return list;
-  for (const std::size_t index : model.hidden) {
-    RelaxationTest test;
-    test.index = index;
-    test.p_value = list.front().p_value;
-    list.push_back(test);
-  }
+  const double p_value = list.front().p_value;
+  for (const std::size_t index : model.hidden) list.push_back({.index = index, .p_value = p_value});
   return list;
 }
 
@@ -262,7 +258,7 @@ Rest rest_of(const JointModel& model, Taken taken, std::size_t candidate, double
   rest.constants = fitted.constants;
   const Projection projection = project(fitted, taken);
   rest.alike = projection.alike;
-  if (!std::isfinite(projection.residuals.squaredNorm())) {
+  if (!fitted.is_possible || !std::isfinite(projection.residuals.squaredNorm())) {
     rest.misfit = core::infinity;
     return rest;
   }
@@ -282,8 +278,10 @@ FoundDeparture departure_shown(const JointModel& model, const Taken& taken,
   std::vector<RelaxationTest> list = candidates(model, options, tests, missed);
   if (!model.refit || list.size() <= 1) return {list};
   std::vector<Rest> rests;
+  std::vector<double> misfits;
   for (RelaxationTest& test : list) {
     rests.push_back(rest_of(model, taken, test.index, options.least_change));
+    misfits.push_back(rests.back().misfit);
     set_change(rests.back().change, test);
     test.constants = rests.back().constants;
   }
@@ -293,16 +291,17 @@ FoundDeparture departure_shown(const JointModel& model, const Taken& taken,
   };
   std::size_t best = 0;
   for (std::size_t i = 1; i < list.size(); ++i)
-    if (!is_hidden(i) && rests[i].misfit < rests[best].misfit - equal_likelihood) best = i;
+    if (!is_hidden(i) && misfits[i] < misfits[best] - equal_likelihood) best = i;
+  best = sensor_before_symmetry(model, list, misfits, best);
   FoundDeparture departure{{list[best]}};
   const Assumption charged = model.relaxations[list[best].index].assumption;
   for (std::size_t i = 0; i < list.size(); ++i) {
-    if (is_hidden(i) && !is_of_law(charged)) continue;
-    const bool as_well = rests[i].misfit <= rests[best].misfit + equal_likelihood &&
-                         (rests[i].p_value >= family_level || rests[best].p_value < family_level);
+    if ((is_hidden(i) && !is_of_law(charged)) || yields_to_sensor(model, list, misfits, best, i)) continue;
+    const bool leaves_more = rests[i].p_value < family_level && rests[best].p_value >= family_level;
+    const bool as_well = !leaves_more && misfits[i] <= misfits[best] + equal_likelihood;
     // Those with nearly the same column differ by the finest detail of the model, and by chance.
     const bool alike = std::ranges::find(rests[best].alike, list[i].index) != rests[best].alike.end() &&
-                       rests[i].misfit <= rests[best].misfit + far_better;
+                       misfits[i] <= misfits[best] + far_better;
     if (i != best && (as_well || alike)) departure.explanations.push_back(list[i]);
   }
   return departure;
@@ -441,8 +440,8 @@ RelaxationTests test_relaxations(const JointModel& model, const TestOptions& opt
     return std::ranges::none_of(departure.explanations, is_of_stated);
   });
   if (!charges_more) return result;
-  const double p_value = result.departures.front().explanations.front().p_value;
-  std::optional<RelaxationTests> together = stated_errors_together(model, p_value, options);
+  const RelaxationTest& first = result.departures.front().explanations.front();
+  std::optional<RelaxationTests> together = stated_errors_together(model, first.p_value, options);
   if (together) together->alone = result.alone;
   return together ? *together : result;
 }

@@ -67,6 +67,7 @@ class HistoryLinearisation {
     return list_.parts[number].kind == FreedPart::Kind::constant;
   }
 
+  [[nodiscard]] double unit_force() const { return unit_force_; }  ///< of the terms [N]
   /// The damping of a force at the motion's size that grows with its speed [N.s/m].
   [[nodiscard]] double unit_damping() const { return unit_force_ / scale_.speed; }
 

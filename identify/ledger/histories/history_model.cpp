@@ -126,7 +126,8 @@ class Histories {
     JointModel model;
     model.relaxations = motion_.list().relaxations;
     for (std::size_t j = 0; j < motion_.list().parts.size(); ++j)
-      model.relaxations[j].is_far = !motion_.is_constant(j) && freed(j).has_value();
+      model.relaxations[j].is_far = motion_.list().parts[j].kind == FreedPart::Kind::corner ||
+                                    (!motion_.is_constant(j) && freed(j).has_value());
     if (std::optional<LinearisedHistories> found =
             taken.empty() ? seen_from_afar(at, all) : motion_.at(at, all, Whitening::on)) {
       model.deviance =
@@ -139,6 +140,11 @@ class Histories {
     }
     const ForceParameters force = motion_.force_at(at);
     model.value = parameters(force);
+    model.is_possible = std::ranges::all_of(taken, [&](std::size_t number) {
+      const HistoryTerm* term = motion_.list().parts[number].term;
+      const double g = at.g[static_cast<Eigen::Index>(number)];
+      return term == nullptr || !term->is_constant || std::abs(g) * motion_.unit_force() <= force.F0;
+    });
     if (model.residuals.size() == 0) return model;
     const std::vector<ForwardLayout::Entry>& shared = motion_.fit().layout().shared();
     // From the scales of the fit to zeta and F0.

@@ -130,11 +130,9 @@ HistoryRelaxations history_relaxations(const std::vector<ForwardTest>& tests, co
   add_terms(list, are_alike_decays(tests));
   add_contrasts(list, tests.size());
   const bool beside_x = has(&History::v) || has(&History::a) || has(&History::y) || has(&History::force);
-  if (beside_x) {
-    add_reading(list, "x", MotionSensor::x);
-    add(list, Assumption::sensors, "corner frequency of x free", {.kind = Kind::corner});
-    list.relaxations.back().sign = 1;
-  }
+  if (beside_x) add_reading(list, "x", MotionSensor::x);
+  add(list, Assumption::sensors, "corner frequency of x free", {.kind = Kind::corner});
+  list.relaxations.back().sign = 1;
   add(list, Assumption::sensors, "zero of x free", {.kind = Kind::zero});
   add(list, Assumption::stationarity, "zero of x that drifts", {.kind = Kind::zero_drift});
   if (has(&History::v)) add_reading(list, "v", MotionSensor::v);

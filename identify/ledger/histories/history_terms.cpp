@@ -51,7 +51,10 @@ constexpr std::array<HistoryTerm, 12> all_history_terms = {{
      .is_of_contact = true,
      .is_law = true},
     {friction_displacement, "slope over position", position_slope},
-    {symmetry, "friction force of its own in each direction", one_sided_friction},
+    {.assumption = symmetry,
+     .test = "friction force of its own in each direction",
+     .force = one_sided_friction,
+     .is_constant = true},
     {symmetry, "damping of its own in each direction", one_sided_damping, 0, true},
 }};
 

@@ -25,6 +25,7 @@ struct HistoryTerm {
   bool one_sided = false;  ///< damping that is larger in one direction
   Freed freed = Freed::effect;
   bool is_of_contact = false;  ///< shows a contact that yields before it slides
+  bool is_constant = false;    ///< the part of Coulomb friction that differs between the directions
   bool is_law = false;         ///< with a positive coefficient, as drag beside Coulomb and viscous friction
 };
 

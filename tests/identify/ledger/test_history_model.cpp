@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <functional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -356,4 +357,48 @@ TEST_CASE("Histories with drag or a contact that yields have zeta and F0 beside 
   const Ledger other = ledger_with([](Rig& rig) { rig.stribeck = 0.5; }).first;
   CHECK(other.violates_law());
   CHECK_FALSE(other.joint);
+}
+
+namespace {
+
+/// The ledger of a decay of x alone from 30 mm with x_f = 0.6 mm, as its sensor reads it.
+Ledger ledger_of_decay(const std::function<void(std::vector<double>&, double)>& read) {
+  Measured m;
+  m.rig = {.m = 1.0, .k = 1000.0, .zeta = 0.03, .F0 = 0.6};
+  constexpr double rate = 400.0;
+  History history{.sample_rate = rate, .x = motion_of(m.rig, [](double) { return 0.0; }, 4.0, rate, 0.03).x};
+  read(history.x, rate);
+  const dualdamp::core::RandomStream noise{6, 1};
+  for (std::size_t i = 0; i < history.x.size(); ++i)
+    history.x[i] += 5e-5 * noise.normal(static_cast<std::uint64_t>(i));
+  m.record.histories.push_back(history);
+  return ledger_of(m.record, {m.rig.m, m.rig.k, unknown});
+}
+
+}  // namespace
+
+TEST_CASE("A zero of x comes before friction of one direction, and alone where that would give out work") {
+  const auto with_zero = [](double zero) {
+    return ledger_of_decay([zero](std::vector<double>& x, double) {
+      for (double& value : x) value += zero;
+    });
+  };
+  const Ledger possible = with_zero(4e-4);
+  REQUIRE(possible.departures.size() == 1);
+  CHECK(possible.departures[0] == std::vector<Assumption>{Assumption::sensors, Assumption::symmetry});
+  const Ledger beyond = with_zero(9e-4);
+  REQUIRE(beyond.departures.size() == 1);
+  CHECK(beyond.departures[0] == std::vector<Assumption>{Assumption::sensors});
+}
+
+TEST_CASE("An AC coupling of x alone is a fault of the sensor, and no damping of one direction") {
+  const Ledger ledger = ledger_of_decay([](std::vector<double>& x, double rate) {
+    const std::vector<double> motion = x;
+    const double u = 2.5 / rate;  // a corner at 0.08 of the natural frequency
+    for (std::size_t i = 1; i < x.size(); ++i)
+      x[i] = std::exp(-u) * x[i - 1] + (1.0 - std::exp(-u)) / u * (motion[i] - motion[i - 1]);
+  });
+  CHECK(ledger.entry(Assumption::sensors).test == "corner frequency of x free");
+  CHECK(ledger.entry(Assumption::sensors).p_value.value_or(1.0) < 0.05);
+  CHECK_FALSE(ledger.is_violated(Assumption::symmetry));
 }
