@@ -388,9 +388,11 @@ Ledger tested_ledger(const Record& record, const KnownConstants& constants, cons
   share_out(model, shares, tests);
   Writer writer(model, tests, constants, shares, options);
   writer.write(ledger);
-  writer.add_sight(ledger);
   ledger.misfit = tests.misfit;
-  if (ledger.misfit) writer.withdraw(*ledger.misfit, ledger);
+  if (ledger.misfit)
+    writer.withdraw(*ledger.misfit, ledger);
+  else
+    writer.add_sight(ledger);
   // If friction over speed or displacement may be what departs, and it matters, no relaxed model has one zeta and
   // one F0, unless it is a law that has them and follows every sample. With friction that differs between the
   // directions, they are the means of both.
