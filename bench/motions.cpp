@@ -77,7 +77,7 @@ std::optional<scenarios::MotionRecord> MotionMaker::random_response(const sim::M
 
 UnmeasuredAmplitudes MotionMaker::unmeasured(const sim::Model& model) const {
   sim::SteadyStateOptions amplitude_alone = options_;
-  amplitude_alone.full_account = false;
+  amplitude_alone.detail = sim::OrbitDetail::extremes;
   // A departure may drive at another frequency than the laboratory sets.
   const double detuning = model.excitation.frequency / rig_.truth.model.excitation.frequency;
   UnmeasuredAmplitudes result{};

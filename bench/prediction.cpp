@@ -24,7 +24,7 @@ double amplitude_of(Truth estimate, const UnmeasuredTest& test) {
   }
   estimate.model.excitation.amplitude = test.Y;
   estimate.model.excitation.frequency = test.frequency;
-  const sim::SteadyState state = sim::steady_state(undisturbed(estimate), {.full_account = false});
+  const sim::SteadyState state = sim::steady_state(undisturbed(estimate), {.detail = sim::OrbitDetail::extremes});
   return state.outcome.ok() ? state.amplitude : not_stated;
 }
 

@@ -183,7 +183,7 @@ std::optional<Response> response(const Departure& mechanism, const Apparatus& ap
                                  const RigFriction& friction, std::span<const double> values,
                                  const std::vector<double>& Y, const std::vector<sim::KnownOrbit>& near) {
   const sim::SteadyStateOptions options{
-      .tolerance = accuracy, .max_periods = patience, .full_account = false, .others = false};
+      .tolerance = accuracy, .max_periods = patience, .detail = sim::OrbitDetail::extremes, .others = false};
   Response result;
   for (std::size_t i = 0; i < Y.size(); ++i) {
     const sim::Model model = test_model(mechanism, apparatus, friction, values, Y[i]);

@@ -82,7 +82,7 @@ SmoothCase prepared(SmoothCase work) {
   work.model = model_under(work.law, work.values);
   sim::Model fine = work.model;
   fine.solver.tolerance = 1e-14;
-  const sim::SteadyState orbit = sim::steady_state(fine, {.full_account = false});
+  const sim::SteadyState orbit = sim::steady_state(fine, {.detail = sim::OrbitDetail::extremes});
   if (!orbit.outcome.ok()) throw std::runtime_error(work.law + " has no steady state: " + orbit.outcome.reason);
   work.start = orbit.start;
   work.amplitude = orbit.amplitude;

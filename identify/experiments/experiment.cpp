@@ -9,7 +9,7 @@ namespace {
 class Alike final : public Neighbours {
  public:
   explicit Alike(const Experiment& experiment) : experiment_(experiment) {}
-  [[nodiscard]] bool predict(const sim::Model& model, const RecordValues& of_record,
+  [[nodiscard]] bool predict(const sim::Model& model, const RecordValues& of_record, double /*share*/,
                              Eigen::VectorXd& outputs) const override {
     return experiment_.predict(model, of_record, outputs);
   }

@@ -64,7 +64,8 @@ class Neighbours {
   virtual ~Neighbours() = default;
   Neighbours(const Neighbours&) = delete;
   Neighbours& operator=(const Neighbours&) = delete;
-  [[nodiscard]] virtual bool predict(const sim::Model& model, const RecordValues& of_record,
+  /// `share`: the outputs may be off by this part of their distance from those of the known model.
+  [[nodiscard]] virtual bool predict(const sim::Model& model, const RecordValues& of_record, double share,
                                      Eigen::VectorXd& outputs) const = 0;
   /// Whether models near this one take less time with these neighbours than without them.
   [[nodiscard]] virtual bool is_worth_using() const { return false; }

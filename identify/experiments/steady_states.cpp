@@ -107,11 +107,11 @@ class SteadyStates final : public Experiment {
     [[nodiscard]] bool is_complete() const { return is_complete_; }
     /// The orbits of laws of the exact engine are found in no time from nothing.
     [[nodiscard]] bool is_worth_using() const override { return is_smooth_; }
-    [[nodiscard]] bool predict(const sim::Model& model, const RecordValues&,
+    [[nodiscard]] bool predict(const sim::Model& model, const RecordValues&, double share,
                                Eigen::VectorXd& outputs) const override {
       return states_.fill(model, outputs, [&](std::size_t i) {
         return sim::steady_state_near(orbits_[i], driven(model, states_.levels_[i], states_.by_force_),
-                                      states_.options(model));
+                                      states_.options(model), share);
       });
     }
 
@@ -126,7 +126,7 @@ class SteadyStates final : public Experiment {
     sim::SteadyStateOptions options;
     options.tolerance = std::max(options.tolerance, 1e-2 * model.solver.tolerance);
     options.max_periods = 2000;
-    options.full_account = !with_phase_.empty();
+    options.detail = with_phase_.empty() ? sim::OrbitDetail::extremes : sim::OrbitDetail::phase;
     options.others = false;
     return options;
   }

@@ -215,8 +215,9 @@ std::optional<Eigen::VectorXd> describe(const FitProblem& problem, const Request
                                         const SearchResult& found, Fit& result) {
   const Eigen::VectorXd& q = found.coordinates;
   Eigen::MatrixXd jacobian;
+  LastMotions motions;
   problem.limit(std::numeric_limits<long>::max());
-  if (!problem.derivatives(q, result.outputs, jacobian)) {
+  if (!problem.derivatives(q, result.outputs, jacobian, false, &motions)) {
     result.outcome = without_derivative(problem, request, q);
     return std::nullopt;
   }
@@ -235,7 +236,7 @@ std::optional<Eigen::VectorXd> describe(const FitProblem& problem, const Request
                     zero_gains_of(problem, found.weights, misses, jacobian), result);
   problem.limit(request.options.most_work);
   std::optional<Eigen::VectorXd> lower =
-      add_uncertainty({problem, found.weights, found.unbounded, q, misses, jacobian, found.rivals,
+      add_uncertainty({problem, found.weights, found.unbounded, q, misses, jacobian, motions, found.rivals,
                        request.options.profile, request.options.robust},
                       result);
   if (!request.options.profile) warn_of_ends(result);

@@ -178,7 +178,7 @@ bool FitProblem::outputs(const Eigen::VectorXd& q, Eigen::VectorXd& result, cons
   return predict_each(q, result,
                       [&](std::size_t e, const sim::Model& model, const RecordValues& of_record, auto& part) {
                         const Neighbours* near = start_for(last, e);
-                        return near != nullptr ? near->predict(model, of_record, part)
+                        return near != nullptr ? near->predict(model, of_record, 0.0, part)
                                                : readings_.experiments()[e]->predict(model, of_record, part);
                       });
 }
@@ -200,6 +200,7 @@ bool FitProblem::column(const Eigen::VectorXd& q, const Eigen::VectorXd& middle,
                         Eigen::Index i, double step, bool seeks, Eigen::VectorXd& slope) const {
   const SearchCoordinate& c = space_[i];
   const FitParameter& parameter = space_.parameters()[static_cast<std::size_t>(i)];
+  constexpr double of_difference = 1e-3;
   const double h = step * (c.logarithmic ? 1.0 : std::max(1.0, std::abs(q[i])));
   std::array<double, 2> at = {std::max(q[i] - h, c.low), std::min(q[i] + h, c.high)};
   std::array<Eigen::VectorXd, 2> outputs = {middle, middle};
@@ -218,7 +219,8 @@ bool FitProblem::column(const Eigen::VectorXd& q, const Eigen::VectorXd& middle,
       Eigen::VectorXd part;
       for (std::size_t e = 0; e < readings_.experiments().size(); ++e) {
         if (parameter.owner == Owner::record && parameter.index != e) continue;
-        if (!within_limit(e, [&] { return neighbours[e]->predict(*model, of_each[e], part); })) return false;
+        if (!within_limit(e, [&] { return neighbours[e]->predict(*model, of_each[e], of_difference, part); }))
+          return false;
         outputs[side].segment(readings_.begin_of(e), part.size()) = part;
       }
       return true;

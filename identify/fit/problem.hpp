@@ -32,7 +32,8 @@ struct Accuracy {
 /// smooth laws take a tenth of the time that they take otherwise.
 class LastMotions {
   friend class FitProblem;
-  std::vector<std::unique_ptr<Neighbours>> neighbours_;  ///< of each experiment; empty: there was no point yet
+  std::vector<std::shared_ptr<const Neighbours>>
+      neighbours_;  ///< of each experiment; empty: there was no point yet
 };
 
 class FitProblem {
@@ -95,7 +96,7 @@ class FitProblem {
   [[nodiscard]] std::vector<RecordValues> of_records(const Eigen::VectorXd& values) const;
 
  private:
-  using All = std::vector<std::unique_ptr<Neighbours>>;
+  using All = std::vector<std::shared_ptr<const Neighbours>>;
   /// One column of the derivatives, by differences over `step`. False: there is no motion on either side.
   [[nodiscard]] bool column(const Eigen::VectorXd& q, const Eigen::VectorXd& middle, const All& neighbours,
                             Eigen::Index i, double step, bool seeks, Eigen::VectorXd& slope) const;

@@ -106,7 +106,7 @@ std::optional<Node> Continuation::at_edge(Node inner, Node outer, double step) {
 
 Branch Continuation::run() {
   const Model first = at(from_);
-  const SteadyState start = steady_state(first, {.tolerance = options_.tolerance, .full_account = false});
+  const SteadyState start = steady_state(first, {.tolerance = options_.tolerance, .detail = OrbitDetail::extremes});
   branch_.outcome = start.outcome;
   effort_.count += start.certificate;
   if (!start.outcome.ok()) return std::move(branch_);
@@ -224,7 +224,7 @@ std::string Continuation::parting_at(const Node& node) const {
 std::string Continuation::where_held(double held, double other) {
   constexpr double precision = 1e-4;
   const auto holds_at = [&](double parameter) {
-    const SteadyState state = steady_state(at(parameter), {.full_account = false});
+    const SteadyState state = steady_state(at(parameter), {.detail = OrbitDetail::extremes});
     effort_.count += state.certificate;
     return state.outcome.ok() && is_held(state);
   };

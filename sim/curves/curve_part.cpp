@@ -18,7 +18,7 @@ std::uint32_t number_in(std::vector<std::string>& list, const std::string& text)
 void CurvePart::take(const SlidingOrbit& orbit, const SteadyStateOptions& options, CurvePoint& point) {
   certificate_ += orbit.certificate;
   point.x = orbit.peak;
-  if (options.full_account) point.phase = orbit.lag;
+  if (options.detail != OrbitDetail::extremes) point.phase = orbit.lag;
   point.stable = true;
 }
 

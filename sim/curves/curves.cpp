@@ -70,9 +70,8 @@ void check(Model model, std::span<const double> frequencies, std::span<const dou
   valid_harmonic(model, analysis);
 }
 
-/// Options for points without a phase.
-SteadyStateOptions brief(SteadyStateOptions options) {
-  options.full_account = false;
+SteadyStateOptions with(OrbitDetail detail, SteadyStateOptions options) {
+  options.detail = detail;
   return options;
 }
 
@@ -103,7 +102,7 @@ Curve xy_curve(const Model& model, const std::vector<double>& amplitudes, const 
   std::vector<CurvePoint> points;
   points.reserve(amplitudes.size());
   for (const double Y : amplitudes) points.push_back({.omega = model.excitation.frequency, .Y = Y});
-  return computed(model, std::move(points), brief(options), batch);
+  return computed(model, std::move(points), with(OrbitDetail::extremes, options), batch);
 }
 
 Curve frequency_response(const Model& model, const std::vector<double>& frequencies,
@@ -112,7 +111,7 @@ Curve frequency_response(const Model& model, const std::vector<double>& frequenc
   std::vector<CurvePoint> points;
   points.reserve(frequencies.size());
   for (const double omega : frequencies) points.push_back({.omega = omega, .Y = model.excitation.amplitude});
-  return computed(model, std::move(points), options, batch);
+  return computed(model, std::move(points), with(OrbitDetail::phase, options), batch);
 }
 
 Curve regime_map(const Model& model, const std::vector<double>& frequencies, const std::vector<double>& amplitudes,
@@ -122,7 +121,7 @@ Curve regime_map(const Model& model, const std::vector<double>& frequencies, con
   points.reserve(frequencies.size() * amplitudes.size());
   for (const double omega : frequencies)
     for (const double Y : amplitudes) points.push_back({.omega = omega, .Y = Y});
-  return computed(model, std::move(points), sticks_by_speed(brief(options)), batch);
+  return computed(model, std::move(points), sticks_by_speed(with(OrbitDetail::extremes, options)), batch);
 }
 
 }  // namespace dualdamp::sim

@@ -48,7 +48,7 @@ Curve stepped_xy_curve(const Model& model, const std::vector<double>& amplitudes
   for (const double Y : stepped(amplitudes, stepping))
     points.push_back({.omega = model.excitation.frequency, .Y = Y});
   SteadyStateOptions brief = options;
-  brief.full_account = false;
+  brief.detail = OrbitDetail::extremes;
   return followed(model, std::move(points), brief);
 }
 

@@ -79,7 +79,7 @@ std::optional<double> den_hartogs(const Model& model, const ForceLimits& limits)
 
 SteadyState at(Model& model, double amplitude, int max_periods = SteadyStateOptions{}.max_periods) {
   model.excitation.amplitude = amplitude;
-  return steady_state(model, {.max_periods = max_periods, .full_account = false});
+  return steady_state(model, {.max_periods = max_periods, .detail = OrbitDetail::extremes});
 }
 
 bool sticks(const SteadyState& state) { return !state.sticks.empty(); }

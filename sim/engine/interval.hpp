@@ -51,6 +51,8 @@ class Interval {
 
   /// The motion at `begin + s`, 0 <= s <= duration.
   [[nodiscard]] virtual Sample at(double s) const = 0;
+  /// x alone, in less time where the forces cost most.
+  [[nodiscard]] virtual double position(double s) const { return at(s).x; }
   /// The width [s] of a panel from `begin + s` on in which a polynomial of low degree represents the motion well;
   /// it grows where fast transients have died out.
   [[nodiscard]] virtual double resolution(double s) const = 0;

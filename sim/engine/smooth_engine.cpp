@@ -31,21 +31,29 @@ class SmoothEngine::StepInterval final : public Interval {
   StepInterval(const Steps& steps, const Flow& flow) : steps_(steps), flow_(flow) {}
 
   [[nodiscard]] Sample at(double s) const override {
-    if (duration > 0.0) {
-      state_.resize(steps_.end().size());
-      steps_.at(std::clamp(s / duration, 0.0, 1.0), state_);
-    } else {
-      state_.assign(steps_.end().begin(), steps_.end().end());
-    }
+    go_to(s);
     Sample sample = flow_.sample(state_, local_begin + s);
     sample.t = begin + s;
     return sample;
+  }
+  [[nodiscard]] double position(double s) const override {
+    go_to(s);
+    return state_[0];
   }
   [[nodiscard]] double resolution(double) const override { return duration; }
 
   double local_begin = 0.0;  ///< within the forcing period [s]
 
  private:
+  void go_to(double s) const {
+    if (duration > 0.0) {
+      state_.resize(steps_.end().size());
+      steps_.at(std::clamp(s / duration, 0.0, 1.0), state_);
+    } else {
+      state_.assign(steps_.end().begin(), steps_.end().end());
+    }
+  }
+
   const Steps& steps_;
   const Flow& flow_;
   mutable std::vector<double> state_;  // scratch

@@ -27,7 +27,7 @@ constexpr double clear_of_errors = 100.0;
 }  // namespace
 
 OrbitAccount::OrbitAccount(const Model& model, AccountParts parts)
-    : full_(parts.full),
+    : detail_(parts.detail),
       drive_(model.excitation.amplitude),
       drive_phase_(model.excitation.phase),
       accuracy_(is_exact(model) ? exact_accuracy : of_local_errors * model.solver.tolerance),
@@ -46,10 +46,10 @@ void OrbitAccount::observe(const Interval& interval, double x) {
   // The velocity keeps its sign within an interval.
   peak_ = std::max(peak_, x);
   trough_ = std::min(trough_, x);
-  if (full_) {
+  if (detail_ != OrbitDetail::extremes) fundamental_.observe(interval);
+  if (detail_ == OrbitDetail::full) {
     extremes_.observe(interval);
     energy_.observe(interval);
-    fundamental_.observe(interval);
   }
   if (sticks_by_speed_) collect_speeds(interval);
   const bool sticks = interval.direction == Direction::none;
@@ -148,14 +148,15 @@ void OrbitAccount::write(SteadyState& result) {
   } else if (result.sticks.size() == 1 && stops_ == 0) {
     result.warnings.emplace_back("the mass never moves: any rest position that friction can hold is steady too");
   }
-  if (!full_) return;
+  if (detail_ == OrbitDetail::extremes) return;
   result.phase =
       is_held || result.never_moves() ? std::numeric_limits<double>::quiet_NaN() : lag(result.period_ratio);
   if (is_held) return;
+  result.fundamental = std::abs(fundamental_.coefficient()) / result.period_ratio;
+  if (detail_ == OrbitDetail::phase) return;
   result.max_speed = extremes_.max_speed();
   result.energy = energy_.account();
   result.mean_square_speed = energy_.square_speed() / result.period;
-  result.fundamental = std::abs(fundamental_.coefficient()) / result.period_ratio;
 }
 
 void account_for_orbit(const Model& model, PeriodMap& map, AccountParts parts, SteadyState& result) {
@@ -168,7 +169,7 @@ SteadyState outline_of_orbit(const Model& model, PeriodMap& map, const State& st
   SteadyState state{.period = core::two_pi / model.excitation.frequency * period_ratio,
                     .period_ratio = period_ratio,
                     .start = start};
-  account_for_orbit(model, map, {.full = false}, state);
+  account_for_orbit(model, map, {.detail = OrbitDetail::extremes}, state);
   return state;
 }
 

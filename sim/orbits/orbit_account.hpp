@@ -9,7 +9,7 @@ namespace dualdamp::sim {
 
 /// What is collected.
 struct AccountParts {
-  bool full = true;              ///< phase, largest speed and energy too
+  OrbitDetail detail = OrbitDetail::full;
   bool sticks_by_speed = false;  ///< count sticks by speed if no law holds the mass
 };
 
@@ -32,7 +32,7 @@ class OrbitAccount final : public PeriodObserver {
   [[nodiscard]] double lag(int forcing_periods) const;
   [[nodiscard]] bool is_at_rest(double period, int forcing_periods) const;
 
-  bool full_;
+  OrbitDetail detail_;
   double drive_;  ///< amplitude of the fundamental of the excitation [m or N]
   double drive_phase_;
   double accuracy_;  ///< of x, relative to the largest |x|

@@ -107,7 +107,7 @@ std::optional<State> OrbitFinder::start_of_sliding_orbit() {
   std::optional<State> start = start_of(*orbit, model_);
   if (!start) return std::nullopt;
   // Newton's method will accept this start at once, so its pass along the orbit can collect the account too.
-  account_.emplace(model_, AccountParts{.full = options_.full_account});
+  account_.emplace(model_, AccountParts{.detail = options_.detail});
   searched_ += orbit->certificate;
   return start;
 }
@@ -158,7 +158,7 @@ std::optional<Orbit> OrbitFinder::the_only_orbit(SteadyState& result) {
 void OrbitFinder::describe(SteadyState& result) {
   if (account_) return account_->write(result);
   map_.limit(std::numeric_limits<long>::max());
-  const AccountParts parts{.full = options_.full_account, .sticks_by_speed = options_.sticks_by_speed};
+  const AccountParts parts{.detail = options_.detail, .sticks_by_speed = options_.sticks_by_speed};
   if (result.period_ratio == 1) {
     account_for_orbit(model_, map_, parts, result);
   } else {
@@ -295,7 +295,8 @@ std::optional<double> OrbitFinder::error_of_steps(const Orbit& orbit) {
 
 void OrbitFinder::warn_of_steps(const Orbit& orbit, SteadyState& result) {
   const bool is_exact = map_.engine().accuracy() == 0.0;
-  if (is_exact || !orbit.period.moves || !(options_.full_account || orbit.period_ratio > 1)) return;
+  if (is_exact || !orbit.period.moves || !(options_.detail != OrbitDetail::extremes || orbit.period_ratio > 1))
+    return;
   const std::optional<double> error = error_of_steps(orbit);
   if (error && !(*error > least_warned)) return;
   if (!error)

@@ -68,14 +68,20 @@ struct SteadyState {
   [[nodiscard]] bool stable() const;
 };
 
+/// What is computed along an orbit. Each costs more than the one before; what is left out stays zero.
+enum class OrbitDetail {
+  extremes,  ///< of x, stops and sticks
+  phase,     ///< and the fundamental
+  full,      ///< speeds and energy too, which cost more than the orbit itself
+};
+
 struct SteadyStateOptions {
   double tolerance = 1e-14;  ///< closure of the orbit relative to its size
   int max_periods = 20'000;  ///< of transient integrated before giving up
   /// Work (`Engine::work`) of the motion before giving up, if less than that of `patience_with`; attempts to find
   /// an orbit near the motion may take as much again.
   long most_work = std::numeric_limits<long>::max();
-  /// Whether to compute phase, fundamental, speeds and energy, which cost more than the orbit; else they stay zero.
-  bool full_account = true;
+  OrbitDetail detail = OrbitDetail::full;
   /// Whether to look for other steady states of the model, which costs several times the orbit itself where motions
   /// may part; else `others` is empty, and no warning tells of them.
   bool others = true;

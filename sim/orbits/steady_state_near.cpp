@@ -18,28 +18,33 @@ namespace {
 constexpr double quick = 0.3;
 
 /// Corrects by the known orbit's monodromy matrix until the orbit closes, and once more, because differences
-/// between neighbours may be small beside the tolerance. False if a correction does not help.
+/// between neighbours may be small beside the tolerance; or until a correction is less than `share` of the first.
+/// False if a correction does not help.
 bool correct(PeriodMap& map, const KnownOrbit& near, const Model& model, const SteadyStateOptions& options,
-             SteadyState& result) {
+             double share, SteadyState& result) {
   const double tolerance = std::max(options.tolerance, map.engine().accuracy());
   State start = near.start;
   bool closes = false;
+  double first = 0.0;
   for (double before = 1.0 / quick;; ++result.newton_steps) {
-    OrbitAccount account(model, {.full = options.full_account});
+    OrbitAccount account(model, {.detail = options.detail});
     ForcingPeriod period = map.from(start, Monodromy::without, &account);
     const double closure = period.closure(model.excitation.frequency);
     if (!map.outcome().ok() || !(closes ? closure <= tolerance : closure < quick * before)) return false;
-    if (closes) {
+    period.monodromy = near.monodromy;
+    const Eigen::VectorXd step = newton_step(period, model.excitation.frequency);
+    if (step.size() == 0) return false;
+    const State next = displaced(start, step);
+    const double length = distance(start, next, period.size, model.excitation.frequency);
+    if (result.newton_steps == 0) first = length;
+    if (closes || (result.newton_steps > 0 && length <= share * first)) {
       result.start = start;
       account.write(result);
       return true;
     }
     closes = closure <= tolerance;
     before = closure;
-    period.monodromy = near.monodromy;
-    const Eigen::VectorXd step = newton_step(period, model.excitation.frequency);
-    if (step.size() == 0) return false;
-    start = displaced(start, step);
+    start = next;
   }
 }
 
@@ -60,7 +65,7 @@ bool close(PeriodMap& map, const KnownOrbit& near, const Model& model, const Ste
                                           period);
   result.newton_steps += closed.steps;
   if (!closed.found || !period.moves || !(period.radius() < 1.0 - neutral_margin)) return false;
-  OrbitAccount account(model, {.full = options.full_account});
+  OrbitAccount account(model, {.detail = options.detail});
   static_cast<void>(map.from(period.begin, Monodromy::without, &account));
   if (!map.outcome().ok()) return false;
   result.start = period.begin;
@@ -86,7 +91,8 @@ bool attracts(const KnownOrbit& orbit) {
   return period.radius() < 1.0 - neutral_margin;
 }
 
-SteadyState steady_state_near(const KnownOrbit& near, const Model& model, const SteadyStateOptions& options) {
+SteadyState steady_state_near(const KnownOrbit& near, const Model& model, const SteadyStateOptions& options,
+                              double share) {
   valid_harmonic(model, "steady_state");
   require(near.start.memories.size() == model.friction.size(), "a known orbit needs a memory for each law",
           "one of a model with the same laws");
@@ -96,7 +102,7 @@ SteadyState steady_state_near(const KnownOrbit& near, const Model& model, const 
   SteadyStateOptions alone = options;
   alone.others = false;
   if (near.monodromy.size() == 0) return steady_state(model, alone);
-  if (correct(map, near, model, options, result)) {
+  if (correct(map, near, model, options, share, result)) {
     ForcingPeriod known;
     known.monodromy = near.monodromy;
     result.multipliers = known.multipliers();

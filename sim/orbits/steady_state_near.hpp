@@ -22,10 +22,12 @@ struct KnownOrbit {
 /// Whether all motions beside the orbit approach it. False where its monodromy matrix is not known.
 [[nodiscard]] bool attracts(const KnownOrbit& orbit);
 
-/// `near`: of a model with the same laws. The result has the Floquet multipliers of the known orbit, or its own if
-/// its corrections needed them; `newton_steps` counts corrections. If no correction helps, or the orbit found does
-/// not attract, the result is that of `steady_state`, without others. Needs a harmonic excitation.
+/// `near`: of a model with the same laws. `share`: the state may be off by this part of its distance from the known
+/// one, which is all that a difference quotient needs; 0: only within the tolerance. The result has the Floquet
+/// multipliers of the known orbit, or its own if its corrections needed them; `newton_steps` counts corrections. If
+/// no correction helps, or the orbit found does not attract, the result is that of `steady_state`, without others.
+/// Needs a harmonic excitation.
 [[nodiscard]] SteadyState steady_state_near(const KnownOrbit& near, const Model& model,
-                                            const SteadyStateOptions& options = {});
+                                            const SteadyStateOptions& options = {}, double share = 0.0);
 
 }  // namespace dualdamp::sim

@@ -61,12 +61,13 @@ bool bends(const FittedParameter& fitted, double quantile) {
 }
 
 Profiler::Profiler(const FitProblem& problem, const Eigen::VectorXd& weights, const Eigen::VectorXd& q,
-                   const Eigen::MatrixXd& rows, const Eigen::VectorXd& residuals)
+                   const Eigen::MatrixXd& rows, const Eigen::VectorXd& residuals, const LastMotions& motions)
     : problem_(problem),
       weights_(weights),
       q_(q),
       rows_(rows),
       residuals_(residuals),
+      motions_(motions),
       squares_(residuals.squaredNorm()) {}
 
 void Profiler::for_each(Eigen::Index count, const std::function<void(Eigen::Index)>& work) {
@@ -75,8 +76,8 @@ void Profiler::for_each(Eigen::Index count, const std::function<void(Eigen::Inde
 }
 
 Profiler::ProfilePath Profiler::at(const Eigen::VectorXd& q, const Eigen::VectorXd& residuals,
-                                   const Eigen::MatrixXd& rows) const {
-  ProfilePath path{q, residuals, rows, gram(rows), Eigen::VectorXd::Ones(q.size())};
+                                   const Eigen::MatrixXd& rows, LastMotions motions) const {
+  ProfilePath path{q, residuals, rows, gram(rows), Eigen::VectorXd::Ones(q.size()), std::move(motions)};
   for (Eigen::Index j = 0; j < q.size(); ++j)
     if (path.normal(j, j) > 0.0) path.unit[j] = 1.0 / std::sqrt(path.normal(j, j));
   return path;
@@ -153,7 +154,7 @@ double Profiler::growth_of(const Eigen::VectorXd& residuals) const {
 std::optional<double> Profiler::alone(Eigen::Index i, double value, ProfilePath& path) const {
   Eigen::VectorXd q = placed(i, value, path.q);
   Eigen::VectorXd outputs;
-  if (!problem_.outputs(q, outputs)) return std::nullopt;
+  if (!problem_.outputs(q, outputs, &path.motions)) return std::nullopt;
   path.q = std::move(q);
   path.residuals = problem_.readings().misses(outputs).cwiseProduct(weights_);
   return growth_of(path.residuals);
@@ -178,7 +179,7 @@ std::optional<double> Profiler::growth(Eigen::Index i, double value, double limi
 
 bool Profiler::take(const Eigen::VectorXd& q, ProfilePath& path, double& best) const {
   Eigen::VectorXd outputs;
-  if (!problem_.outputs(q, outputs)) return false;
+  if (!problem_.outputs(q, outputs, &path.motions)) return false;
   Eigen::VectorXd residuals = problem_.readings().misses(outputs).cwiseProduct(weights_);
   const double found = growth_of(residuals);
   if (!(found < best)) return true;
@@ -235,8 +236,8 @@ std::optional<double> Profiler::followed(Eigen::Index i, double value, double be
     if (derivative > 1 && !(begun - best > settled * best)) return result();
     Eigen::VectorXd outputs;
     Eigen::MatrixXd jacobian;
-    if (!problem_.derivatives(path.q, outputs, jacobian)) return result();
-    path = at(path.q, path.residuals, weights_.asDiagonal() * jacobian);
+    if (!problem_.derivatives(path.q, outputs, jacobian, false, &path.motions)) return result();
+    path = at(path.q, path.residuals, weights_.asDiagonal() * jacobian, std::move(path.motions));
   }
 }
 
@@ -278,7 +279,7 @@ double Profiler::end(Eigen::Index i, const FittedParameter& fitted, double limit
   at_end[i] = sign < 0.0 ? c.low : c.high;
   const double farthest = problem_.space().values(at_end)[i];
   double distance = first_distance(i, fitted, limit);
-  ProfilePath others = at(q_, residuals_, rows_);
+  ProfilePath others = at(q_, residuals_, rows_, motions_);
   ProfilePath within = others;
   Bracket bracket;
   double last = 0.0;
@@ -325,7 +326,7 @@ Interval Profiler::interval(Eigen::Index i, const FittedParameter& fitted, doubl
   Interval found = {end(i, fitted, limit, -1.0), end(i, fitted, limit, 1.0)};
   if (const std::optional<std::size_t>& least = problem_.space().above(i)) {
     const double lowest = problem_.space().values(q_)[static_cast<Eigen::Index>(*least)];
-    ProfilePath others = at(q_, residuals_, rows_);
+    ProfilePath others = at(q_, residuals_, rows_, motions_);
     const bool is_lower = found[0] > lowest;
     if (const auto grown = is_lower ? growth(i, lowest, limit, others) : std::nullopt; grown && *grown <= limit)
       found[0] = lowest;

@@ -24,9 +24,9 @@ namespace dualdamp::identify {
 
 class Profiler {
  public:
-  /// `rows`, `residuals`: weighted, at the estimate `q`. The arguments must outlive this.
+  /// `rows`, `residuals`: weighted, at the estimate `q`; `motions`: those there. The arguments must outlive this.
   Profiler(const FitProblem& problem, const Eigen::VectorXd& weights, const Eigen::VectorXd& q,
-           const Eigen::MatrixXd& rows, const Eigen::VectorXd& residuals);
+           const Eigen::MatrixXd& rows, const Eigen::VectorXd& residuals, const LastMotions& motions);
 
   /// Calls `work` for 0 ... count - 1, on all cores.
   static void for_each(Eigen::Index count, const std::function<void(Eigen::Index)>& work);
@@ -55,9 +55,10 @@ class Profiler {
     Eigen::MatrixXd rows;
     Eigen::MatrixXd normal;
     Eigen::VectorXd unit;  ///< of each coordinate; it scales the diagonal of the normal matrix to one
+    LastMotions motions;   ///< where the derivatives were computed
   };
   [[nodiscard]] ProfilePath at(const Eigen::VectorXd& q, const Eigen::VectorXd& residuals,
-                               const Eigen::MatrixXd& rows) const;
+                               const Eigen::MatrixXd& rows, LastMotions motions) const;
   /// Least squares with parameter `i` held at `value`, by the derivatives of `path`. `damping`: a change of
   /// another parameter by as much as itself counts as this share of the present growth.
   [[nodiscard]] Eigen::VectorXd step(Eigen::Index i, double value, const ProfilePath& path, double damping) const;
@@ -91,6 +92,7 @@ class Profiler {
   const Eigen::VectorXd& q_;
   const Eigen::MatrixXd& rows_;
   const Eigen::VectorXd& residuals_;
+  const LastMotions& motions_;
   double squares_ = 0.0;
   mutable std::mutex mutex_;
   mutable std::optional<std::pair<Eigen::VectorXd, double>> lower_;

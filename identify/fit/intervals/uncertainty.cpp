@@ -335,7 +335,7 @@ class Uncertainty {
   void add_profiles() {
     const Eigen::MatrixXd rows = end_.weights.asDiagonal() * end_.jacobian;
     const Eigen::VectorXd residuals = end_.weights.cwiseProduct(end_.misses);
-    const Profiler profiler(end_.problem, end_.weights, end_.q, rows, residuals);
+    const Profiler profiler(end_.problem, end_.weights, end_.q, rows, residuals, end_.motions);
     Eigen::VectorXd limits = Eigen::VectorXd::Zero(size_);
     Profiler::for_each(size_, [&](Eigen::Index i) {
       FittedParameter& fitted = fit_.parameters[static_cast<std::size_t>(i)];

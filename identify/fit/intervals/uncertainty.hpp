@@ -18,6 +18,7 @@ struct FitEnd {
   const Eigen::VectorXd& q;                    ///< coordinates
   const Eigen::VectorXd& misses;               ///< outputs - measured
   const Eigen::MatrixXd& jacobian;             ///< of the outputs by the coordinates
+  const LastMotions& motions;                  ///< at `q`
   const std::vector<Eigen::VectorXd>& rivals;  ///< coordinates of other minima that fit nearly as well
   bool profile = true;
   bool robust = false;

@@ -276,8 +276,10 @@ class SteadyReadings final : public ReadingModel {
 
   /// Only amplitudes are needed, so no full account is computed.
   [[nodiscard]] static sim::SteadyState found(const sim::Model& model, const std::optional<sim::KnownOrbit>& near) {
-    const sim::SteadyStateOptions options{
-        .tolerance = model.solver.tolerance, .max_periods = patience, .full_account = false, .others = false};
+    const sim::SteadyStateOptions options{.tolerance = model.solver.tolerance,
+                                          .max_periods = patience,
+                                          .detail = sim::OrbitDetail::extremes,
+                                          .others = false};
     return near ? sim::steady_state_near(*near, model, options) : sim::steady_state(model, options);
   }
 

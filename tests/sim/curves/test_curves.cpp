@@ -213,7 +213,7 @@ TEST_CASE("a point found in a pack brings its certificate, and a closure that pa
   CHECK(orbits.front()->certificate.panels >= orbits.front()->certificate.searches);
   CHECK(same(sim::xy_curve(model, amplitudes).certificate, orbits.front()->certificate));
 
-  const sim::SteadyStateOptions closer{.tolerance = 5e-15, .full_account = false};
+  const sim::SteadyStateOptions closer{.tolerance = 5e-15, .detail = sim::OrbitDetail::extremes};
   const sim::Curve curve = sim::xy_curve(model, amplitudes, closer);
   const sim::SteadyState state = sim::steady_state(model, closer);
   CHECK(same_bits(curve.points.front().x, state.amplitude));

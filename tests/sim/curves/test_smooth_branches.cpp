@@ -43,7 +43,7 @@ double largest_error(const sim::Branch& branch, sim::Model model, double sim::Ex
   double worst = 0.0;
   for (std::size_t i = 0; i < branch.points.size(); i += every) {
     model.excitation.*parameter = branch.points[i].parameter;
-    const sim::SteadyState state = sim::steady_state(model, {.full_account = false});
+    const sim::SteadyState state = sim::steady_state(model, {.detail = sim::OrbitDetail::extremes});
     worst = std::max(worst, std::abs(branch.points[i].state.amplitude / state.amplitude - 1.0));
   }
   return worst;

@@ -43,6 +43,37 @@ TEST_CASE("the orbit next to a known one is the steady state of its own numbers"
   }
 }
 
+TEST_CASE("an orbit for a difference quotient takes fewer periods and errs by its share of the difference") {
+  constexpr double share = 1e-3;
+  for (sim::Model model : models()) {
+    const sim::SteadyState before = sim::steady_state(model);
+    const sim::KnownOrbit known = sim::known_orbit(model, before);
+    model.excitation.amplitude *= 1.0 + 1e-4;
+    const sim::SteadyState exact = sim::steady_state_near(known, model);
+    const sim::SteadyState quick = sim::steady_state_near(known, model, {}, share);
+    REQUIRE(quick.outcome.ok());
+    CHECK(quick.newton_steps < exact.newton_steps);
+    CHECK(std::abs(quick.amplitude - exact.amplitude) <=
+          3.0 * share * std::abs(exact.amplitude - before.amplitude));
+    CHECK(std::abs(quick.phase - exact.phase) <= 3.0 * share * std::abs(exact.phase - before.phase));
+  }
+}
+
+TEST_CASE("an orbit with less detail has the same numbers and leaves out the others") {
+  for (const sim::Model& model : models()) {
+    const sim::SteadyState full = sim::steady_state(model);
+    const sim::SteadyState phase = sim::steady_state(model, {.detail = sim::OrbitDetail::phase});
+    const sim::SteadyState extremes = sim::steady_state(model, {.detail = sim::OrbitDetail::extremes});
+    CHECK(phase.amplitude == Approx(full.amplitude).epsilon(1e-12));
+    CHECK(phase.phase == Approx(full.phase).epsilon(1e-12));
+    CHECK(phase.fundamental == Approx(full.fundamental).epsilon(1e-12));
+    CHECK(full.energy.friction > 0.0);
+    CHECK(phase.energy.friction == 0.0);
+    CHECK(extremes.amplitude == Approx(full.amplitude).epsilon(1e-12));
+    CHECK(extremes.fundamental == 0.0);
+  }
+}
+
 TEST_CASE(
     "where a known orbit does not lead quickly to its neighbour the result is that of a search from nothing") {
   for (sim::Model model : models()) {
