@@ -25,4 +25,11 @@ inline constexpr double least_freedom = 0.99;
 /// Degrees of freedom of a sum of independent variances, each estimated with its own (welch1947).
 [[nodiscard]] double joint_freedom(const std::vector<double>& variances, const std::vector<double>& freedoms);
 
+/// What the scores of a signal gain because the deviations that weigh the signals against each other are found from
+/// the residuals: 2 (2/f) (A - A Phi A). A: the part of the signal in the normal matrix, whose inverse is Phi; 2/f:
+/// variance of the logarithm of its variance. None for a single signal, or if the noise is stated (f is infinite).
+/// Source: kenward1997.
+[[nodiscard]] Eigen::MatrixXd doubt_of_weights(const Eigen::MatrixXd& normal_of_signal,
+                                               const Eigen::MatrixXd& inverse_of_all, double freedom);
+
 }  // namespace dualdamp::identify

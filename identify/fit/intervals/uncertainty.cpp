@@ -170,7 +170,8 @@ class Uncertainty {
       const Eigen::MatrixXd scores =
           score_covariance(part, residuals_.segment(rows.begin, rows.size()), variances_[s],
                            end_.problem.readings().signal(rows).is_sampled);
-      parts_.push_back(matrix_among_all(product(product(bread, scores), bread)));
+      parts_.push_back(matrix_among_all(
+          product(product(bread, scores + doubt_of_weights(gram(part), bread, freedoms_[s])), bread)));
       scaled_covariance_ += parts_.back();
       plain += variances_[s] * gram(part);
     }
