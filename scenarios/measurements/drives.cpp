@@ -153,6 +153,14 @@ double pieces_within(const sim::SampledSignal& drive, double duration) {
   return drive.repeats() ? count * std::max(1.0, duration / drive.length()) : count;
 }
 
+/// Whether every stated key of the drive could be read; one that could not has been reported.
+bool is_readable(const CheckedFile& file) {
+  const Node* stated = file.node(section_name);
+  const Json& section = file.values().at(std::string(section_name));
+  return stated == nullptr ||
+         std::ranges::all_of(stated->entries, [&](const Entry& entry) { return section.contains(entry.key); });
+}
+
 }  // namespace
 
 sim::Chirp chirp_of(const Json& section) {
@@ -208,7 +216,7 @@ void read_drive(CheckedFile& file, bool is_read) {
   const Json& section = file.values().at(name);
   for (const char* key : {"times", "values"})
     if (is_listed && !section.contains(key)) return;  // reported
-  if (!section.contains("interpolation") || !section.contains("repeat")) return;
+  if (!is_readable(file)) return;
   const bool is_base = moves_base(type);
   auto samples = is_listed ? listed_samples(file, section) : measured_samples(file, section, is_base, is_read);
   if (!samples) return;
@@ -226,7 +234,8 @@ void check_drive(CheckedFile& file, double duration) {
   double pieces = 0.0;
   double end = duration;
   if (drive.is_noise()) pieces = duration * file.number_at(name, "bandwidth").value_or(0.0) / std::numbers::pi;
-  if (drive.is_chirp() && file.has(name, "from") && file.has(name, "to") && file.has(name, "duration")) {
+  if (drive.is_chirp() && is_readable(file) && file.has(name, "from") && file.has(name, "to") &&
+      file.has(name, "duration")) {
     const sim::Chirp chirp = chirp_of(file.values().at(name));
     pieces = sim::chirp_pieces(chirp);
     end = chirp.duration;

@@ -56,6 +56,21 @@ class Ignored(case.Case):
         for command, option in ((["identify", data, "--method", "resonance_deming"], "--sigma-x ..."), (["fit", "coulomb", data, "--no-profile"], "--sigma x=...")):
             self.assertIn(f"if it holds the uncertainty of each x, state one for all of them, such as its median: {option}", self.run_program(*command, *rig).stderr)
 
+    def test_values_that_cannot_be_read(self):
+        """Of a drive and of the bounds of a fit: each is told at its place, and nothing is made of the others."""
+        self.write("drive.csv", "t [s],y [mm],x [mm]\n" + "".join(f"{i / 50},{i % 7},{i % 5}\n" for i in range(50)))
+        measured = "excitation={type: measured_base, file: drive.csv, KEY}"
+        chirp = "excitation={type: base_chirp, amplitude: 1 mm, from: 1 Hz, to: 2 Hz, duration: 1 s, KEY}"
+        for drive, key, wrong in ((measured, "detrend", "trend"), (measured, "offset", "much"), (measured, "repeat", "often"), (measured, "unit", "[mm]"),
+                                  (chirp, "spacing", "even"), (chirp, "phase", "late")):
+            with self.subTest(key):
+                found = self.run_program("run", "base.yaml", "--set", "analysis={type: simulate, duration: 1 s}", "--set", drive.replace("KEY", f"{key}: {wrong}"), status=3)
+                self.assertIn(f"'excitation.{key}'", found.stderr)
+        for bounds in ("[wide]", "[[1]]", "[{name: kinetic, low: 1 N}, 3]"):
+            with self.subTest(bounds):
+                found = self.run_program("fit", "coulomb", "drive.csv", "--mass", "1 kg", "--stiffness", "100 N/m", "--set", f"analysis.bounds={bounds}", status=3)
+                self.assertRegex(found.stderr, r"'analysis.bounds\[\d\]' is of the wrong kind")
+
     def test_an_amplitude_that_a_list_replaces(self):
         """As an option of its own; beside the list in the file, or as a part of a section, it says what is replaced."""
         curve = ["run", self.write("curve.yaml", BASE.replace("{type: steady_state}", "{type: xy_curve, amplitudes: [0.1 m, 0.2 m]}"))]

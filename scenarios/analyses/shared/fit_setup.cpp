@@ -136,7 +136,8 @@ Sought sought_of(const Json& analysis, bool initial_is_known) {
   if (analysis.contains("free")) sought.free = analysis.at("free").get<std::vector<std::string>>();
   if (analysis.contains("bounds"))
     for (const Json& bound : analysis.at("bounds"))
-      sought.bounds.push_back({bound.value("name", ""), bound.value("low", ""), bound.value("high", "")});
+      if (bound.is_object())  // one that could not be read has been reported
+        sought.bounds.push_back({bound.value("name", ""), bound.value("low", ""), bound.value("high", "")});
   return sought;
 }
 
