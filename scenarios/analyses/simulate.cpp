@@ -28,14 +28,14 @@ Section measured_keys() {
 
 Section simulate_keys() {
   return {
-      {quantity("duration", {"s"}, "time to simulate").above(0),
+      {quantity("duration", {"s"}, "time to simulate; default: that of a drive which ends").above(0),
        quantity("cycles", {"1"}, "time to simulate, in forcing periods").above(0).at_most(max_periods),
        quantity("sample_rate", {"1/s"}, "rows per second of history.csv; without this key the file is not written")
            .above(0),
        section("measured", measured_keys(),
                "a measured motion x to compare with the simulated one; its first sample is at t = 0, and "
                "history.csv has a row for each of its samples")},
-      {{{"duration", "cycles"}, true}}};
+      {{{"duration", "cycles"}, false}}};
 }
 
 ResultFields simulate_fields() {
@@ -53,7 +53,25 @@ ResultFields simulate_fields() {
                 joined(energy_fields(), certificate_fields()));
 }
 
+/// A motion for which no time is stated lasts as long as its drive, if that ends.
+void take_time_of_drive(CheckedFile& file) {
+  if (file.stands_in_file("analysis", "duration") || file.stands_in_file("analysis", "cycles")) return;
+  const std::string type = file.text_at("excitation", "type");
+  const bool is_chirp = excitation_named(type).is_chirp();
+  const bool is_sampled = samples_of(type) != SamplesIn::nowhere;
+  std::optional<double> end;
+  if (is_chirp) end = file.number_at("excitation", "duration");
+  if (is_sampled && file.drive != nullptr) end = file.drive->length();
+  if ((is_chirp || is_sampled) && !end) return;  // it could not be read, which has been reported
+  if (end && !(is_sampled && file.drive->repeats()))
+    file.fill_in("duration", *end);
+  else
+    file.complain(file.node("analysis")->head(), "'analysis' needs one of duration, cycles",
+                  "one of them; neither under a drive that ends: a chirp, or samples without 'repeat'");
+}
+
 void check_simulate(CheckedFile& file) {
+  take_time_of_drive(file);
   check_work(file, file.values().at("analysis"), "analysis",
              {"analysis.sample_rate", file.number_at("analysis", "sample_rate")});
   if (!file.has("analysis", "measured")) return;
