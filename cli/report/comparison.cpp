@@ -81,6 +81,7 @@ struct Compared {
   std::string sha256;                         ///< of the resolved scenario
   std::map<std::string, std::string> values;  ///< of the scenario, by path
   std::set<std::string> written;              ///< paths of quantities that the user wrote
+  std::set<std::string> swept;                ///< paths of a sweep; its curves state their values
   Chart chart;
   std::string label;  ///< in the legend
 };
@@ -172,6 +173,11 @@ class Comparison {
     const Json& scenario = run.document().at("scenario");
     const auto si = scenarios::si_units(scenario, scenarios::scenario_format(bench::analyses()));
     flatten(scenario, "", units, si, one.values);
+    const Json sweep = scenario.value("sweep", Json::object());
+    for (const auto& [key, values] : sweep.items()) {
+      one.swept.insert(key);
+      one.values[key] = "swept";
+    }
     for (const auto& [path, unit] : units.items()) one.written.insert(path);
     one.chart = std::move(*chart);
     compared_.push_back(std::move(one));
@@ -243,8 +249,10 @@ class Comparison {
       for (Compared& one : compared_) {
         one.label.clear();
         for (const std::string& key : keys)
-          one.label +=
-              (one.label.empty() ? "" : ", ") + key.substr(key.rfind('.') + 1) + " = " + value_of(one, key, "none");
+          if (!one.swept.contains(key))
+            one.label += (one.label.empty() ? "" : ", ") + key.substr(key.rfind('.') + 1) + " = " +
+                         value_of(one, key, "none");
+        if (one.label.empty()) one.label = "sweep";
       }
     if (are_distinct()) return;
     std::map<std::string, int> times;

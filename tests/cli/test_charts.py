@@ -163,6 +163,15 @@ class Charts(Case):
             self.assertAlmostEqual(float(row["output amplitude x [cm]"]), 100 * float(line["x [m]"]), delta=1e-12)
         self.assertIn("system.friction.kinetic", (self.folder / "both/compare.html").read_text())
 
+    def test_compare_with_a_sweep(self):
+        """Its curves state the swept values; a result without the sweep states its own."""
+        self.run_program("run", "curve.yaml", "--out", "one", "--set", "system.friction.kinetic=1 N", "--set", "title=T")
+        self.run_program("run", "curve.yaml", "--out", "many", "--set", "sweep={system.friction.kinetic: [2 N, 3 N]}", "--set", "title=T")
+        self.run_program("compare", "one", "many", "--out", "both")
+        self.assertEqual([text for text in self.drawing("both/compare.svg")[0] if "kinetic" in text],
+                         ["kinetic = 1 N", "sweep, kinetic = 2 N", "sweep, kinetic = 3 N"])
+        self.assertIn('"swept"', (self.folder / "both/compare.html").read_text())
+
     def test_compare_writes_si_where_no_unit_is_stated(self):
         """The chart may then have a prefix, the table has none."""
         bare = CURVE.replace("{from: 10 cm, to: 30 cm, count: 5}", "[0.05, 0.06]").replace("kinetic: 2 N", "kinetic: 1 N")
