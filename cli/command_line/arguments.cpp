@@ -278,9 +278,9 @@ class Parser {
                     "Parameters to fit although they are stated, separated by commas: --free mass,sigma2")
         ->type_name("NAMES");
     const auto add = quantities_of(command);
-    add("--mass", fit_.mass, "Mass, such as '1.042 kg'; fitted if it is not stated");
-    add("--stiffness", fit_.stiffness, "Stiffness; fitted if it is not stated");
-    add("--damping", fit_.damping, "Viscous damping; fitted if it is not stated");
+    add("--mass", fit_.mass, "Mass, such as '1.042 kg'; fitted if it is not stated, zero for loops alone");
+    add("--stiffness", fit_.stiffness, "Stiffness; fitted if it is not stated, zero for loops alone");
+    add("--damping", fit_.damping, "Viscous damping; fitted if it is not stated, zero for loops alone");
     command.add_option("--validate", fit_.validate, "A data file to predict with the fitted rig")
         ->allow_extra_args(false)
         ->type_name("DATA");

@@ -167,7 +167,8 @@ class LoadSearch {
     const double travel = problem.space().values(loaded.found.coordinates)[loaded.found.coordinates.size() - 1];
     loaded.text = before_.experiments[index_]->label +
                   ": the contacts were loaded when the record began, as by a path of " +
-                  core::format_number(travel, 3) + " " + loaded.task->parameters.back().unit +
+                  core::format_number(travel, 3) + " " +
+                  core::unit_for(before_.rig.known.oscillator.coordinate, loaded.task->parameters.back().unit) +
                   " from an unloaded state: it is sought as travel; state 'initial' if they were not";
     return loaded;
   }

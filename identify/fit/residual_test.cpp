@@ -124,9 +124,14 @@ ScatterBesideStated scatter_beside_stated(const FittedSignal& signal) {
 
 namespace {
 
-std::string stated_noise_warning(const FittedSignal& fitted, const Signal& signal, const std::string& subject) {
+/// The SI unit of a signal: of an angle, if the coordinate of the rig is one.
+std::string unit_of(const Signal& signal, const Fit& fit) {
+  return core::unit_for(fit.rig.known.oscillator.coordinate, signal.unit);
+}
+
+std::string stated_noise_warning(const FittedSignal& fitted, const std::string& unit, const std::string& subject) {
   const double ratio = std::sqrt(fitted.chi2_per_freedom);
-  const auto with_unit = [&](double value) { return core::format_number(value, 2) + " " + signal.unit; };
+  const auto with_unit = [&](double value) { return core::format_number(value, 2) + " " + unit; };
   return subject + " are " + core::format_number(ratio, 2) + " times the stated noise (they scatter by " +
          with_unit(ratio * fitted.noise) + ", and " + with_unit(fitted.noise) + " is stated; chi-square " +
          core::format_number(fitted.chi2_per_freedom, 2) + " per degree of freedom): the stated noise is too " +
@@ -237,8 +242,8 @@ double drift_of(const Experiment& experiment, const FittedSignal& fitted) {
   return slope * slope * line.squaredNorm() >= third * rest.squaredNorm() ? slope : 0.0;
 }
 
-std::string drift_warning(double drift, const Signal& signal, const std::string& subject) {
-  return subject + " lie along a line that changes by " + core::format_number(drift, 3) + " " + signal.unit +
+std::string drift_warning(double drift, const std::string& unit, const std::string& subject) {
+  return subject + " lie along a line that changes by " + core::format_number(drift, 3) + " " + unit +
          " in the record: the zero of the sensor drifts, or the friction does (modifier 'drift'). Take the drift out "
          "of the force, or fit parts of the record";
 }
@@ -251,14 +256,29 @@ std::string open_zero_cause(const Experiments& experiments, const FittedSignal& 
   return "the zero of the sensor is off ('free' with " + name_of(*zero) + " seeks it), ";
 }
 
+/// The forces that a fit to a loop takes as zero, because nothing states or seeks them; empty if there are none.
+std::string open_forces_cause(const Experiment& experiment, const Fit& fit) {
+  if (experiment.kind != ExperimentKind::loop) return {};
+  const sim::Oscillator& known = fit.rig.known.oscillator;
+  std::vector<std::string> names;
+  for (const auto& [name, value] :
+       {std::pair{"mass", known.mass}, {"stiffness", known.stiffness}, {"damping", known.damping}})
+    if (std::isnan(value)) names.emplace_back(name);
+  if (names.empty()) return {};
+  const std::string list = core::joined(names);
+  return "the force has a part of " + core::joined(names, " or ") +
+         (names.size() == 1 ? ", which is" : ", which are") + " neither stated nor sought ('free' with " + list +
+         " seeks " + (names.size() == 1 ? "it" : "them") + "), ";
+}
+
 }  // namespace
 
 std::vector<std::string> contradictions_of_stated(const Experiments& experiments, const Fit& fit) {
   std::vector<std::string> texts;
   for (const FittedSignal& fitted : fit.signals)
     if (scatter_beside_stated(fitted) != ScatterBesideStated::as_stated)
-      texts.push_back(
-          stated_noise_warning(fitted, signal_of(experiments, fitted), residuals_of(experiments, fitted)));
+      texts.push_back(stated_noise_warning(fitted, unit_of(signal_of(experiments, fitted), fit),
+                                           residuals_of(experiments, fitted)));
   return texts;
 }
 
@@ -300,7 +320,7 @@ std::string not_noise_warning(const Experiment& experiment, const Experiments& e
          (is_undriven(experiment, fit)
               ? "the mass was held or pushed at first, while the fit takes all samples for free motion, "
               : "") +
-         open_zero_cause(experiments, fitted, fit) +
+         open_forces_cause(experiment, fit) + open_zero_cause(experiments, fitted, fit) +
          "or the search missed the best fit (try more starts, bounds, stated values); the intervals hold only for "
          "the right law";
 }
@@ -335,7 +355,7 @@ void warn_of_signal(const Experiments& experiments, bool robust, double zero_gai
   const std::string subject = residuals_of(experiments, fitted);
   const ScatterBesideStated scatter = scatter_beside_stated(fitted);
   if (scatter != ScatterBesideStated::as_stated)
-    fit.warnings.push_back(stated_noise_warning(fitted, signal, subject) +
+    fit.warnings.push_back(stated_noise_warning(fitted, unit_of(signal, fit), subject) +
                            (scatter == ScatterBesideStated::less
                                 ? "; the intervals use it and are too wide by up to the same factor"
                                 : "; the intervals are widened in proportion to the residuals"));
@@ -346,7 +366,7 @@ void warn_of_signal(const Experiments& experiments, bool robust, double zero_gai
   const double drift = drift_of(experiment, fitted);
   const std::optional<RecordParameter> zero =
       drift == 0.0 ? zero_off(experiments, fitted, zero_gain, fit) : std::nullopt;
-  if (drift != 0.0) fit.warnings.push_back(drift_warning(drift, signal, subject));
+  if (drift != 0.0) fit.warnings.push_back(drift_warning(drift, unit_of(signal, fit), subject));
   if (zero) fit.warnings.push_back(zero_warning(fitted, *zero, zero_gain, subject));
   constexpr double far = 2.0;
   const bool is_far = is_noise(fitted.p_value) && scatter == ScatterBesideStated::as_stated && signal.is_sampled &&

@@ -61,6 +61,23 @@ class FittedScenarios(case.Case):
         self.assertIn("are not noise", result.stderr)
         self.assertIn("the measured drive has noise, to which the rig responds", result.stderr)
 
+    def test_forces_that_nothing_states_are_named_as_a_cause(self):
+        """In a loop they are taken as zero. What warnings say of an angle is in the units of an angle."""
+        rows = ["t [s],x [rad],v [rad/s],a [rad/s^2],force [N.m]"]
+        for i in range(1200):
+            t = i / 200
+            x, v, a = 0.3 * math.sin(3 * t), 0.9 * math.cos(3 * t), -2.7 * math.sin(3 * t)
+            rows.append(f"{t},{x!r},{v!r},{a!r},{0.3 * a + 0.04 * v + 12 * x + math.copysign(0.2, v) + 0.002 * math.sin(613.0 * i * i)!r}")
+        self.write("loop.csv", "\n".join(rows) + "\n")
+        loop = ["fit", "coulomb", "loop.csv", "--loop", "--no-profile", "--mass", "0.3 kg.m^2", "--sigma", "force=1e-4 N.m"]
+        found = self.run_program(*loop, "--stiffness", "12 N.m/rad", "--out", "fit").stderr
+        self.assertIn("the force has a part of damping, which is neither stated nor sought ('free' with damping seeks it)", found)
+        self.assertIn("0.0001 N.m is stated", found)
+        found = self.run_program(*loop, "--out", "fit").stderr
+        self.assertIn("a part of stiffness or damping, which are neither stated nor sought ('free' with stiffness, damping seeks them)", found)
+        found = self.run_program(*loop, "--stiffness", "12 N.m/rad", "--free", "damping", "--out", "fit").stderr
+        self.assertNotIn("neither stated", found)
+
     def test_names_of_parameters_are_a_list_or_a_text(self):
         path = self.record("run.csv", 4.0).name
         parameters = []

@@ -49,9 +49,10 @@ Eigen::VectorXd reaches(const std::vector<FittedParameter>& parameters) {
   return all;
 }
 
-TradeOff known_further_off(const FittedParameter& fitted) {
+TradeOff known_further_off(const FittedParameter& fitted, core::Coordinate coordinate) {
   const auto& [low, high] = fitted.interval95;
-  const std::string unit = fitted.parameter.unit == "1" ? "" : " " + fitted.parameter.unit;
+  const std::string unit =
+      fitted.parameter.unit == "1" ? "" : " " + core::unit_for(coordinate, fitted.parameter.unit);
   const std::string above = "above " + core::format_number(low, 3) + unit;
   const std::string below = "below " + core::format_number(high, 3) + unit;
   const bool has_low = low > fitted.parameter.range.low;
@@ -63,7 +64,8 @@ TradeOff known_further_off(const FittedParameter& fitted) {
                                    : below)};
 }
 
-std::optional<TradeOff> trade_off(const WeakDirection& direction, const std::vector<FitParameter>& parameters) {
+std::optional<TradeOff> trade_off(const WeakDirection& direction, const std::vector<FitParameter>& parameters,
+                                  core::Coordinate coordinate) {
   std::vector<Eigen::Index> order(parameters.size());
   std::iota(order.begin(), order.end(), Eigen::Index{0});
   std::ranges::sort(order, std::greater<>(), [&](Eigen::Index i) { return std::abs(direction.share[i]); });
@@ -94,8 +96,8 @@ std::optional<TradeOff> trade_off(const WeakDirection& direction, const std::vec
   if (order.size() == 1 && std::isfinite(direction.deviation) && std::isfinite(reach) && open < all &&
       !(near_zero > 0.0))
     return std::nullopt;
-  const std::string quantity =
-      core::format_number(open * near_zero, 2) + " " + parameters[static_cast<std::size_t>(first)].unit;
+  const std::string quantity = core::format_number(open * near_zero, 2) + " " +
+                               core::unit_for(coordinate, parameters[static_cast<std::size_t>(first)].unit);
   // The deviation along a direction holds near the estimate; a profile without an end goes on beyond.
   const bool is_endless = std::isinf(reach);
   const std::string known = std::isfinite(direction.deviation) && is_endless

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/units.hpp"
 #include "identify/fit/fit.hpp"
 
 namespace dualdamp::identify {
@@ -25,13 +26,14 @@ struct WeakDirection {
 };
 
 [[nodiscard]] std::optional<TradeOff> trade_off(const WeakDirection& direction,
-                                                const std::vector<FitParameter>& parameters);
+                                                const std::vector<FitParameter>& parameters,
+                                                core::Coordinate coordinate);
 
 /// How far the profiles let the parameters go. That of a parameter at an end of its range ends on one side only.
 [[nodiscard]] Eigen::VectorXd reaches(const std::vector<FittedParameter>& parameters);
 
 /// What the profile says of a parameter that has no effect near the estimate: "the data show of exponent only that
 /// it is above 1.8".
-[[nodiscard]] TradeOff known_further_off(const FittedParameter& fitted);
+[[nodiscard]] TradeOff known_further_off(const FittedParameter& fitted, core::Coordinate coordinate);
 
 }  // namespace dualdamp::identify

@@ -372,6 +372,7 @@ class Uncertainty {
   void add_trade_offs() {
     std::vector<FitParameter> parameters;
     for (const FittedParameter& fitted : fit_.parameters) parameters.push_back(fitted.parameter);
+    const core::Coordinate coordinate = fit_.rig.known.oscillator.coordinate;
     Eigen::VectorXd near_zero = Eigen::VectorXd::Zero(size_);
     for (Eigen::Index i = 0; i < size_; ++i)
       if (is_near_zero(i)) near_zero[i] = slope_(i, i) * full_change(i);
@@ -379,14 +380,15 @@ class Uncertainty {
       const Eigen::VectorXd change = full_changes().cwiseProduct(direction);
       std::optional<TradeOff> found = trade_off({slope_ * change, direction, effects(change), deviation,
                                                  rounding * strongest_, near_zero, reaches(fit_.parameters)},
-                                                parameters);
+                                                parameters, coordinate);
       if (found) fit_.not_identifiable.push_back(std::move(*found));
     };
     const Eigen::VectorXd ratio = judged_changes().cwiseQuotient(full_changes());
     for (const Eigen::VectorXd& direction : lost_) {
       const std::optional<Eigen::Index> flat = shown_further_off(direction);
       if (flat)
-        fit_.not_identifiable.push_back(known_further_off(fit_.parameters[static_cast<std::size_t>(*flat)]));
+        fit_.not_identifiable.push_back(
+            known_further_off(fit_.parameters[static_cast<std::size_t>(*flat)], coordinate));
       else
         add(ratio.cwiseProduct(direction).normalized(), infinity);
     }
