@@ -11,6 +11,7 @@
 #include "identify/records/rest_samples.hpp"
 #include "identify/records/swings.hpp"
 #include "identify/records/usable_histories.hpp"
+#include "identify/statistics/median.hpp"
 #include "identify/statistics/noise_between_jumps.hpp"
 #include "identify/statistics/noise_level.hpp"
 #include "sim/law_host/law_host.hpp"
@@ -203,13 +204,15 @@ class FrictionLoop final : public Experiment {
     if (!(cutoffs.front() > 0.0) || !fault_of_cutoff(whole, cutoffs.front()).empty()) return;
     filter_.emplace(cutoffs.front(), rate_);
     edge_ = filter_->edge();
+    std::optional<ZeroPhaseFilter> of_path = filter_;
     if (lacks_speed) {
-      law_x_ = (*filter_)(x_);
+      of_path = filter_of_path(cutoffs.front());
+      law_x_ = (*of_path)(x_);
       law_v_ = sharp_difference(law_x_, rate_);
     }
     // The smear of the filter is as long as the period of its cut-off over pi.
     smear_ = static_cast<std::size_t>(std::ceil(rate_ / (std::numbers::pi * cutoffs.front())));
-    stuck_ = rest_samples(law_v_, lacks_speed ? noise_of_speed(x_, rate_, filter_) : noise_of_speed(v_), smear_);
+    stuck_ = rest_samples(law_v_, lacks_speed ? noise_of_speed(x_, rate_, of_path) : noise_of_speed(v_), smear_);
     if (lacks_speed) {
       // Equal readings of the position, which the filter mixes with others.
       const std::vector<bool> equal = rest_samples(v_, 0.0, smear_);
@@ -226,6 +229,29 @@ class FrictionLoop final : public Experiment {
       const std::vector<double> smooth = (*filter_)(*signal);
       for (const std::size_t i : turns_) (*signal)[i] += 0.5 * (smooth[i - 1] + smooth[i + 1]) - smooth[i];
     }
+  }
+
+  /// The filter of the measured position on the way to the laws. A contact that reverses bends the velocity, and a
+  /// low cut-off rounds this bend: the contact would seem stiffer. So the cut-off is raised by factors of two as
+  /// far as the velocity still passes through zero at once: until its noise is a small share of its change from
+  /// sample to sample there. Beyond a fifth of the sample rate, differences of seven points do not follow the
+  /// position.
+  [[nodiscard]] ZeroPhaseFilter filter_of_path(double cutoff) const {
+    ZeroPhaseFilter best = *filter_;
+    const std::vector<double> v = sharp_difference(best(x_), rate_);
+    std::vector<double> changes;
+    for (std::size_t i = 0; i + 1 < v.size(); ++i)
+      if (v[i] * v[i + 1] < 0.0) changes.push_back(std::abs(v[i + 1] - v[i]));
+    if (changes.empty()) return best;
+    constexpr double small = 0.05;
+    constexpr double highest = 0.2;
+    const double most = small * upper_median(std::move(changes));
+    for (double next = 2.0 * cutoff; next <= highest * rate_; next *= 2.0) {
+      const ZeroPhaseFilter filter(next, rate_);
+      if (noise_of_speed(x_, rate_, filter) > most) break;
+      best = filter;
+    }
+    return best;
   }
 
   /// The force may jump at a reversal, and a filter would spread the jump of a sample on the wrong side of it. The
