@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <numeric>
 #include <utility>
@@ -44,7 +45,8 @@ class FrictionLoop final : public Experiment {
     hold(still_stretches(stuck_, {history.x, noise_of(history.x)}, {history.v, noise_of(history.v)}), path_x_,
          path_v_);
     agrees_ = !history.x.empty() && !history.v.empty();
-    if (agrees_) agree();
+    if (!history.x.empty()) agreed_x_ = agreed_path();
+    if (agrees_) path_x_ = agreed_x_;
     const double speed = largest_swing(law_v_);
     // The zero of the sensor of a velocity drives its integral away.
     const auto duration = static_cast<double>(law_v_.size() - 1) / rate_;
@@ -292,12 +294,20 @@ class FrictionLoop final : public Experiment {
     return {static_cast<double>(i) / rate_, law_x_[i] - offset, law_v_[i]};
   }
 
+  /// Positions at the samples. `agrees`: see agreed_path().
+  struct Way {
+    const std::vector<double>& x;
+    bool agrees = false;
+  };
+
   /// On the path that moves a law with a memory.
-  [[nodiscard]] Instant on_path(std::size_t i, double offset) const {
-    return {static_cast<double>(i) / rate_, path_x_[i] - offset, path_v_[i]};
+  [[nodiscard]] Instant on_path(const Way& way, std::size_t i, double offset) const {
+    return {static_cast<double>(i) / rate_, way.x[i] - offset, path_v_[i]};
   }
 
-  /// Adds the force of a law. A law without memory needs no path between the samples.
+  /// Adds the force of a law. A law without memory needs no path between the samples. Positions that were
+  /// differentiated may still go against the velocity beside a rest, which stops a contact: it then moves as the
+  /// velocity says.
   [[nodiscard]] bool add(const friction::Law& law, double offset, double travel, double tolerance,
                          std::vector<double>& force) const {
     if (!depends_on_past(law)) {
@@ -305,19 +315,29 @@ class FrictionLoop final : public Experiment {
         force[i] += law.force({}, instant(i, offset), direction_of(law_v_[i]));
       return true;
     }
-    sim::LawHost host = sim::loaded_host(law, on_path(0, offset), travel);
+    return add_along({path_x_, agrees_}, law, offset, travel, tolerance, force) ||
+           (!agrees_ && !agreed_x_.empty() && add_along({agreed_x_, true}, law, offset, travel, tolerance, force));
+  }
+
+  /// Adds the force of a law with a memory along a path; leaves `force` as it was if the law cannot follow it.
+  [[nodiscard]] bool add_along(const Way& way, const friction::Law& law, double offset, double travel,
+                               double tolerance, std::vector<double>& force) const {
+    std::vector<double> own(force.size(), 0.0);
+    sim::LawHost host = sim::loaded_host(law, on_path(way, 0, offset), travel);
     host.leave_out_energy();
     host.set_tolerance(tolerance);
     host.limit_steps(std::min(most_steps(), sim::WorkLimit::most()));
     if (const Direction first = direction_of(path_v_[0]); travel == 0.0 || first != host.direction())
       host.change_direction(first);
-    force[0] += host.force();
-    for (std::size_t i = 1; i < force.size() && !host.broken(); ++i) {
-      move(host, i, offset);
-      force[i] += host.force();
+    own[0] = host.force();
+    for (std::size_t i = 1; i < own.size() && !host.broken(); ++i) {
+      move(host, way, i, offset);
+      own[i] = host.force();
     }
     *work += host.steps();
-    return sim::WorkLimit::allows(host.steps()) && !host.broken();
+    if (!sim::WorkLimit::allows(host.steps()) || host.broken()) return false;
+    std::ranges::transform(force, own, force.begin(), std::plus<>());
+    return true;
   }
 
   /// As for a history: a loop that needs ten times the usual number has parameters far off.
@@ -355,28 +375,30 @@ class FrictionLoop final : public Experiment {
   /// Lets the position go on as the velocity says. Measured positions would go against it by their noise, and a
   /// contact would slip backwards without end. The path follows the measured position by a tenth of the difference
   /// in each sample, as far as half of what the velocity says allows.
-  void agree() {
+  [[nodiscard]] std::vector<double> agreed_path() const {
     constexpr double share = 0.1;
     constexpr double most = 0.5;
-    for (std::size_t i = 1; i < path_x_.size(); ++i) {
+    std::vector<double> x = path_x_;
+    for (std::size_t i = 1; i < x.size(); ++i) {
       const double step = stretch(i).path(1.0 / rate_);
       const double allowed = path_v_[i - 1] * path_v_[i] < 0.0 ? 0.0 : most * std::abs(step);
-      const double before = path_x_[i - 1] + step;
-      path_x_[i] = before + std::clamp(share * (path_x_[i] - before), -allowed, allowed);
+      const double before = x[i - 1] + step;
+      x[i] = before + std::clamp(share * (x[i] - before), -allowed, allowed);
     }
+    return x;
   }
 
   /// Moves the law from sample i - 1 to sample i. The velocity is a parabola, which may cross zero once.
-  void move(sim::LawHost& host, std::size_t i, double offset) const {
-    const Instant from = on_path(i - 1, offset);
-    const Instant to = on_path(i, offset);
+  void move(sim::LawHost& host, const Way& way, std::size_t i, double offset) const {
+    const Instant from = on_path(way, i - 1, offset);
+    const Instant to = on_path(way, i, offset);
     const double h = to.t - from.t;
     const Stretch along = stretch(i);
     const double step = along.path(h);
     // The step of the position is that of the velocity, but for a factor if both agree, or for a constant speed.
-    const bool has_factor = agrees_ && from.v * to.v >= 0.0 && step != 0.0;
+    const bool has_factor = way.agrees && from.v * to.v >= 0.0 && step != 0.0;
     const double factor = has_factor ? (to.x - from.x) / step : 1.0;
-    const double left = agrees_ ? 0.0 : (to.x - from.x - step) / h;
+    const double left = way.agrees ? 0.0 : (to.x - from.x - step) / h;
     const sim::Path path = [from, along, factor, left](double t) {
       const double s = t - from.t;
       return Instant{t, from.x + factor * along.path(s) + left * s, from.v + s * (along.slope + s * along.curve)};
@@ -397,8 +419,9 @@ class FrictionLoop final : public Experiment {
   double rate_;
   std::vector<double> x_, v_, a_;        ///< measured, or derivatives or integrals of what was measured
   std::vector<double> law_x_, law_v_;    ///< for the laws: filtered before they are differentiated
-  std::vector<double> path_x_, path_v_;  ///< for laws with a memory: see hold(), agree()
-  bool agrees_ = false;                  ///< see agree()
+  std::vector<double> path_x_, path_v_;  ///< for laws with a memory: see hold(), agreed_path()
+  std::vector<double> agreed_x_;         ///< of agreed_path(); empty without a measured position
+  bool agrees_ = false;                  ///< the path is this one: both x and v were measured
   std::optional<ZeroPhaseFilter> filter_;
   std::vector<double> force_;  ///< measured, before the filter
   double force_noise_ = 0.0;
