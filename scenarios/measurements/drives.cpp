@@ -1,6 +1,7 @@
 #include "scenarios/measurements/drives.hpp"
 
 #include <algorithm>
+#include <initializer_list>
 #include <iterator>
 #include <numbers>
 #include <numeric>
@@ -153,12 +154,9 @@ double pieces_within(const sim::SampledSignal& drive, double duration) {
   return drive.repeats() ? count * std::max(1.0, duration / drive.length()) : count;
 }
 
-/// Whether every stated key of the drive could be read; one that could not has been reported.
-bool is_readable(const CheckedFile& file) {
-  const Node* stated = file.node(section_name);
-  const Json& section = file.values().at(std::string(section_name));
-  return stated == nullptr ||
-         std::ranges::all_of(stated->entries, [&](const Entry& entry) { return section.contains(entry.key); });
+/// Whether these keys are there; one that could not be read has been reported.
+bool has_all(const Json& section, std::initializer_list<const char*> keys) {
+  return std::ranges::all_of(keys, [&](const char* key) { return section.contains(key); });
 }
 
 }  // namespace
@@ -214,9 +212,8 @@ void read_drive(CheckedFile& file, bool is_read) {
   if (samples_in == SamplesIn::nowhere) return;
   const bool is_listed = samples_in == SamplesIn::scenario;
   const Json& section = file.values().at(name);
-  for (const char* key : {"times", "values"})
-    if (is_listed && !section.contains(key)) return;  // reported
-  if (!is_readable(file)) return;
+  if (!has_all(section, {"interpolation", "repeat"})) return;
+  if (is_listed ? !has_all(section, {"times", "values"}) : !has_all(section, {"detrend", "offset"})) return;
   const bool is_base = moves_base(type);
   auto samples = is_listed ? listed_samples(file, section) : measured_samples(file, section, is_base, is_read);
   if (!samples) return;
@@ -234,8 +231,7 @@ void check_drive(CheckedFile& file, double duration) {
   double pieces = 0.0;
   double end = duration;
   if (drive.is_noise()) pieces = duration * file.number_at(name, "bandwidth").value_or(0.0) / std::numbers::pi;
-  if (drive.is_chirp() && is_readable(file) && file.has(name, "from") && file.has(name, "to") &&
-      file.has(name, "duration")) {
+  if (drive.is_chirp() && has_all(file.values().at(name), {"from", "to", "duration", "spacing"})) {
     const sim::Chirp chirp = chirp_of(file.values().at(name));
     pieces = sim::chirp_pieces(chirp);
     end = chirp.duration;
