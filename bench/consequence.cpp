@@ -2,6 +2,7 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <optional>
@@ -27,6 +28,13 @@ double deviation(const identify::Sensor& sensor) {
   return std::hypot(sensor.noise, sensor.resolution / std::sqrt(12.0));
 }
 
+/// Whether the samples of x, v and a are readings: those with noise, of which resolution is a part; without any, x.
+std::array<bool, 3> sampled_channels(const identify::Sensors& sensors) {
+  const std::array<bool, 3> noisy = {deviation(sensors.x) > 0.0, deviation(sensors.v) > 0.0,
+                                     deviation(sensors.a) > 0.0};
+  return noisy[0] || noisy[1] || noisy[2] ? noisy : std::array{true, false, false};
+}
+
 /// Extremes of a decay that has come to rest: the remaining ones are the position where the mass sticks. So motions
 /// with different numbers of swings can be compared, and the readings change continuously as a swing vanishes.
 Readings with_rest(Readings extremes, int peaks) {
@@ -38,16 +46,17 @@ Readings with_rest(Readings extremes, int peaks) {
 /// Appends numbers in the order of `readings_of` and `deviations_of`.
 void append(Readings& list, const Readings& more) { list.insert(list.end(), more.begin(), more.end()); }
 
-/// The readings that have noise, in a fixed order.
+/// The readings, in a fixed order.
 Readings readings_of(const Motions& motions, const identify::Sensors& sensors) {
   std::vector<std::string> unused;
   const identify::Record record = motions.reading(quiet(sensors), 0, unused);
   Readings list;
   if (!record.histories.empty()) {
+    const auto [has_x, has_v, has_a] = sampled_channels(sensors);
     for (const identify::History& history : record.histories) {
-      if (sensors.x.noise > 0.0) append(list, history.x);
-      if (sensors.v.noise > 0.0) append(list, history.v);
-      if (sensors.a.noise > 0.0) append(list, history.a);
+      if (has_x) append(list, history.x);
+      if (has_v) append(list, history.v);
+      if (has_a) append(list, history.a);
     }
   } else if (record.pairs) {
     for (const identify::Pair& pair : record.pairs->pairs) {
@@ -65,11 +74,12 @@ Readings deviations_of(const Motions& motions, const identify::Sensors& sensors,
   Readings list;
   const double x = deviation(sensors.x);
   const double y = deviation(sensors.y);
-  for (const identify::History& history : motions.curve.exact.histories)
-    for (const auto& [sensor, count] :
-         {std::pair(&sensors.x, history.x.size()), std::pair(&sensors.v, history.v.size()),
-          std::pair(&sensors.a, history.a.size())})
-      if (sensor->noise > 0.0) list.insert(list.end(), count, deviation(*sensor));
+  const auto [has_x, has_v, has_a] = sampled_channels(sensors);
+  for (const identify::History& history : motions.curve.exact.histories) {
+    if (has_x) list.insert(list.end(), history.x.size(), x);
+    if (has_v) list.insert(list.end(), history.v.size(), deviation(sensors.v));
+    if (has_a) list.insert(list.end(), history.a.size(), deviation(sensors.a));
+  }
   if (motions.curve.exact.histories.empty() && motions.curve.exact.pairs) {
     const double periods = sensors.average_cycles;
     for (std::size_t i = 0; i < motions.curve.exact.pairs->pairs.size(); ++i) {

@@ -6,13 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "bench/analyses.hpp"
-#include "bench/case.hpp"
-#include "bench/grid.hpp"
-#include "scenarios/scenario.hpp"
+#include "tests/bench/campaign.hpp"
 
 using namespace dualdamp;
-using bench::MeasuredCase;
+using bench::testing::Campaign;
 
 namespace {
 
@@ -33,31 +30,6 @@ const std::string force =
 const std::string base =
     "  random_response: {type: base_noise, intensity: 0.3 mm^2/Hz, bandwidth: 50 Hz, duration: 20 s, settle: 3 s, "
     "sample_rate: 200 Hz}\n";
-
-struct Campaign {
-  explicit Campaign(const std::string& scenario)
-      : asked(scenarios::parse_scenario(scenario, "test", {.analyses = bench::analyses()})),
-        grid(*bench::stress_test_of(*asked.question)) {}
-
-  /// Records of the cases of a motion.
-  [[nodiscard]] std::vector<identify::Record> records(std::size_t motion) const {
-    std::vector<identify::Record> list;
-    bench::measure_motion(
-        grid, {}, motion, [](std::size_t) { return true; },
-        [&](const MeasuredCase& measured) { list.push_back(measured.record); });
-    return list;
-  }
-  [[nodiscard]] bench::Consequence consequence(std::size_t motion) const {
-    bench::Consequence result;
-    bench::measure_motion(
-        grid, {}, motion, [](std::size_t) { return true; },
-        [&](const MeasuredCase& measured) { result = measured.consequence; });
-    return result;
-  }
-
-  scenarios::Scenario asked;
-  bench::Grid grid;
-};
 
 /// Root of the mean square of the difference of two signals, the second `shift` samples later.
 double difference(const std::vector<double>& a, const std::vector<double>& b, std::size_t shift = 0) {
