@@ -63,3 +63,19 @@ TEST_CASE(
   CHECK_NOTHROW(parsed(system_text + "analysis: {type: frequency_branch, frequencies: {from: 1 Hz, to: 2 Hz}}\n"
                                      "expect: [{value: 'points[7].x', equals: 1}]\n"));
 }
+
+TEST_CASE("analyses: a stress test has ten million cases at most, with those of the truth") {
+  const auto asked = [](int severities) {
+    return system_text +
+           "analysis: {type: stress_test, laws: [detuning], seeds: 1000000, severities: {from: 0.01, to: 0.1, count: " +
+           std::to_string(severities) + "}, ranges: [{name: low, amplitudes: [0.1, 0.2]}]}\n";
+  };
+  CHECK_NOTHROW(parsed(asked(9)));  // the truth and nine severities of one law, a million times
+  try {
+    static_cast<void>(parsed(asked(10)));
+    FAIL("too many cases were not refused");
+  } catch (const core::InputError& error) {
+    CHECK(error.diagnostics().front().message == "the stress test has too many cases");
+    CHECK(error.diagnostics().front().found == "11000000");
+  }
+}

@@ -52,11 +52,14 @@ TEST_CASE("Values of options are checked against their declaration") {
   CHECK(faults("forgetting", 0.0) == 1);
   CHECK(faults("forgetting", 1.0) == 0);
   CHECK(faults("pairs", std::vector<int>{1}) == 1);
+  CHECK(faults("cutoffs", std::vector<double>(16, 1.0)) == 0);  // as many as it may hold
   CHECK(faults("cutoffs", std::vector<double>(17, 1.0)) == 1);
   CHECK(faults("bootstrap", 2'000'000) == 1);
   CHECK(faults("sigma_z", 1.0) == 1);
   CHECK(faults("without", std::vector<std::string>{"lugre", "dahl"}) == 0);
   CHECK(faults("without", std::vector<std::string>{"base_gain"}) == 1);  // no law
   CHECK(faults("without", std::vector<std::string>{}) == 1);
+  CHECK(faults("without", std::vector<std::string>(64, "dahl")) == 0);
+  CHECK(faults("without", std::vector<std::string>(65, "dahl")) == 1);
   CHECK(faults("without", 1.0) == 1);
 }

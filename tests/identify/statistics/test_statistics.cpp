@@ -71,6 +71,21 @@ TEST_CASE("A parameter whose corrected interval lies below zero is no estimate, 
   CHECK(faults_of(0.0, {-2e-12, -1e-12}) == 0);  // rounding
 }
 
+TEST_CASE("A parameter whose interval contains zero, its ends included, is said to be indistinguishable from it") {
+  const auto warnings_of = [](double value, const Interval& interval) {
+    Estimate estimate;
+    std::vector<std::string> faults;
+    judge_sign(value, 1e-9, &interval, "the Coulomb friction", estimate, faults);
+    CHECK(faults.empty());
+    return estimate.warnings.size();
+  };
+  CHECK(warnings_of(0.1, {-0.2, 0.4}) == 1);
+  CHECK(warnings_of(0.2, {0.0, 0.4}) == 1);
+  CHECK(warnings_of(-0.2, {-0.4, 0.0}) == 1);
+  CHECK(warnings_of(0.2, {0.1, 0.3}) == 0);
+  CHECK(warnings_of(0.0, {-4e-10, 4e-10}) == 0);  // rounding
+}
+
 TEST_CASE("An independent error widens both sides of an interval by the root of the sum of squares") {
   // 3-4-5 triangles: an added half width of 4 makes sides of 3 and 7.5 to 5 and 8.5.
   const double deviation = 4.0 / 1.9599639845400545;
