@@ -239,6 +239,9 @@ TEST_CASE("A mass that grows with the frequency names a further mode with the co
   CHECK(ledger.is_violated(Assumption::constants));
   CHECK(ledger.is_violated(Assumption::one_mode));
   CHECK(ledger.entry(Assumption::constants).fitted.starts_with("a "));
+  // The mode has no fit of its own: zeta and F0 change by what the constants that fit change them.
+  CHECK(ledger.entry(Assumption::one_mode).zeta_change == ledger.entry(Assumption::constants).zeta_change);
+  CHECK(ledger.entry(Assumption::one_mode).F0_change == ledger.entry(Assumption::constants).F0_change);
   // A stiffness that is off alone has no such inertia.
   const Measured alone = measured(Kind::response, 100, nullptr, {.stiffness = 0.03});
   const Ledger of_constants = ledger_of(alone.record, alone.constants);

@@ -46,6 +46,14 @@ TEST_CASE(
   CHECK(fault_of(30).empty());
 }
 
+TEST_CASE("A free history without extremes is not tested, and says why; a driven one needs none") {
+  Record record;
+  record.histories = {{.sample_rate = 100.0, .x = {9e-3, 8e-3, 6e-3, 4e-3, 3e-3, 2e-3, 1e-3, 1e-3, 0.0, 0.0}}};
+  CHECK(fault_of_histories(record) == "x has fewer than 16 samples");
+  record.histories.front().force.assign(10, 1.0);
+  CHECK(fault_of_histories(record).empty());
+}
+
 TEST_CASE("The stated noise of x makes the intervals of a history, unless its samples scatter clearly more") {
   const auto width = [](double stated, std::size_t warnings) {
     const Measured m = measured(Kind::decay, 6'300'003, nullptr, {.stated_noise = stated});

@@ -88,6 +88,9 @@ TEST_CASE("A term that can have one sign only extends the range on one side") {
   CHECK(above.ends.zeta[1] == Approx(plain[1]).epsilon(0.01));
   CHECK(high > 1.3 * (plain[1] - 10.0));
   CHECK(below.ends.zeta[0] == Approx(plain[0]).epsilon(0.01));
+  // The noise is odd in u, and tells neither sign from the other.
+  CHECK(low == Approx(high).epsilon(1e-6));
+  CHECK(above.ends.zeta[1] - 10.0 == Approx(10.0 - below.ends.zeta[0]).epsilon(1e-6));
 }
 
 TEST_CASE("Where drag is hard to see the range holds the damping that the interval misses") {

@@ -2,10 +2,12 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <boost/math/distributions/students_t.hpp>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstdint>
 #include <ctime>
+#include <numbers>
 
 #include "core/random.hpp"
 
@@ -88,6 +90,41 @@ TEST_CASE("Correlated residuals: the covariance is the sum over lags of its form
     // What lasts leaves few residuals that count.
     if (lasting == 1.0) CHECK(fit->independent < 20.0);
   }
+}
+
+TEST_CASE("Correlated residuals: the first lag of chance is found among the far ones too") {
+  // The autocorrelation of a wave falls below that of chance where it crosses zero: after a quarter of its period.
+  for (const Index quarter : {31, 32, 33, 34, 50}) {
+    Sample sample = sample_of(6000, 0.0);
+    for (Index i = 0; i < sample.target.size(); ++i)
+      sample.target[i] = std::cos(0.5 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(quarter));
+    const std::optional<CorrelatedFit> fit = fit_correlated(sample.columns, sample.target, {});
+    REQUIRE(fit);
+    CAPTURE(quarter);
+    CHECK(fit->independent == Approx(literally(sample, fit->residuals, 0).independent).epsilon(1e-9));
+  }
+}
+
+TEST_CASE("Correlated residuals: the test of a further term is that of Student for its coefficient") {
+  const Sample sample = sample_of(400, 0.0);
+  Eigen::VectorXd term(400);
+  for (Index i = 0; i < 400; ++i) term[i] = std::cos(0.05 * static_cast<double>(i * i) / 20.0);
+  Eigen::MatrixXd wider(400, 3);
+  wider << sample.columns, term;
+  const std::optional<CorrelatedFit> fit = fit_correlated(wider, sample.target, {});
+  const auto test = correlated_term_test(sample.columns, sample.target, term, {}, 2.0, "term");
+  REQUIRE(fit);
+  REQUIRE(test);
+  const double t = fit->coefficients[2] / std::sqrt(fit->covariance(2, 2));
+  CHECK(test->statistic == Approx(t * t).epsilon(1e-9));
+  CHECK(test->freedom == static_cast<int>(fit->freedom()));
+  const boost::math::students_t law(test->freedom);
+  CHECK(test->p_value == Approx(2.0 * boost::math::cdf(boost::math::complement(law, std::abs(t)))).epsilon(1e-9));
+  // What the term adds to the columns, as a share of the range.
+  const Eigen::MatrixXd& J = sample.columns;
+  const Eigen::VectorXd beside = term - J * (J.transpose() * J).inverse() * (J.transpose() * term);
+  CHECK(test->effect ==
+        Approx(std::abs(fit->coefficients[2]) * beside.norm() / std::sqrt(400.0) / 2.0).epsilon(1e-9));
 }
 
 TEST_CASE("Correlated residuals: what lasts over a long record costs no more than its samples") {
