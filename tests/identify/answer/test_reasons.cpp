@@ -2,6 +2,7 @@
 #include <memory>
 
 #include "identify/answer/answer.hpp"
+#include "identify/answer/preferred.hpp"
 #include "identify/methods/any_law/law_intervals.hpp"
 #include "tests/identify/ledger/findings.hpp"
 #include "tests/identify/methods/histories/bearing.hpp"
@@ -15,6 +16,13 @@ TEST_CASE("Each estimate that the record as a whole excludes says so itself") {
   missed.misfit = Misfit{1e-5, 12.0};
   CHECK(concluded({narrow}, missed).estimates[0].reason ==
         "the joint model misses these data by 12 times their noise (p = 1e-05)");
+  // What is found beside it comes first.
+  missed.force_excess = "the states need more force than the drive gives";
+  CHECK(concluded({narrow}, missed).estimates[0].reason == missed.force_excess);
+  missed.other_geometry = "the mass rides on the base";
+  CHECK(concluded({narrow}, missed).estimates[0].reason == missed.other_geometry);
+  missed.gross_error = "x of pair 3 is off";
+  CHECK(concluded({narrow}, missed).estimates[0].reason == missed.gross_error);
 
   LawIntervals laws;
   laws.inflation = 240.0;
@@ -40,6 +48,62 @@ TEST_CASE("The reason of an answer says what it rests on, and counts its rivals"
   other.method = "resonance_two_point";
   CHECK(concluded({one, other}, ledger({})).reason ==
         basis + ", and 2 methods agree; the record has no more readings than parameters, so there is no interval");
+}
+
+TEST_CASE("The reason of a joint fit says why it answers before narrower rivals") {
+  const std::string basis = "none of the assumptions it rests on is violated";
+  const Estimate joint = estimate("joint_fit", 0.1, 4.0, 0.02);
+  CHECK(concluded({joint}, ledger({})).reason == basis);
+  CHECK(concluded({estimate("energy_balance", 0.1, 4.0, 0.01), joint}, ledger({})).reason ==
+        basis + ", and it uses all data: another estimate with a narrower interval has it by chance");
+}
+
+TEST_CASE("A joint fit whose value its interval excludes is reported as the middle of the interval") {
+  const Estimate balance = estimate("energy_balance", 0.1, 4.0, 0.01);
+  Ledger shifted = ledger({});
+  shifted.joint = estimate("joint_fit", 0.1, 4.0, 0.02);
+  shifted.joint->value.zeta = 0.11;
+  const Identification found = concluded({balance, balance}, shifted);
+  REQUIRE(found.answer);
+  CHECK(found.estimates[*found.answer].method == "joint_fit");
+  CHECK(found.estimates[*found.answer].value.zeta == Approx(0.1).epsilon(1e-12));
+}
+
+TEST_CASE("A joint fit says something where its half width is less than its value") {
+  Estimate ranges = estimate("any_law", 0.06, 2.0, 0.3);
+  ranges.laws = std::make_shared<const LawIntervals>();
+  const auto answering = [&](double half_width) {
+    const Identification found = concluded({ranges, estimate("joint_fit", 0.06, 2.0, half_width)}, ledger({}));
+    REQUIRE(found.answer);
+    return found.estimates[*found.answer].method;
+  };
+  CHECK(answering(0.95) == "joint_fit");
+  CHECK(answering(1.05) == "any_law");
+}
+
+TEST_CASE("Intervals that touch agree") {
+  Estimate low = estimate("den_hartog_fit", 0.1, 4.0, 0.02);
+  Estimate high = low;
+  low.interval95->c = {9.0, 10.0};
+  high.interval95->c = {10.0, 11.0};
+  CHECK_FALSE(disagree(low, high));
+  CHECK_FALSE(disagree(high, low));
+  high.interval95->c[0] = 10.001;
+  CHECK(disagree(low, high));
+  CHECK(disagree(high, low));
+}
+
+TEST_CASE("A range whose ends are those of one term names it once, and of two each at its end") {
+  Ledger tested = ledger({});
+  tested.joint = estimate("joint_fit", 0.1, 4.0, 0.01);
+  tested.unseen = UnseenRange{.ends = *tested.joint->interval95, .zeta_by = {"drag", "drag"}, .F0_by = {}};
+  tested.unseen->ends.zeta = {0.08, 0.13};
+  const std::vector<Estimate> both = {*tested.joint, *tested.joint};
+  CHECK(mentions(concluded(both, tested).verdict,
+                 "The tests of these data do not exclude zeta from 0.08 to 0.13 (drag)."));
+  tested.unseen->zeta_by[1] = "a contact that yields";
+  CHECK(mentions(concluded(both, tested).verdict,
+                 "do not exclude zeta from 0.08 (drag) to 0.13 (a contact that yields)."));
 }
 
 TEST_CASE("A range over laws names each departure whose estimate it was extended to") {

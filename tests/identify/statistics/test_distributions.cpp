@@ -31,6 +31,13 @@ TEST_CASE("The p-values of chi-square tests are those of the tables") {
   CHECK(chi_square_p_value(6.6349, 1.0) == Approx(0.01).epsilon(1e-4));
 }
 
+TEST_CASE("The p-values of small statistics are those of closed forms, and those of negative ones are 1") {
+  CHECK(chi_square_p_value(0.2, 2.0) == Approx(std::exp(-0.1)).epsilon(1e-12));
+  CHECK(f_test_p_value(0.2, 2.0, 10.0) == Approx(std::pow(1.0 + 2.0 * 0.2 / 10.0, -5.0)).epsilon(1e-12));
+  CHECK(chi_square_p_value(-0.2, 2.0) == 1.0);
+  CHECK(f_test_p_value(-0.2, 2.0, 10.0) == 1.0);
+}
+
 TEST_CASE("A statistic that is no number has no p-value, and an infinite one has zero") {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   constexpr double none = std::numeric_limits<double>::quiet_NaN();

@@ -56,6 +56,18 @@ TEST_CASE("finer drive: values between the samples are those of the drive", "[id
   }
 }
 
+TEST_CASE("finer drive: both ends are alike", "[identify][fit]") {
+  std::vector<double> samples = sine_of(10.0);
+  const std::optional<identify::FinerSamples> forward = identify::finer_samples(samples);
+  std::ranges::reverse(samples);
+  std::optional<identify::FinerSamples> backward = identify::finer_samples(samples);
+  REQUIRE((forward && backward));
+  std::ranges::reverse(backward->values);
+  REQUIRE(forward->values.size() == backward->values.size());
+  for (std::size_t i = 0; i < forward->values.size(); ++i)
+    CHECK(forward->values[i] == Approx(backward->values[i]).margin(1e-12));
+}
+
 TEST_CASE("finer drive: samples that need no others, or do not show what lies between them, stay",
           "[identify][fit]") {
   CHECK(!identify::finer_samples(sine_of(40.0)));
