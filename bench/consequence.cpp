@@ -8,7 +8,7 @@
 #include <optional>
 #include <utility>
 
-#include "identify/statistics/decompositions.hpp"
+#include "identify/statistics/least_squares.hpp"
 
 namespace dualdamp::bench {
 
@@ -162,31 +162,28 @@ struct Nearest {
   double distance = 0.0;
 };
 
-/// Gauss-Newton, with shorter steps where a whole step increases the distance.
+/// Levenberg and Marquardt's method from the departure's own c and F0; nothing where it does not end.
 std::optional<Nearest> nearest(const MatchedResponse& response, const Eigen::VectorXd& data) {
-  Eigen::Vector2d p = Eigen::Vector2d::Zero();
-  std::optional<Eigen::VectorXd> here = response(p);
-  if (!here) return std::nullopt;
-  constexpr int most_steps = 12;
-  constexpr double short_step = 1e-5;
-  for (int i = 0; i < most_steps; ++i) {
+  identify::LeastSquaresProblem problem;
+  problem.residuals = data.size();
+  problem.start = Eigen::Vector2d::Zero();
+  constexpr double farthest = 10.0;  // a force of exp(-10) times the true one is none
+  problem.low = Eigen::Vector2d::Constant(-farthest);
+  problem.high = Eigen::Vector2d::Constant(farthest);
+  problem.tolerance = 1e-9;
+  problem.most_iterations = 100;
+  problem.evaluate = [&](const Eigen::VectorXd& p, Eigen::VectorXd& misses, Eigen::MatrixXd* jacobian) {
+    const std::optional<Eigen::VectorXd> here = response(p);
+    if (!here) return false;
+    misses = *here - data;
+    if (jacobian == nullptr) return true;
     const std::optional<Eigen::MatrixX2d> slopes = response.slopes(p, data.size());
-    if (!slopes) break;
-    Eigen::Vector2d step = identify::pivoted_least_squares(*slopes, data - *here);
-    step = step.cwiseMax(-1.0).cwiseMin(1.0);
-    const double before = (data - *here).squaredNorm();
-    bool is_nearer = false;
-    for (int halving = 0; halving < 6 && !is_nearer; ++halving, step *= 0.5) {
-      const std::optional<Eigen::VectorXd> there = response(p + step);
-      if (!there || (data - *there).squaredNorm() >= before) continue;
-      is_nearer = true;
-      p += step;
-      here = there;
-      step *= 2.0;
-    }
-    if (!is_nearer || step.norm() < short_step) break;
-  }
-  return Nearest{p, (data - *here).norm()};
+    if (slopes) *jacobian = *slopes;
+    return slopes.has_value();
+  };
+  const identify::LeastSquaresFit found = identify::fit(problem);
+  if (!found.outcome.ok()) return std::nullopt;
+  return Nearest{found.parameters, std::sqrt(found.sum_of_squares)};
 }
 
 /// Relative standard deviations of (c, F0); `here`: readings of the departure.

@@ -50,6 +50,11 @@ std::string data_of(const std::vector<std::string>& files, const RecordOptions& 
   return "[" + list + "]";
 }
 
+/// Whether --set states a part of the drive.
+bool sets_drive(const RecordOptions& command) {
+  return std::ranges::any_of(command.set, [](const std::string& one) { return one.starts_with("excitation"); });
+}
+
 /// `replaces`: the scenario has a drive of another type, whose keys do not apply.
 void add_drive(const RecordOptions& command, bool replaces, scenarios::LoadOptions& options) {
   const auto say = [&](const std::string& assignment, const char* option) {
@@ -59,10 +64,11 @@ void add_drive(const RecordOptions& command, bool replaces, scenarios::LoadOptio
     const std::string amplitude = command.amplitude.empty() ? "" : ", amplitude: " + in_quotes(command.amplitude);
     say("={type: base_harmonic, frequency: " + in_quotes(command.frequency) + amplitude + "}", "--frequency");
   } else {
-    if (!command.frequency.empty()) {
-      say(".type=base_harmonic", "--frequency");
-      say(".frequency=" + command.frequency, "--frequency");
-    }
+    // An amplitude alone is one of the base too: the reader then asks for the frequency.
+    const bool is_amplitude_alone = !replaces && !command.amplitude.empty() && !sets_drive(command);
+    if (!command.frequency.empty() || is_amplitude_alone)
+      say(".type=base_harmonic", command.frequency.empty() ? "--amplitude" : "--frequency");
+    if (!command.frequency.empty()) say(".frequency=" + command.frequency, "--frequency");
     if (!command.amplitude.empty()) say(".amplitude=" + command.amplitude, "--amplitude");
   }
   for (const std::string& assignment : command.set) options.set.push_back({assignment, "--set"});
@@ -88,9 +94,7 @@ Json fitted_document(const std::string& path) {
 /// The override "analysis={...}" of a prediction with this fit.
 std::string prediction_of(const Json& result, const PredictCommand& command) {
   const std::string keys = scenarios::prediction_keys(result).dump();
-  const bool states_drive =
-      !command.frequency.empty() || !command.amplitude.empty() ||
-      std::ranges::any_of(command.set, [](const std::string& one) { return one.starts_with("excitation"); });
+  const bool states_drive = !command.frequency.empty() || !command.amplitude.empty() || sets_drive(command);
   return keys.substr(0, keys.size() - 1) + ", data: " + data_of(command.data, command) +
          (states_drive ? "}" : ", drive_of_fit: true}");
 }

@@ -35,8 +35,7 @@ double joint_freedom(const std::vector<double>& variances, const std::vector<dou
 Eigen::MatrixXd doubt_of_weights(const Eigen::MatrixXd& normal_of_signal, const Eigen::MatrixXd& inverse_of_all,
                                  double freedom) {
   const double variance = freedom > 1.0 ? 2.0 / freedom : 2.0;
-  return 2.0 * variance *
-         (normal_of_signal - product(product(normal_of_signal, inverse_of_all), normal_of_signal));
+  return 2.0 * variance * (normal_of_signal - product(product(normal_of_signal, inverse_of_all), normal_of_signal));
 }
 
 }  // namespace dualdamp::identify

@@ -11,12 +11,14 @@ using bench::Consequence;
 namespace {
 
 /// Of a spring that softens, read by these sensors.
-Consequence consequence_with(const std::string& sensors) {
+Consequence consequence_with(const std::string& sensors, const std::string& severity = "0.02") {
   constexpr std::size_t softening = 1;  // the truth comes first
   const std::string rig =
       "schema: dualdamp/1\nsystem: {mass: 1, stiffness: 1600, damping: 4, friction: {law: coulomb, kinetic: 1}}\n"
       "excitation: {type: base_harmonic, frequency: natural}\n"
-      "analysis: {type: stress_test, laws: [softening_spring], severities: [0.02], methods: [resonance_two_point],\n"
+      "analysis: {type: stress_test, laws: [softening_spring], severities: [" +
+      severity +
+      "], methods: [resonance_two_point],\n"
       "  ranges: [{name: one, amplitudes: [4 mm, 5 mm]}], sensors: [{name: set, ";
   return bench::testing::Campaign(rig + sensors + "}]}\n").consequence(softening);
 }
@@ -54,4 +56,14 @@ TEST_CASE("consequence: without noise there is no distance, and harm that of equ
   CHECK(perfect.harm_zeta == Approx(noisy.harm_zeta).epsilon(1e-6));
   CHECK(perfect.harm_F0 == Approx(noisy.harm_F0).epsilon(1e-6));
   CHECK(std::isfinite(consequence_with("").harm()));
+}
+
+TEST_CASE("consequence: the nearest motion of an extreme departure is found, without friction if need be") {
+  // By a search over a grid of c and F0: 1.53 c, F0 below a hundredth, 7135 deviations. Steps cut off at a factor e
+  // ended at F0/e, 7299 deviations away.
+  const Consequence extreme = consequence_with("sample_rate: 200 Hz, x: {noise: 10 um}", "0.1");
+  CHECK(extreme.distance < 7136.0);
+  CHECK(extreme.distance > 7100.0);
+  CHECK(extreme.harm_zeta == Approx(0.53).margin(0.03));
+  CHECK(extreme.harm_F0 < -0.99);
 }

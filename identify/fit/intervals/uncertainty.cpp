@@ -154,10 +154,8 @@ class Uncertainty {
     classical_ = covariance_;
     scaled_covariance_ = covariance_;
     if (free == 0) return;
-    Eigen::MatrixXd scaled(rows_.rows(), free);
-    for (Eigen::Index j = 0; j < free; ++j)
-      scaled.col(j) =
-          rows_.col(free_[static_cast<std::size_t>(j)]) * judged_change(free_[static_cast<std::size_t>(j)]);
+    const Eigen::MatrixXd all_scaled = rows_ * judged_changes().asDiagonal();
+    const Eigen::MatrixXd scaled = all_scaled(Eigen::all, free_);
     const SymmetricSpectrum normal = symmetric_spectrum(gram(scaled));
     for (Eigen::Index j = 0; j < free; ++j)
       if (!(normal.values[j] > singular * normal.values[free - 1]))
