@@ -356,10 +356,12 @@ identify::Experiments experiments_from(const std::vector<DataItem>& items, const
       if (found.size() == items[i].data.record.histories.size())
         found[h]->record_free.push_back(RecordParameter::offset);
     for (auto& experiment : found) {
+      const bool is_whole = drive.amplitude > 0.0 && drive.frequency > 0.0;
       if (experiment->kind == identify::ExperimentKind::history && !experiment->drive && drive.is_harmonic() &&
-          !(drive.amplitude > 0.0))
-        faults.push_back({place, items[i].file + ": a history under a harmonic drive needs 'excitation.amplitude'; "
-                                                 "'drive: none' beside 'file' in a scenario, if nothing drove it"});
+          !is_whole)
+        faults.push_back({place, items[i].file + ": a history under a harmonic drive needs 'excitation." +
+                                     (drive.frequency > 0.0 ? "amplitude" : "frequency") +
+                                     "'; 'drive: none' beside 'file' in a scenario, if nothing drove it"});
       if (sought.initial_is_known && experiment->kind == identify::ExperimentKind::history) {
         experiment->record_start[RecordParameter::position] = model.initial.position;
         experiment->record_start[RecordParameter::velocity] = model.initial.velocity;
