@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/diagnostics.hpp"
 #include "core/numbers.hpp"
 #include "identify/statistics/decompositions.hpp"
 #include "identify/statistics/distributions.hpp"
