@@ -6,6 +6,8 @@
 #include <functional>
 #include <stdexcept>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "core/constants.hpp"
 #include "core/random.hpp"
@@ -14,6 +16,7 @@
 #include "scenarios/format/limits.hpp"
 #include "scenarios/run.hpp"
 #include "sim/motion/simulate.hpp"
+#include "sim/orbits/steady_state.hpp"
 
 namespace dualdamp::bench::speed {
 
@@ -46,6 +49,28 @@ identify::Experiments measured(const identify::Rig& rig, std::uint64_t seed) {
   return identify::experiments_of(record, {.name = "measured"}, fault);
 }
 
+/// Steady states at sixteen levels of the base, with phases.
+identify::Experiments measured_states(const identify::Rig& rig) {
+  constexpr double noise = 1e-5;
+  constexpr double noise_of_phase = 3e-3;
+  const core::RandomStream draws{1, 931};
+  sim::Model model = *identify::model_of(rig);
+  identify::Record record;
+  std::vector<identify::Pair>& pairs = record.pairs.emplace().pairs;
+  for (std::uint64_t i = 0; i < 16; ++i) {
+    model.excitation.amplitude = 2e-3 + 4e-4 * static_cast<double>(i);
+    const sim::SteadyState state = sim::steady_state(model, {.detail = sim::OrbitDetail::phase, .others = false});
+    pairs.push_back({.Y = model.excitation.amplitude,
+                     .x = state.amplitude + noise * draws.normal(2 * i),
+                     .number = static_cast<int>(i) + 1,
+                     .omega = model.excitation.frequency,
+                     .phase = state.phase + noise_of_phase * draws.normal(2 * i + 1)});
+  }
+  std::string fault;
+  return identify::experiments_of(record, {.name = "measured", .sigma_x = noise, .sigma_phase = noise_of_phase},
+                                  fault);
+}
+
 double seconds_of(const std::function<bool()>& work) {
   const std::clock_t start = std::clock();
   if (!work()) throw std::runtime_error("a fit that is timed failed");
@@ -62,23 +87,29 @@ identify::Fit fit_from_nothing(identify::Rig rig, const identify::Experiments& e
   return identify::fit_rig(rig, std::move(parameters), experiments);
 }
 
-double seconds_for_fit(const identify::Rig& rig) {
-  const identify::Experiments experiments = measured(rig, 1);
+/// `most`: rms of the residuals, over their noise.
+double seconds_for_fit(const identify::Rig& rig, const identify::Experiments& experiments, double most = 1.1) {
   return seconds_of([&] {
     const identify::Fit fit = fit_from_nothing(rig, experiments);
-    constexpr double most = 1.1;
     return fit.outcome.ok() && fit.noise_units < most;
   });
 }
 
 }  // namespace
 
-double seconds_for_coulomb_fit() { return seconds_for_fit(coulomb_rig()); }
+double seconds_for_coulomb_fit() { return seconds_for_fit(coulomb_rig(), measured(coulomb_rig(), 1)); }
 
 double seconds_for_lugre_fit() {
-  return seconds_for_fit(rig_with(
+  const identify::Rig rig = rig_with(
       "lugre",
-      {{"kinetic", 1.0}, {"static", 1.5}, {"stribeck_velocity", 0.03}, {"sigma0", 5000.0}, {"sigma1", 20.0}}));
+      {{"kinetic", 1.0}, {"static", 1.5}, {"stribeck_velocity", 0.03}, {"sigma0", 5000.0}, {"sigma1", 20.0}});
+  return seconds_for_fit(rig, measured(rig, 1));
+}
+
+double seconds_for_dahl_fit() {
+  constexpr double few_readings = 1.5;
+  const identify::Rig rig = rig_with("dahl", {{"kinetic", 1.0}, {"sigma0", 5000.0}});
+  return seconds_for_fit(rig, measured_states(rig), few_readings);
 }
 
 double seconds_for_prediction() {

@@ -9,6 +9,9 @@ namespace dualdamp::bench::speed {
 /// The fit of `lugre` with its five parameters, all free.
 [[nodiscard]] double seconds_for_lugre_fit();
 
+/// The fit of `dahl`, both parameters and damping, to sixteen amplitudes with phases.
+[[nodiscard]] double seconds_for_dahl_fit();
+
 /// The prediction of another such record with fitted parameters, and the best error that the law can attain there.
 [[nodiscard]] double seconds_for_prediction();
 

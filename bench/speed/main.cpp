@@ -130,6 +130,7 @@ void print_identification() {
   print_time("the most memory of all of these [MB]", peak_megabytes(), "500");
   print_time("fit of coulomb and damping, 10 s at 1 kHz", seconds_for_coulomb_fit(), "");
   print_time("fit of lugre (five numbers) and damping, 10 s at 1 kHz", seconds_for_lugre_fit(), "60");
+  print_time("fit of dahl and damping, 16 amplitudes and phases", seconds_for_dahl_fit(), "");
   print_time("prediction of such a record", seconds_for_prediction(), "");
   print_time("sweep of 100 by 100 steady states", seconds_for_sweep(), "");
 }
