@@ -120,7 +120,8 @@ Eigen::VectorXd Profiler::step(Eigen::Index i, double value, const ProfilePath& 
       if (std::abs(inside - q[j]) > rounding * (1.0 + std::abs(inside)) && may_be_held && leaving < 0) leaving = j;
       q[j] = inside;
     }
-    if (leaving < 0 || held == size) return other_of(i, q) < 0 ? q : placed(i, value, q);
+    // Where directions without effect are left out of the solution, it may miss the value.
+    if (leaving < 0 || held == size) return placed(i, value, q);
     const double shift = (q[leaving] - path.q[leaving]) / path.unit[leaving];
     right -= shift * bordered.col(leaving);
     bordered.row(leaving).setZero();
@@ -267,10 +268,15 @@ std::optional<double> Profiler::grown_from(Eigen::Index i, double value, double 
   return grown;
 }
 
-double Profiler::end(Eigen::Index i, const FittedParameter& fitted, double limit, double sign) const {
+double Profiler::end(Eigen::Index i, const FittedParameter& fitted, double limit, double sign,
+                     const ProfileStart& start) const {
   const SearchCoordinate& c = problem_.space()[i];
   const friction::Range& range = fitted.parameter.range;
+  const double last_value = sign < 0.0 ? range.low : range.high;
+  const double whole_way = c.logarithmic ? std::abs(fitted.value * std::log(last_value / fitted.value))
+                                         : std::abs(last_value - fitted.value);
   const auto value_at = [&](double distance) {
+    if (distance >= whole_way) return last_value;
     const double value =
         c.logarithmic ? fitted.value * std::exp(sign * distance / fitted.value) : fitted.value + sign * distance;
     return std::clamp(value, range.low, range.high);
@@ -278,21 +284,24 @@ double Profiler::end(Eigen::Index i, const FittedParameter& fitted, double limit
   Eigen::VectorXd at_end = q_;
   at_end[i] = sign < 0.0 ? c.low : c.high;
   const double farthest = problem_.space().values(at_end)[i];
-  double distance = first_distance(i, fitted, limit);
-  ProfilePath others = at(q_, residuals_, rows_, motions_);
-  ProfilePath within = others;
+  const double begun =
+      sign * (c.logarithmic ? fitted.value * std::log(start.value / fitted.value) : start.value - fitted.value);
   Bracket bracket;
+  if (begun > 0.0) bracket.take(begun, start.growth / limit);
+  double distance = bracket.inner + first_distance(i, fitted, limit);
+  ProfilePath others = start.path;
+  ProfilePath within = others;
   double last = 0.0;
   // A step of the sum of squares may be some thousand times shorter than the first distance.
   const int most_rounds = problem_.is_stepped(i) ? 40 : 16;
   constexpr double close = 0.02;
   for (int round = 0; round < most_rounds; ++round) {
+    distance = std::min(distance, whole_way);  // beyond it all distances are one place
     const double value = value_at(distance);
     const std::optional<double> grown = grown_from(i, value, limit, last > 1.0 ? &within : nullptr, others);
     if (!grown) return unknown;
     last = *grown / limit;
     if (std::abs(last - 1.0) < close) return value;
-    const double last_value = sign < 0.0 ? range.low : range.high;
     if (last < 1.0 && value == last_value) return value;
     if (last < 1.0 && is_flat(i, fitted, limit) && sign * (value - farthest) >= 0.0) return last_value;
     const double next = bracket.guess(distance, last);
@@ -313,17 +322,57 @@ double Profiler::end(Eigen::Index i, const FittedParameter& fitted, double limit
   return std::abs(last - 1.0) < near ? value_at(distance) : unknown;
 }
 
-Interval Profiler::widened(Eigen::Index i, Interval interval, double limit) const {
-  for (const auto& [values, growth] : places_) {
-    if (growth > limit) continue;
-    if (values[i] < interval[0]) interval[0] = values[i];
-    if (values[i] > interval[1]) interval[1] = values[i];
+std::optional<Profiler::ProfileStart> Profiler::away_from(Eigen::Index weak, Eigen::Index i, double limit,
+                                                          double sign) const {
+  constexpr double far = 2.0;
+  const double weak_value = problem_.space().values(q_)[weak];
+  const std::pair<Eigen::VectorXd, double>* best = nullptr;
+  for (const auto& place : places_) {
+    const double factor = place.first[weak] / weak_value;
+    if (place.second > limit || (factor < far && factor > 1.0 / far)) continue;
+    if (best == nullptr || sign * (place.first[i] - best->first[i]) > 0.0) best = &place;
   }
-  return interval;
+  if (best == nullptr) return std::nullopt;
+  const Eigen::VectorXd q = problem_.space().point(best->first);
+  Eigen::VectorXd outputs;
+  Eigen::MatrixXd jacobian;
+  LastMotions motions = motions_;
+  if (!problem_.derivatives(q, outputs, jacobian, false, &motions)) return std::nullopt;
+  return ProfileStart{at(q, problem_.readings().misses(outputs).cwiseProduct(weights_),
+                         weights_.asDiagonal() * jacobian, std::move(motions)),
+                      best->first[i], best->second};
+}
+
+void Profiler::search_on(Eigen::Index weak, Eigen::Index i, double limit, FittedParameter& fitted) const {
+  for (const double sign : {-1.0, 1.0}) {
+    const std::optional<ProfileStart> start = away_from(weak, i, limit, sign);
+    const double found = start ? end(i, fitted, limit, sign, *start) : unknown;
+    double& side = fitted.profile95[sign < 0.0 ? 0 : 1];
+    if (sign * (found - side) > 0.0) side = found;
+  }
+}
+
+void Profiler::widen(std::vector<FittedParameter>& parameters, const Eigen::VectorXd& limits) const {
+  const auto is_weak = [&](Eigen::Index i) {
+    const FittedParameter& fitted = parameters[static_cast<std::size_t>(i)];
+    return limits[i] > 0.0 && problem_.space()[i].logarithmic && !(fitted.std < fitted.value);
+  };
+  for (Eigen::Index weak = 0; weak < limits.size(); ++weak)
+    for (Eigen::Index i = 0; is_weak(weak) && i < limits.size(); ++i)
+      if (i != weak && limits[i] > 0.0) search_on(weak, i, limits[i], parameters[static_cast<std::size_t>(i)]);
+  for (Eigen::Index i = 0; i < limits.size(); ++i) {
+    Interval& interval = parameters[static_cast<std::size_t>(i)].profile95;
+    for (const auto& [values, growth] : places_) {
+      if (growth > limits[i]) continue;
+      if (values[i] < interval[0]) interval[0] = values[i];
+      if (values[i] > interval[1]) interval[1] = values[i];
+    }
+  }
 }
 
 Interval Profiler::interval(Eigen::Index i, const FittedParameter& fitted, double limit) const {
-  Interval found = {end(i, fitted, limit, -1.0), end(i, fitted, limit, 1.0)};
+  const ProfileStart start{at(q_, residuals_, rows_, motions_), fitted.value, 0.0};
+  Interval found = {end(i, fitted, limit, -1.0, start), end(i, fitted, limit, 1.0, start)};
   if (const std::optional<std::size_t>& least = problem_.space().above(i)) {
     const double lowest = problem_.space().values(q_)[static_cast<Eigen::Index>(*least)];
     ProfilePath others = at(q_, residuals_, rows_, motions_);

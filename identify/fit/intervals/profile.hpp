@@ -37,9 +37,11 @@ class Profiler {
   /// has no level at which it breaks away, and rests under a high one. `limit`: of the square root of the growth.
   [[nodiscard]] Interval interval(Eigen::Index i, const FittedParameter& fitted, double limit) const;
 
-  /// An interval that also holds the values of parameter `i` wherever any profile so far came with a growth below
-  /// the limit. A profile that starts beside a bound may not find the valley that another one finds.
-  [[nodiscard]] Interval widened(Eigen::Index i, Interval interval, double limit) const;
+  /// Widens the profiles, once all have ended, to the values of their parameters wherever any profile came with a
+  /// growth below the limit (0: no profile). A profile that starts beside a bound may not find the valley that
+  /// another one finds. Nor does one that starts where another parameter has lost its effect, as the exponent of a
+  /// sharp yield: from the places far from there it is searched on.
+  void widen(std::vector<FittedParameter>& parameters, const Eigen::VectorXd& limits) const;
 
   /// Coordinates with a smaller sum of squares than the estimate, if a profile found any: the search had not ended
   /// at the minimum.
@@ -85,7 +87,20 @@ class Profiler {
   [[nodiscard]] bool is_flat(Eigen::Index i, const FittedParameter& fitted, double limit) const;
   /// The first distance of the parameter from its estimate.
   [[nodiscard]] double first_distance(Eigen::Index i, const FittedParameter& fitted, double limit) const;
-  [[nodiscard]] double end(Eigen::Index i, const FittedParameter& fitted, double limit, double sign) const;
+  /// Where a profile begins: the value of its parameter there, and the growth.
+  struct ProfileStart {
+    ProfilePath path;
+    double value = 0.0;
+    double growth = 0.0;
+  };
+  [[nodiscard]] double end(Eigen::Index i, const FittedParameter& fitted, double limit, double sign,
+                           const ProfileStart& start) const;
+  /// Of the places of all profiles within the limit at which parameter `weak` is far from its estimate, that with
+  /// the largest value of parameter `i`, or the smallest; nothing if there is none.
+  [[nodiscard]] std::optional<ProfileStart> away_from(Eigen::Index weak, Eigen::Index i, double limit,
+                                                      double sign) const;
+  /// Widens the profile of parameter `i` by one that begins away from `weak`.
+  void search_on(Eigen::Index weak, Eigen::Index i, double limit, FittedParameter& fitted) const;
 
   const FitProblem& problem_;
   const Eigen::VectorXd& weights_;

@@ -345,11 +345,7 @@ class Uncertainty {
       limits[i] = limit_of(i);
       fitted.profile95 = profiler.interval(i, fitted, limits[i]);
     });
-    for (Eigen::Index i = 0; i < size_; ++i) {
-      if (limits[i] == 0.0) continue;
-      FittedParameter& fitted = fit_.parameters[static_cast<std::size_t>(i)];
-      fitted.profile95 = profiler.widened(i, fitted.profile95, limits[i]);
-    }
+    profiler.widen(fit_.parameters, limits);
     if (end_.problem.is_exhausted())
       drop_profiles();
     else
