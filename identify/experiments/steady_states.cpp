@@ -87,16 +87,16 @@ class SteadyStates final : public Experiment {
           is_smooth_(std::ranges::any_of(model.friction, [](const auto& law) { return !law.is_affine(); })) {
       is_complete_ = states_.fill(model, outputs, [&](std::size_t i) {
         const sim::Model there = driven(model, states_.levels_[i], states_.by_force_);
-        const sim::SteadyStateOptions options = states_.options(model);
+        sim::SteadyStateOptions options = states_.options(model);
         if (from != nullptr) {
+          options = near(options, from->orbits_[i]);
           sim::SteadyState state = sim::steady_state_near(from->orbits_[i], there, options);
-          if (state.outcome.ok()) {
-            sim::KnownOrbit orbit = sim::known_orbit(there, state);
-            // The motion of a model farther away may have left the orbit that was followed to it.
-            if (sim::attracts(orbit)) {
-              orbits_.push_back(std::move(orbit));
-              return state;
-            }
+          if (!state.outcome.ok()) return state;
+          sim::KnownOrbit orbit = sim::known_orbit(there, state);
+          // The motion of a model farther away may have left the orbit that was followed to it.
+          if (sim::attracts(orbit)) {
+            orbits_.push_back(std::move(orbit));
+            return state;
           }
         }
         sim::SteadyState state = sim::steady_state(there, options);
@@ -111,11 +111,20 @@ class SteadyStates final : public Experiment {
                                Eigen::VectorXd& outputs) const override {
       return states_.fill(model, outputs, [&](std::size_t i) {
         return sim::steady_state_near(orbits_[i], driven(model, states_.levels_[i], states_.by_force_),
-                                      states_.options(model), share);
+                                      near(states_.options(model), orbits_[i]), share);
       });
     }
 
    private:
+    /// A step of a search may lead to a place whose motions take hundreds of times the work of those where it is: a
+    /// mass that a bristle of a million times the stiffness holds. Such a place has no motion; the search then
+    /// makes a shorter step.
+    static sim::SteadyStateOptions near(sim::SteadyStateOptions options, const sim::KnownOrbit& orbit) {
+      constexpr long most_periods = 1000;
+      if (orbit.work > 0) options.most_work = most_periods * orbit.work;
+      return options;
+    }
+
     const SteadyStates& states_;
     bool is_smooth_;
     bool is_complete_ = false;

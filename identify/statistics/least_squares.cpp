@@ -128,8 +128,8 @@ double squares(const LeastSquaresProblem& problem, const Eigen::VectorXd& parame
 /// A run within bounds. The solver makes its steps for the whole space and cuts them off at a bound: along a bound
 /// it needs a hundred steps instead of ten. Parameters that end at a bound are therefore held there, and released
 /// if the sum of squares does not decrease beyond the bound. The linearised problem may lead to the wrong bound,
-/// far from the minimum: what ends there must not be worse than the place from which it was taken. A run of a few
-/// steps is not continued so: it was asked for no more than these.
+/// far from the minimum: where a few steps do not come below the place from which it was taken, that run is given
+/// up. A run of a few steps is not continued so: it was asked for no more than these.
 ceres::Solver::Summary solve(const LeastSquaresProblem& problem, Eigen::VectorXd& parameters) {
   const int most_iterations = problem.most_iterations;
   constexpr int first_iterations = 4;
@@ -139,11 +139,15 @@ ceres::Solver::Summary solve(const LeastSquaresProblem& problem, Eigen::VectorXd
   Eigen::VectorXd on_bounds = parameters;
   const std::vector<int> held = take_to_bounds(problem, on_bounds);
   if (!held.empty() && held.size() < static_cast<std::size_t>(parameters.size())) {
-    summary = solve(problem, held, most_iterations, on_bounds);
-    if (summary.termination_type == ceres::CONVERGENCE && are_held(problem, on_bounds, held) &&
-        squares(problem, on_bounds) <= squares(problem, parameters)) {
-      parameters = on_bounds;
-      return summary;
+    const double before = squares(problem, parameters);
+    summary = solve(problem, held, first_iterations, on_bounds);
+    if (squares(problem, on_bounds) <= before) {
+      if (summary.termination_type != ceres::CONVERGENCE)
+        summary = solve(problem, held, most_iterations, on_bounds);
+      if (summary.termination_type == ceres::CONVERGENCE && are_held(problem, on_bounds, held)) {
+        parameters = on_bounds;
+        return summary;
+      }
     }
   }
   return solve(problem, {}, most_iterations, parameters);

@@ -17,6 +17,10 @@ namespace {
 /// A correction must reduce the closure by this factor at least; for neighbours it reduces it by far more.
 constexpr double quick = 0.3;
 
+/// Corrections are given up after as much work as this number of forcing periods of the known orbit takes: a step
+/// may lead to states far from any orbit, where a forcing period takes thousands of times the work.
+constexpr long most_periods = 200;
+
 /// Corrects by the known orbit's monodromy matrix until the orbit closes, and once more, because differences
 /// between neighbours may be small beside the tolerance; or until a correction is less than `share` of the first.
 /// False if a correction does not help.
@@ -78,10 +82,11 @@ bool close(PeriodMap& map, const KnownOrbit& near, const Model& model, const Ste
 
 KnownOrbit known_orbit(const Model& model, const SteadyState& state) {
   PeriodMap map(model);
-  if (map.engine().has_past()) return {state.start, {}};
+  if (map.engine().has_past()) return {.start = state.start, .monodromy = {}};
   ForcingPeriod period = map.from(state.start, Monodromy::with);
-  if (!period.ends_in_its_mode()) return {state.start, {}};
-  return {state.start, std::move(period.monodromy)};
+  const long work = map.engine().work();
+  if (!period.ends_in_its_mode()) period.monodromy.resize(0, 0);
+  return {state.start, std::move(period.monodromy), work};
 }
 
 bool attracts(const KnownOrbit& orbit) {
@@ -102,6 +107,7 @@ SteadyState steady_state_near(const KnownOrbit& near, const Model& model, const 
   SteadyStateOptions alone = options;
   alone.others = false;
   if (near.monodromy.size() == 0) return steady_state(model, alone);
+  map.limit(std::min(options.most_work, most_periods * near.work));
   if (correct(map, near, model, options, share, result)) {
     ForcingPeriod known;
     known.monodromy = near.monodromy;

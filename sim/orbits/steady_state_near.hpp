@@ -14,6 +14,7 @@ namespace dualdamp::sim {
 struct KnownOrbit {
   State start;
   Eigen::MatrixXd monodromy;  ///< empty if the motion depends on its past
+  long work = 0;              ///< `Engine::work` of its forcing period; 0 if the motion depends on its past
 };
 
 /// `state`: a steady state of `model` whose outcome is ok(). Cost: one forcing period with its derivative.
@@ -25,8 +26,8 @@ struct KnownOrbit {
 /// `near`: of a model with the same laws. `share`: the state may be off by this part of its distance from the known
 /// one, which is all that a difference quotient needs; 0: only within the tolerance. The result has the Floquet
 /// multipliers of the known orbit, or its own if its corrections needed them; `newton_steps` counts corrections. If
-/// no correction helps, or the orbit found does not attract, the result is that of `steady_state`, without others.
-/// Needs a harmonic excitation.
+/// no correction helps, or the orbit found does not attract, the result is that of `steady_state`, without others;
+/// corrections are given up after the work of 200 periods of the known orbit. Needs a harmonic excitation.
 [[nodiscard]] SteadyState steady_state_near(const KnownOrbit& near, const Model& model,
                                             const SteadyStateOptions& options = {}, double share = 0.0);
 

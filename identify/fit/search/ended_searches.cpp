@@ -59,12 +59,15 @@ LeastSquaresFit scan(LeastSquaresFit from, const WeightedSearch& search, const F
 
 std::optional<SearchResult> ended_search(const FitProblem& problem, LeastSquaresFit from,
                                          const SearchOptions& options) {
-  constexpr double fine = 1e-8;
   constexpr int most_rounds = 12;
   constexpr double settled = 1e-3;
-  // While the weights still change by a multiple, a minimum by them need not be found to its last digits.
-  constexpr double coarse = 1e-5;
   constexpr double large = 0.1;
+  // A search ends where a step lowers the sum of squares by a small part of the variance of a reading, so that the
+  // parameters are within a hundredth of their standard errors. Along a valley in which the readings hardly tell
+  // parameters apart, steps go on for ever. While the weights still change by a multiple, less will do.
+  const double variance = 1.0 / std::max(1.0, problem.readings().count());
+  const double fine = std::max(1e-8, 1e-4 * variance);
+  const double coarse = std::max(1e-5, 1e-2 * variance);
   WeightedSearch search(problem, options);
   const bool several_weights = has_several_weights(problem, options);
   double last = several_weights && search.begins_anew() ? core::infinity : 0.0;

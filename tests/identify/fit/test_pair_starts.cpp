@@ -227,3 +227,23 @@ TEST_CASE("fit: residuals that no measurement has are told although few readings
   CHECK(tells(wrong));
   CHECK(!tells(fit_of(rig, states_of(rig, {0.97, 1.0, 1.03}, {1.0, 1.5, 2.2, 3.0}))));
 }
+
+TEST_CASE("fit: a step to motions that take hundreds of times the work finds no motion there",
+          "[identify][fit][pairs]") {
+  // A bristle of 600 N/m that never yields; then one of 4e7 N/m, whose vibration with the mass swings 250 times in
+  // a forcing period and hardly dies out.
+  const auto rig_with = [](double sigma0, double sigma1) {
+    return rig_of_speed(
+        "lugre",
+        {{"kinetic", 1e4}, {"static", 1e4}, {"stribeck_velocity", 80.0}, {"sigma0", sigma0}, {"sigma1", sigma1}});
+  };
+  const identify::Experiments experiments = amplitudes_of(rig_of_speed("coulomb", {{"kinetic", 1.0}}));
+  Eigen::VectorXd outputs;
+  const auto near =
+      experiments.front()->neighbours(*identify::model_of(rig_with(600.0, 2.0)), {}, nullptr, outputs);
+  REQUIRE(near != nullptr);
+  CHECK(near->predict(*identify::model_of(rig_with(610.0, 2.0)), {}, 0.0, outputs));
+  const long before = *experiments.front()->work;
+  CHECK_FALSE(near->predict(*identify::model_of(rig_with(4e7, 4.5)), {}, 0.0, outputs));
+  CHECK(*experiments.front()->work < 20 * before);
+}

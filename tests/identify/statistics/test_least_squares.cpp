@@ -115,6 +115,39 @@ TEST_CASE("A bound to which the linearised problem leads is left if the sum of s
   CHECK(std::abs(found.parameters[1]) < 0.1);
 }
 
+TEST_CASE("A wrong bound to which the linearised problem leads costs a few steps") {
+  // As above. At the bounds p0 has a minimum so flat that tens of steps lead to it.
+  LeastSquaresProblem problem;
+  problem.residuals = 3;
+  problem.start = Eigen::Vector2d(3.0, 0.5);
+  problem.low = Eigen::Vector2d(-10.0, -3.0);
+  problem.high = Eigen::Vector2d(10.0, 3.0);
+  problem.tolerance = 1e-12;
+  int at_bound = 0;
+  problem.evaluate = [&](const Eigen::VectorXd& p, Eigen::VectorXd& r, Eigen::MatrixXd* J) {
+    if (std::abs(p[1]) == 3.0) ++at_bound;
+    const double square = p[1] * p[1];
+    const double whole = 1.0 + square;
+    const double flat = std::pow(p[0], 8) / 9.0;
+    r.resize(3);
+    r << 0.01 * (p[0] - 1.0), 1.0 + 9.0 * square / (whole * whole), square * square * square * flat;
+    if (J != nullptr) {
+      J->setZero(3, 2);
+      (*J)(0, 0) = 0.01;
+      (*J)(1, 1) = 18.0 * p[1] * (1.0 - square) / (whole * whole * whole);
+      (*J)(2, 0) = square * square * square * 8.0 * std::pow(p[0], 7) / 9.0;
+      (*J)(2, 1) = 6.0 * square * square * p[1] * flat;
+    }
+    return true;
+  };
+  const LeastSquaresFit found = fit(problem);
+  CHECK(found.sum_of_squares < 1.01);
+  CHECK(std::abs(found.parameters[1]) < 0.1);
+  CAPTURE(at_bound);
+  CHECK(at_bound > 0);
+  CHECK(at_bound < 40);
+}
+
 TEST_CASE("A direction that the data leave open has no covariance") {
   Eigen::MatrixXd jacobian(3, 2);
   jacobian << 1.0, 2.0, 2.0, 4.0, 3.0, 6.0;

@@ -130,3 +130,15 @@ TEST_CASE("a known orbit of other laws is refused") {
   const sim::KnownOrbit known = sim::known_orbit(list[0], sim::steady_state(list[0]));
   CHECK_THROWS(sim::steady_state_near(known, two));
 }
+
+TEST_CASE("a neighbour that takes more work than allowed is given up, with the reason") {
+  for (sim::Model model : models()) {
+    const sim::KnownOrbit known = sim::known_orbit(model, sim::steady_state(model));
+    CHECK(known.work > 0);
+    model.excitation.amplitude *= 2.0;
+    CHECK(sim::steady_state_near(known, model, {.most_work = 100 * known.work}).outcome.ok());
+    const sim::SteadyState given_up = sim::steady_state_near(known, model, {.most_work = known.work / 4});
+    CHECK_FALSE(given_up.outcome.ok());
+    CHECK_FALSE(given_up.outcome.reason.empty());
+  }
+}
