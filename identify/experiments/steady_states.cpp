@@ -89,7 +89,7 @@ class SteadyStates final : public Experiment {
         const sim::Model there = driven(model, states_.levels_[i], states_.by_force_);
         sim::SteadyStateOptions options = states_.options(model);
         if (from != nullptr) {
-          options = near(options, from->orbits_[i]);
+          options = limited(options, from->orbits_[i]);
           sim::SteadyState state = sim::steady_state_near(from->orbits_[i], there, options);
           if (!state.outcome.ok()) return state;
           sim::KnownOrbit orbit = sim::known_orbit(there, state);
@@ -111,7 +111,7 @@ class SteadyStates final : public Experiment {
                                Eigen::VectorXd& outputs) const override {
       return states_.fill(model, outputs, [&](std::size_t i) {
         return sim::steady_state_near(orbits_[i], driven(model, states_.levels_[i], states_.by_force_),
-                                      near(states_.options(model), orbits_[i]), share);
+                                      limited(states_.options(model), orbits_[i]), share);
       });
     }
 
@@ -119,7 +119,7 @@ class SteadyStates final : public Experiment {
     /// A step of a search may lead to a place whose motions take hundreds of times the work of those where it is: a
     /// mass that a bristle of a million times the stiffness holds. Such a place has no motion; the search then
     /// makes a shorter step.
-    static sim::SteadyStateOptions near(sim::SteadyStateOptions options, const sim::KnownOrbit& orbit) {
+    static sim::SteadyStateOptions limited(sim::SteadyStateOptions options, const sim::KnownOrbit& orbit) {
       constexpr long most_periods = 1000;
       if (orbit.work > 0) options.most_work = most_periods * orbit.work;
       return options;
