@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "core/constants.hpp"
@@ -16,8 +17,34 @@ namespace {
 /// Beyond this multiple of the limit, the growth may come from steps that led nowhere.
 constexpr double doubtful = 2.0;
 
+/// Of a distance, and of a growth over its limit: near enough.
+constexpr double close = 0.02;
+
+/// Of a distance: from no farther off, the others are followed to a value as far as they go.
+constexpr double nearby = 0.3;
+
 /// Of the steps that lead out of a place where the others went nowhere.
 constexpr double least_damping = 0.01;
+
+/// One side of a profile: distances from the estimate, in the unit of the parameter. Those of a parameter that is
+/// sought by its logarithm are of the logarithm, times the estimate.
+struct Side {
+  double sign = 1.0;
+  double estimate = 0.0;
+  bool is_logarithmic = false;
+  friction::Range range;
+
+  [[nodiscard]] double last_value() const { return sign < 0.0 ? range.low : range.high; }
+  [[nodiscard]] double distance_of(double value) const {
+    return sign * (is_logarithmic ? estimate * std::log(value / estimate) : value - estimate);
+  }
+  [[nodiscard]] double value_at(double distance) const {
+    if (distance >= distance_of(last_value())) return last_value();
+    const double value =
+        is_logarithmic ? estimate * std::exp(sign * distance / estimate) : estimate + sign * distance;
+    return std::clamp(value, range.low, range.high);
+  }
+};
 
 /// Where the growth of a profile reaches its limit: between two distances from the estimate, with the growths there
 /// over the limit.
@@ -26,6 +53,7 @@ struct Bracket {
   double inner_growth = 0.0;
   double outer = core::infinity;
   double outer_growth = 0.0;
+  bool is_glance = false;  ///< the growth at the outer distance was not searched to its end
 
   /// The root by a new point. The growth is nearly linear, except at a jump, which is halved.
   [[nodiscard]] double guess(double distance, double growth) const {
@@ -35,12 +63,15 @@ struct Bracket {
     return inner + (distance - inner) * (1.0 - inner_growth) / std::max(growth - inner_growth, least);
   }
 
-  void take(double distance, double growth) {
+  void take(double distance, double growth, bool by_glance = false) {
     if (growth < 1.0)
       inner = distance, inner_growth = growth;
     else
-      outer = distance, outer_growth = growth;
+      outer = distance, outer_growth = growth, is_glance = by_glance;
   }
+
+  /// Whether the ends are so close that the root is known, or that a glance is to be followed by a search.
+  [[nodiscard]] bool is_closed() const { return outer - inner < (is_glance ? nearby : close) * outer; }
 
   /// A guess, at least a tenth inside of both ends.
   [[nodiscard]] double within(double next) const {
@@ -68,7 +99,9 @@ Profiler::Profiler(const FitProblem& problem, const Eigen::VectorXd& weights, co
       rows_(rows),
       residuals_(residuals),
       motions_(motions),
-      squares_(residuals.squaredNorm()) {}
+      squares_(residuals.squaredNorm()),
+      lower_(static_cast<std::size_t>(q.size())),
+      first_in_vain_(std::numeric_limits<Eigen::Index>::max() - 1) {}
 
 void Profiler::for_each(Eigen::Index count, const std::function<void(Eigen::Index)>& work) {
   sim::in_parts(static_cast<std::size_t>(count), 1, 0,
@@ -161,11 +194,13 @@ std::optional<double> Profiler::alone(Eigen::Index i, double value, ProfilePath&
   return growth_of(path.residuals);
 }
 
-std::optional<double> Profiler::growth(Eigen::Index i, double value, double limit, ProfilePath& path) const {
+std::optional<double> Profiler::growth(Eigen::Index i, double value, double limit, bool glances,
+                                       ProfilePath& path) const {
   const ProfilePath before = path;
-  constexpr double nothing = core::infinity;
-  std::optional<double> best = followed(i, value, nothing, 0.0, path);
+  const double astray = glances ? doubtful * limit : core::infinity;
+  std::optional<double> best = followed(i, value, core::infinity, 0.0, astray, path);
   if (best && *best <= limit) return best;
+  if (glances && !(best && *best <= astray)) return best;
   // The others may have moved across a jump of the sum of squares, such as that of one stick more.
   ProfilePath beside = before;
   const std::optional<double> unfollowed = alone(i, value, beside);
@@ -173,12 +208,12 @@ std::optional<double> Profiler::growth(Eigen::Index i, double value, double limi
   if (led_nowhere) path = beside, best = unfollowed;
   if (!unfollowed || *best <= limit || (!led_nowhere && *best <= doubtful * limit)) return best;
   // One of the others may have nearly no effect: a small error of its derivative moves it to the end of its range.
-  const std::optional<double> damped = followed(i, value, *unfollowed, least_damping, beside);
+  const std::optional<double> damped = followed(i, value, *unfollowed, least_damping, core::infinity, beside);
   if (damped && *damped < *best) path = std::move(beside), best = damped;
   return best;
 }
 
-bool Profiler::take(const Eigen::VectorXd& q, ProfilePath& path, double& best) const {
+bool Profiler::take(Eigen::Index i, const Eigen::VectorXd& q, ProfilePath& path, double& best) const {
   Eigen::VectorXd outputs;
   if (!problem_.outputs(q, outputs, &path.motions)) return false;
   Eigen::VectorXd residuals = problem_.readings().misses(outputs).cwiseProduct(weights_);
@@ -187,24 +222,38 @@ bool Profiler::take(const Eigen::VectorXd& q, ProfilePath& path, double& best) c
   best = found;
   path.q = q;
   path.residuals = std::move(residuals);
-  note(path, best);
+  note(i, path, best);
   return true;
 }
 
-void Profiler::note(const ProfilePath& path, double growth) const {
-  // In units of the variance of a reading. A smaller gain only means that the search ended near enough to the
-  // minimum.
+void Profiler::note(Eigen::Index i, const ProfilePath& path, double growth) const {
+  // In variances of a reading. A smaller gain only means that the search ended near enough to the minimum.
   constexpr double margin = 0.05;
-  const double squares = path.residuals.squaredNorm();
-  const std::lock_guard lock(mutex_);
+  constexpr double much = 1.0;
   constexpr double beyond_any_limit = 10.0;
+  const double gain = (1.0 - path.residuals.squaredNorm() / squares_) * static_cast<double>(residuals_.size());
+  const std::lock_guard lock(mutex_);
   if (growth < beyond_any_limit) places_.emplace_back(problem_.space().values(path.q), growth);
-  // The smallest of all, so that the order of the threads does not matter.
-  const double limit = lower_ ? lower_->second : squares_ * (1.0 - margin / static_cast<double>(residuals_.size()));
-  if (squares < limit) lower_ = {path.q, squares};
+  std::optional<Lower>& lower = lower_[static_cast<std::size_t>(i)];
+  if (gain > (lower ? lower->gain : margin)) lower = {path.q, gain};
+  if (gain > much) first_in_vain_ = std::min(first_in_vain_, i);
 }
 
-std::optional<double> Profiler::followed(Eigen::Index i, double value, double best, double damping,
+bool Profiler::is_in_vain(Eigen::Index i) const {
+  const std::lock_guard lock(mutex_);
+  return first_in_vain_ <= i;
+}
+
+std::optional<Eigen::VectorXd> Profiler::lower() const {
+  const Lower* best = nullptr;
+  for (Eigen::Index i = 0; i < std::min(first_in_vain_ + 1, q_.size()); ++i)
+    if (const auto& lower = lower_[static_cast<std::size_t>(i)];
+        lower && (best == nullptr || lower->gain > best->gain))
+      best = &*lower;
+  return best != nullptr ? std::optional(best->q) : std::nullopt;
+}
+
+std::optional<double> Profiler::followed(Eigen::Index i, double value, double best, double damping, double astray,
                                          ProfilePath& path) const {
   const auto result = [&] { return std::isfinite(best) ? std::optional<double>(best) : std::nullopt; };
   // A bent valley needs many sets of derivatives; elsewhere, the first set suffices.
@@ -220,10 +269,10 @@ std::optional<double> Profiler::followed(Eigen::Index i, double value, double be
       const double before = best;
       const Eigen::VectorXd q = step(i, value, path, damping);
       const Eigen::VectorXd from = path.q;
-      if (!take(q, path, best)) return result();
+      if (!take(i, q, path, best)) return result();
       // A step out of the range of the derivatives is tried again with a shorter length.
       constexpr double shorter = 0.3;
-      if (!(best < before) && std::isfinite(before) && !take(from + shorter * (q - from), path, best))
+      if (!(best < before) && std::isfinite(before) && !take(i, from + shorter * (q - from), path, best))
         return result();
       if (!(best < before) && damping > 0.0 && damping < most_damping) {
         damping *= stronger;
@@ -233,7 +282,7 @@ std::optional<double> Profiler::followed(Eigen::Index i, double value, double be
       damping = damping > 0.0 ? std::max(damping / stronger, least_damping) : 0.0;
       is_settled = before - best <= settled * best;
     }
-    if (is_settled || derivative == most_derivatives) return result();
+    if (is_settled || derivative == most_derivatives || best > astray) return result();
     if (derivative > 1 && !(begun - best > settled * best)) return result();
     Eigen::VectorXd outputs;
     Eigen::MatrixXd jacobian;
@@ -258,11 +307,11 @@ double Profiler::first_distance(Eigen::Index i, const FittedParameter& fitted, d
 }
 
 std::optional<double> Profiler::grown_from(Eigen::Index i, double value, double limit, const ProfilePath* within,
-                                           ProfilePath& others) const {
-  std::optional<double> best = growth(i, value, limit, others);
+                                           bool glances, ProfilePath& others) const {
+  std::optional<double> best = growth(i, value, limit, glances, others);
   if (within == nullptr || (best && *best <= limit)) return best;
   ProfilePath again = *within;
-  const std::optional<double> grown = growth(i, value, limit, again);
+  const std::optional<double> grown = growth(i, value, limit, glances, again);
   if (!grown || (best && *best <= *grown)) return best;
   others = std::move(again);
   return grown;
@@ -271,21 +320,12 @@ std::optional<double> Profiler::grown_from(Eigen::Index i, double value, double 
 double Profiler::end(Eigen::Index i, const FittedParameter& fitted, double limit, double sign,
                      const ProfileStart& start) const {
   const SearchCoordinate& c = problem_.space()[i];
-  const friction::Range& range = fitted.parameter.range;
-  const double last_value = sign < 0.0 ? range.low : range.high;
-  const double whole_way = c.logarithmic ? std::abs(fitted.value * std::log(last_value / fitted.value))
-                                         : std::abs(last_value - fitted.value);
-  const auto value_at = [&](double distance) {
-    if (distance >= whole_way) return last_value;
-    const double value =
-        c.logarithmic ? fitted.value * std::exp(sign * distance / fitted.value) : fitted.value + sign * distance;
-    return std::clamp(value, range.low, range.high);
-  };
+  const Side side{sign, fitted.value, c.logarithmic, fitted.parameter.range};
+  const double whole_way = side.distance_of(side.last_value());
   Eigen::VectorXd at_end = q_;
   at_end[i] = sign < 0.0 ? c.low : c.high;
   const double farthest = problem_.space().values(at_end)[i];
-  const double begun =
-      sign * (c.logarithmic ? fitted.value * std::log(start.value / fitted.value) : start.value - fitted.value);
+  const double begun = side.distance_of(start.value);
   Bracket bracket;
   if (begun > 0.0) bracket.take(begun, start.growth / limit);
   double distance = bracket.inner + first_distance(i, fitted, limit);
@@ -293,33 +333,41 @@ double Profiler::end(Eigen::Index i, const FittedParameter& fitted, double limit
   ProfilePath within = others;
   double last = 0.0;
   // A step of the sum of squares may be some thousand times shorter than the first distance.
-  const int most_rounds = problem_.is_stepped(i) ? 40 : 16;
-  constexpr double close = 0.02;
-  for (int round = 0; round < most_rounds; ++round) {
+  const int most_rounds = problem_.is_stepped(i) ? 40 : 24;
+  int glances_left = problem_.is_stepped(i) ? 0 : 8;
+  for (int round = 0; round < most_rounds && !is_in_vain(i); ++round) {
     distance = std::min(distance, whole_way);  // beyond it all distances are one place
-    const double value = value_at(distance);
-    const std::optional<double> grown = grown_from(i, value, limit, last > 1.0 ? &within : nullptr, others);
-    if (!grown) return unknown;
-    last = *grown / limit;
+    const double value = side.value_at(distance);
+    // Far off, the derivatives may lead out of a bent valley. Such a value is searched from nearer ones only.
+    const bool glances = glances_left > 0 && distance - bracket.inner > nearby * distance;
+    const bool has_two = last > 1.0 && !bracket.is_glance;
+    const std::optional<double> grown = grown_from(i, value, limit, has_two ? &within : nullptr, glances, others);
+    const bool is_astray = glances && (!grown || *grown > doubtful * limit);
+    if (!grown && !is_astray) return unknown;
+    last = grown ? *grown / limit : core::infinity;
+    if (is_astray) others = within, --glances_left;
     if (std::abs(last - 1.0) < close) return value;
-    if (last < 1.0 && value == last_value) return value;
-    if (last < 1.0 && is_flat(i, fitted, limit) && sign * (value - farthest) >= 0.0) return last_value;
+    if (last < 1.0 && value == side.last_value()) return value;
+    if (last < 1.0 && is_flat(i, fitted, limit) && sign * (value - farthest) >= 0.0) return side.last_value();
     const double next = bracket.guess(distance, last);
-    bracket.take(distance, last);
+    bracket.take(distance, last, is_astray);
     if (last < 1.0) within = others;
-    if (bracket.outer - bracket.inner < close * bracket.outer) {
+    if (bracket.is_closed()) {
       // The others may reach from here what they did not reach from further off.
-      if (!(bracket.outer_growth > doubtful)) return value_at(bracket.outer);
+      if (!(bracket.outer_growth > doubtful)) return side.value_at(bracket.outer);
       others = within;
-      const std::optional<double> again = growth(i, value_at(bracket.outer), limit, others);
-      if (!again || *again >= limit) return value_at(bracket.outer);
-      within = others;
-      bracket = {bracket.outer, *again / limit};
+      const std::optional<double> again = growth(i, side.value_at(bracket.outer), limit, false, others);
+      const bool is_outer = !again || *again >= limit;
+      if (is_outer && !bracket.is_glance) return side.value_at(bracket.outer);
+      if (is_outer)
+        bracket.take(bracket.outer, again ? *again / limit : core::infinity);
+      else
+        within = others, bracket = {bracket.outer, *again / limit};
     }
     distance = bracket.within(next);
   }
   constexpr double near = 0.1;
-  return std::abs(last - 1.0) < near ? value_at(distance) : unknown;
+  return std::abs(last - 1.0) < near && !is_in_vain(i) ? side.value_at(distance) : unknown;
 }
 
 std::optional<Profiler::ProfileStart> Profiler::away_from(Eigen::Index weak, Eigen::Index i, double limit,
@@ -353,6 +401,7 @@ void Profiler::search_on(Eigen::Index weak, Eigen::Index i, double limit, Fitted
 }
 
 void Profiler::widen(std::vector<FittedParameter>& parameters, const Eigen::VectorXd& limits) const {
+  if (are_in_vain()) return;
   const auto is_weak = [&](Eigen::Index i) {
     const FittedParameter& fitted = parameters[static_cast<std::size_t>(i)];
     return limits[i] > 0.0 && problem_.space()[i].logarithmic && !(fitted.std < fitted.value);
@@ -377,7 +426,8 @@ Interval Profiler::interval(Eigen::Index i, const FittedParameter& fitted, doubl
     const double lowest = problem_.space().values(q_)[static_cast<Eigen::Index>(*least)];
     ProfilePath others = at(q_, residuals_, rows_, motions_);
     const bool is_lower = found[0] > lowest;
-    if (const auto grown = is_lower ? growth(i, lowest, limit, others) : std::nullopt; grown && *grown <= limit)
+    if (const auto grown = is_lower ? growth(i, lowest, limit, false, others) : std::nullopt;
+        grown && *grown <= limit)
       found[0] = lowest;
   }
   return found;

@@ -45,9 +45,11 @@ class Profiler {
 
   /// Coordinates with a smaller sum of squares than the estimate, if a profile found any: the search had not ended
   /// at the minimum.
-  [[nodiscard]] std::optional<Eigen::VectorXd> lower() const {
-    return lower_ ? std::optional(lower_->first) : std::nullopt;
-  }
+  [[nodiscard]] std::optional<Eigen::VectorXd> lower() const;
+
+  /// Whether a profile came so far below the estimate that the profiles are to be made again from there. Those of
+  /// the parameters after it have then ended early, and none of them counts.
+  [[nodiscard]] bool are_in_vain() const { return is_in_vain(q_.size()); }
 
  private:
   /// Where the path of a profile is, and the derivatives there.
@@ -69,18 +71,25 @@ class Profiler {
   /// `q` with parameter `i` at `value`. The parameter that it must not be below gives way.
   [[nodiscard]] Eigen::VectorXd placed(Eigen::Index i, double value, const Eigen::VectorXd& q) const;
   /// The square root of the growth of the sum of squares with parameter `i` at `value`. Nothing: no motion.
-  [[nodiscard]] std::optional<double> growth(Eigen::Index i, double value, double limit, ProfilePath& path) const;
+  /// `glances`: the search ends if the first derivatives lead far beyond the limit.
+  [[nodiscard]] std::optional<double> growth(Eigen::Index i, double value, double limit, bool glances,
+                                             ProfilePath& path) const;
   /// The same from `others`, which may lie beyond the limit, or from `within` it, if that is better.
   [[nodiscard]] std::optional<double> grown_from(Eigen::Index i, double value, double limit,
-                                                 const ProfilePath* within, ProfilePath& others) const;
-  /// The same by Gauss-Newton steps from `path`, whose growth is `best`; infinite: parameter `i` is elsewhere.
+                                                 const ProfilePath* within, bool glances,
+                                                 ProfilePath& others) const;
+  /// The same by Gauss-Newton steps from `path`, whose growth is `best`; infinite: parameter `i` is elsewhere. They
+  /// end if the first derivatives lead to more than `astray`.
   [[nodiscard]] std::optional<double> followed(Eigen::Index i, double value, double best, double damping,
-                                               ProfilePath& path) const;
+                                               double astray, ProfilePath& path) const;
   /// The same with the other parameters unchanged.
   [[nodiscard]] std::optional<double> alone(Eigen::Index i, double value, ProfilePath& path) const;
-  /// Moves `path` to `q` if the sum of squares is smaller there. False: no motion.
-  [[nodiscard]] bool take(const Eigen::VectorXd& q, ProfilePath& path, double& best) const;
-  void note(const ProfilePath& path, double growth) const;
+  /// Moves `path` of parameter `i` to `q` if the sum of squares is smaller there. False: no motion.
+  [[nodiscard]] bool take(Eigen::Index i, const Eigen::VectorXd& q, ProfilePath& path, double& best) const;
+  void note(Eigen::Index i, const ProfilePath& path, double growth) const;
+  /// Whether the profile of parameter `i`, or of one before it, came far below the estimate. That those after it do
+  /// not matter makes the result the same on any number of threads.
+  [[nodiscard]] bool is_in_vain(Eigen::Index i) const;
   [[nodiscard]] double growth_of(const Eigen::VectorXd& residuals) const;
   /// Whether a parameter that is sought by its logarithm has no effect near the estimate: a factor e of it changes
   /// the readings by less than the limit. Its profile goes outwards by factors, to the end of the search.
@@ -110,7 +119,12 @@ class Profiler {
   const LastMotions& motions_;
   double squares_ = 0.0;
   mutable std::mutex mutex_;
-  mutable std::optional<std::pair<Eigen::VectorXd, double>> lower_;
+  struct Lower {
+    Eigen::VectorXd q;
+    double gain = 0.0;  ///< variances of a reading
+  };
+  mutable std::vector<std::optional<Lower>> lower_;  ///< found by the profile of each parameter
+  mutable Eigen::Index first_in_vain_;
   mutable std::vector<std::pair<Eigen::VectorXd, double>> places_;  ///< values, and the growth there
 };
 

@@ -346,17 +346,13 @@ class Uncertainty {
       fitted.profile95 = profiler.interval(i, fitted, limits[i]);
     });
     profiler.widen(fit_.parameters, limits);
+    if (!end_.problem.is_exhausted()) lower_ = profiler.lower();
+    // Some of them have ended; which ones depends on the number of threads.
+    if (end_.problem.is_exhausted() || profiler.are_in_vain())
+      for (FittedParameter& fitted : fit_.parameters) fitted.profile95 = {unknown, unknown};
     if (end_.problem.is_exhausted())
-      drop_profiles();
-    else
-      lower_ = profiler.lower();
-  }
-
-  /// Some of them have ended; which ones depends on the number of threads.
-  void drop_profiles() {
-    for (FittedParameter& fitted : fit_.parameters) fitted.profile95 = {unknown, unknown};
-    fit_.warnings.emplace_back(
-        "the search for profiles was cut short: their motions took too many steps, and no parameter has one");
+      fit_.warnings.emplace_back(
+          "the search for profiles was cut short: their motions took too many steps, and no parameter has one");
   }
 
   [[nodiscard]] double mean_variance() const {

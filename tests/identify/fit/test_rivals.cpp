@@ -2,10 +2,11 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <string>
 
-#include "friction_models/law.hpp"
 #include "identify/fit/fit.hpp"
+#include "tests/identify/fit/sum_of_squares.hpp"
 #include "tests/identify/fit/synthetic.hpp"
 
 using namespace dualdamp;
@@ -13,51 +14,26 @@ using namespace dualdamp::identify;
 
 namespace {
 
-constexpr Eigen::Index group = 20;
 constexpr double steepness = 10.0;
-constexpr double coefficient = 2.0;  // N.s/m
 
-/// Readings whose sum of squares over t = ln(saturation velocity / (1 m/s)) and the damping c is
+/// A sum of squares over t and the damping c of
 ///   60 + [10 (t^2 - 1)]^2 + [slope (t - middle)]^2 + (c - 100)^2
-/// with a noise of 1: minima near t = -1 and t = 1.
-class TwoMinima final : public Experiment {
- public:
-  TwoMinima(double slope, double middle, double gap) : slope_(slope), middle_(middle), gap_(gap) {
-    label = "two minima";
-    Signal signal{.name = "x", .unit = "m", .at_name = "t", .at_unit = "s", .noise = 1.0, .is_stated = true};
-    for (Eigen::Index i = 0; i < 3 * group; ++i) {
-      signal.measured.push_back(i % 2 == 0 ? 1.0 : -1.0);
-      signal.at.push_back(static_cast<double>(i));
-    }
-    signals.push_back(std::move(signal));
-  }
-
-  [[nodiscard]] bool predict(const sim::Model& model, const RecordValues& /*of_record*/,
-                             Eigen::VectorXd& outputs) const override {
-    // At this speed the law's force is its limit.
-    const friction::Instant fast{.v = 1e12};
-    const double t = std::log(model.friction.front().force({}, fast, friction::Direction::forward) / coefficient);
-    if (std::abs(t) < gap_) return false;
-    const std::array parts = {steepness * (t * t - 1.0), slope_ * (t - middle_), model.oscillator.damping - 100.0};
-    outputs.resize(3 * group);
-    for (Eigen::Index part = 0; part < 3; ++part)
-      outputs.segment(part * group, group)
-          .setConstant(parts[static_cast<std::size_t>(part)] / std::sqrt(static_cast<double>(group)));
-    return true;
-  }
-
- private:
-  double slope_;
-  double middle_;
-  double gap_;  ///< there is no motion for a smaller |t|
-};
+/// with minima near t = -1 and t = 1. There is no motion for |t| < gap.
+std::unique_ptr<Experiment> two_minima(double slope, double middle, double gap) {
+  return std::make_unique<test::SumOfSquares>(
+      [=](double t, const sim::Oscillator& oscillator) -> std::optional<std::array<double, 3>> {
+        if (std::abs(t) < gap) return std::nullopt;
+        return {{steepness * (t * t - 1.0), slope * (t - middle), oscillator.damping - 100.0}};
+      });
+}
 
 Fit fit_of_two_minima(double slope, double middle, double begun_at, double gap = 0.0) {
   Rig rig = test::rig_with(test::law_case_of("viscous_saturating"));
   rig.known.oscillator.damping = 100.0;
-  rig.laws.front().values = {{"coefficient", coefficient}, {"saturation_velocity", std::exp(begun_at)}};
+  rig.laws.front().values = {{"coefficient", test::saturating_coefficient},
+                             {"saturation_velocity", std::exp(begun_at)}};
   Experiments experiments;
-  experiments.push_back(std::make_unique<TwoMinima>(slope, middle, gap));
+  experiments.push_back(two_minima(slope, middle, gap));
   std::vector<FitParameter> parameters = test::sought_in(rig, {"damping", "saturation_velocity"}, 1.0);
   return fit_rig(rig, std::move(parameters), experiments);
 }
