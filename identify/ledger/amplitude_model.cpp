@@ -1,17 +1,16 @@
 #include "identify/ledger/amplitude_model.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numeric>
 #include <optional>
-#include <set>
 #include <vector>
 
 #include "core/constants.hpp"
 #include "identify/conclusion.hpp"
 #include "identify/ledger/amplitude_noise.hpp"
+#include "identify/ledger/amplitude_states.hpp"
 #include "identify/ledger/amplitude_step.hpp"
 #include "identify/ledger/amplitude_terms.hpp"
 #include "identify/ledger/stated_noise.hpp"
@@ -23,210 +22,19 @@ namespace dualdamp::identify {
 
 namespace {
 
-/// Y and phase of the drive that a motion needs.
-using Asked = Eigen::Vector2d;
-
-Asked asked(std::complex<double> drive) { return {std::abs(drive), std::arg(drive)}; }
-
-/// Derivative of the needed drive, by a small step either way.
-template <typename At>
-Asked slope(const At& at, double step) {
-  const Asked up = asked(at(step));
-  const Asked down = asked(at(-step));
-  return Asked(up[0] - down[0], wrapped(up[1] - down[1])) / (2.0 * step);
-}
-
-constexpr double small = 1e-5;
-
-/// Rows of one linearisation, each over its deviation; rows of phases follow those of amplitudes.
-struct Rows {
-  Eigen::VectorXd residuals;
-  Eigen::MatrixXd base;
-  Eigen::MatrixXd relaxed;
-  std::vector<Reading> readings;  ///< lengths in units of the largest amplitude
-  double log_variances = 0.0;     ///< half the log of the determinant of V
-};
-
-class SteadyStates {
- public:
-  /// `known`: stated deviations of amplitudes, in the unit of the points.
-  SteadyStates(std::vector<SteadyPoint> points, bool with_phases, const KnownDeviations& known)
-      : points_(std::move(points)), known_(known) {
-    for (const SteadyPoint& point : points_) {
-      true_x_.push_back(point.x);
-      frequencies_.insert(std::lround(1e4 * point.r));
-      sweeps_ = std::max(sweeps_, point.sweep + 1);
-      phases_ += with_phases && !std::isnan(point.phase) ? 1 : 0;
-    }
-    with_phases_ = phases_ >= 2;
-    largest_ = largest_deviations(points_);
-    for (const AmplitudeTerm& term : amplitude_terms()) {
-      const bool by_frequency = term.several_frequencies && frequencies_.size() < 2;
-      if (!by_frequency) terms_.push_back(&term);
-    }
-  }
-
-  [[nodiscard]] const std::vector<SteadyPoint>& points() const { return points_; }
-  [[nodiscard]] const std::vector<const AmplitudeTerm*>& terms() const { return terms_; }
-  /// The true amplitude of a state at the last linearisation.
-  [[nodiscard]] double true_x(std::size_t i) const { return true_x_[i]; }
-  [[nodiscard]] bool with_phases() const { return with_phases_; }
-  [[nodiscard]] const KnownDeviations& known() const { return known_; }
-  [[nodiscard]] const Deviations& largest() const { return largest_; }
-  [[nodiscard]] std::size_t frequencies() const { return frequencies_.size(); }
-  [[nodiscard]] Eigen::Index smooth_columns() const {
-    return identify::smooth_columns(frequencies() > 1, points_.size());
-  }
-  [[nodiscard]] int sweeps() const { return sweeps_; }
-  [[nodiscard]] Eigen::Index amplitudes() const { return static_cast<Eigen::Index>(points_.size()); }
-  [[nodiscard]] Eigen::Index phases() const { return with_phases_ ? phases_ : 0; }
-  /// If only some states have phases, these may be too few for a smooth curve to leave noise. Then the noise is
-  /// taken as large as that of the amplitudes, relative to the largest.
-  [[nodiscard]] bool tells_phase_noise() const { return phases() == amplitudes() || phases() > smooth_columns(); }
-
-  [[nodiscard]] std::vector<Relaxation> relaxations() const {
-    std::vector<Relaxation> list;
-    for (const AmplitudeTerm* term : terms_)
-      list.push_back({term->assumption, std::string(term->test), term->sign, term->freed});
-    for (int j = 0; j < contrasts(); ++j)
-      list.push_back({Assumption::stationarity, "friction force of sweep " + std::to_string(j + 1) + " free"});
-    if (has_trend()) list.push_back({Assumption::stationarity, "friction force that drifts from sweep to sweep"});
-    return list;
-  }
-
-  /// Linearised at the parameters and at the true amplitudes of the last call; then updates these amplitudes.
-  /// Columns of relaxations that are not wanted are zero.
-  Rows linearise(SteadyParameters at, const Deviations& deviations, const Taken& wanted) {
-    Rows rows;
-    const Eigen::Index count = amplitudes() + phases();
-    rows.residuals.resize(count);
-    rows.base.resize(count, 2);
-    rows.relaxed.setZero(count, at.g.size());
-    rows.readings.resize(static_cast<std::size_t>(count));
-    Eigen::Index phase_row = amplitudes();
-    for (std::size_t i = 0; i < points_.size(); ++i) {
-      const bool has_phase = with_phases_ && !std::isnan(points_[i].phase);
-      add_state(i, at, deviations, has_phase ? phase_row++ : -1, wanted, rows);
-    }
-    return rows;
-  }
-
-  /// Coefficients of all relaxations, each zero.
-  [[nodiscard]] Eigen::VectorXd none_relaxed() const {
-    return Eigen::VectorXd::Zero(static_cast<Eigen::Index>(terms_.size()) + contrasts() + (has_trend() ? 1 : 0));
-  }
-
- private:
-  /// Number of sweeps whose friction force is set free: the first ones, if there are very many.
-  [[nodiscard]] int contrasts() const {
-    constexpr int most = 8;
-    return sweeps_ < 2 ? 0 : sweeps_ == 2 ? 1 : std::min(sweeps_, most);
-  }
-
-  [[nodiscard]] bool has_trend() const { return sweeps_ > 2; }
-
-  /// Friction displacement of a sweep less the mean over all sweeps, which is x_f.
-  [[nodiscard]] double excess(int sweep, const SteadyParameters& at) const {
-    const auto first = static_cast<Eigen::Index>(terms_.size());
-    double sum = 0.0;
-    for (int j = 0; j < contrasts(); ++j) sum += at.g[first + j] * (j == sweep ? 1.0 : -1.0 / (sweeps_ - 1.0));
-    if (has_trend()) sum += at.g[first + contrasts()] * (2.0 * sweep / (sweeps_ - 1.0) - 1.0);
-    return sum;
-  }
-
-  /// The drive that a state needs, with every relaxation by its coefficient.
-  [[nodiscard]] std::complex<double> drive(const SteadyPoint& point, const SteadyParameters& at, double x) const {
-    PlainFriction friction = at.friction;
-    friction.x_f += excess(point.sweep, at);
-    const std::complex<double> plain = plain_drive(friction, x, point.r);
-    std::complex<double> sum = plain;
-    for (std::size_t j = 0; j < terms_.size(); ++j) {
-      const double g = at.g[static_cast<Eigen::Index>(j)];
-      if (g != 0.0) sum += terms_[j]->drive(friction, x, point.r, g) - plain;
-    }
-    return sum;
-  }
-
-  /// Column of `parameter`, a number of `at`, which is moved and put back: the derivative of the needed drive.
-  [[nodiscard]] Asked column(const SteadyPoint& point, const SteadyParameters& at, double x, double step,
-                             double& parameter) const {
-    const double here = parameter;
-    const Asked found = slope(
-        [&](double h) {
-          parameter = here + h;
-          return drive(point, at, x);
-        },
-        step);
-    parameter = here;
-    return found;
-  }
-
-  /// `at` is as before, afterwards.
-  void add_state(std::size_t i, SteadyParameters& at, const Deviations& deviations, Eigen::Index phase_row,
-                 const Taken& wanted, Rows& rows) {
-    const SteadyPoint& point = points_[i];
-    double& xi = true_x_[i];
-    const bool has_phase = phase_row >= 0;
-    const Asked model = asked(drive(point, at, xi));
-    const Asked by_x = slope([&](double h) { return drive(point, at, xi + h); }, small);
-    Asked residual(point.Y - model[0], has_phase ? wrapped(point.phase - model[1]) : 0.0);
-    residual -= by_x * (point.x - xi);
-    if (!has_phase) residual[1] = 0.0;
-
-    Eigen::Matrix2d variance =
-        Eigen::Vector2d(deviations.Y * deviations.Y, deviations.phase * deviations.phase).asDiagonal();
-    const double x_variance = deviations.x * deviations.x;
-    variance += x_variance * by_x * by_x.transpose();
-    if (!has_phase) {
-      variance(0, 1) = variance(1, 0) = 0.0;
-      variance(1, 1) = 1.0;
-    }
-    const Eigen::LLT<Eigen::Matrix2d> factor(variance);
-    rows.log_variances += std::log(factor.matrixL()(0, 0)) + std::log(factor.matrixL()(1, 1));
-    const auto row = static_cast<Eigen::Index>(i);
-    const auto put = [&](const Asked& column, auto into) {
-      const Asked whitened = factor.matrixL().solve(column);
-      into(row) = whitened[0];
-      if (has_phase) into(phase_row) = whitened[1];
-    };
-    put(residual, rows.residuals.col(0));
-    const Eigen::Matrix2d L = factor.matrixL();
-    rows.readings[i] = {ReadingKind::amplitude, point.number, by_x[0] == 0.0 ? 0.0 : -L(0, 0) / by_x[0]};
-    if (has_phase) rows.readings[static_cast<std::size_t>(phase_row)] = {ReadingKind::phase, point.number, L(1, 1)};
-    put(column(point, at, xi, small * std::max(at.friction.zeta, 1e-3), at.friction.zeta), rows.base.col(0));
-    put(column(point, at, xi, small, at.friction.x_f), rows.base.col(1));
-    for (const std::size_t number : wanted) {
-      const auto j = static_cast<Eigen::Index>(number);
-      put(column(point, at, xi, small, at.g[j]), rows.relaxed.col(j));
-    }
-    const Asked solved = factor.solve(residual);
-    xi = std::max(point.x + x_variance * by_x.dot(solved), 1e-3 * point.x);
-  }
-
-  std::vector<SteadyPoint> points_;
-  std::vector<double> true_x_;
-  KnownDeviations known_;
-  Deviations largest_;
-  std::set<long> frequencies_;
-  std::vector<const AmplitudeTerm*> terms_;
-  int sweeps_ = 0;
-  Eigen::Index phases_ = 0;
-  bool with_phases_ = false;
-};
-
 struct AmplitudeFit {
   SteadyParameters at;
   Deviations deviations;
-  Rows rows;
-  std::optional<SteadyStates> states;  ///< what gives the rows with the columns of all relaxations
-  double deviance = core::infinity;    ///< -2 log-likelihood
-  double scatter = 1.0;                ///< of the amplitudes about a smooth curve, over their deviation
+  AmplitudeRows rows;
+  std::optional<AmplitudeStates> states;  ///< what gives the rows with the columns of all relaxations
+  double deviance = core::infinity;       ///< -2 log-likelihood
+  double scatter = 1.0;                   ///< of the amplitudes about a smooth curve, over their deviation
 };
 
 /// The noise of one channel: what a smooth curve leaves of its residuals. A departure is smooth, so it is not taken
 /// for noise. Of few states the curve is over the fitted amplitudes: at one level of Y a measured one is a curve
 /// over r and its own noise. Of many it is over the measured ones, which hold where the model misses the record.
-double scale_of(const SteadyStates& states, const Eigen::VectorXd& residuals, Eigen::Index first,
+double scale_of(const AmplitudeStates& states, const Eigen::VectorXd& residuals, Eigen::Index first,
                 Eigen::Index count) {
   Eigen::MatrixXd curve(count, states.smooth_columns());
   Eigen::Index row = 0;
@@ -248,7 +56,7 @@ double scale_of(const SteadyStates& states, const Eigen::VectorXd& residuals, Ei
 /// The fit with sigma_Y = `ratio` sigma_x. A fit that once came near zeta = 0 climbs from there by half of zeta in
 /// a step, so it may need more steps than most. Amplitudes alone hardly show some relaxations, and more steps only
 /// take these further from what is possible.
-AmplitudeFit fit_with(SteadyStates states, const SteadyParameters& begin, const Taken& taken, double ratio) {
+AmplitudeFit fit_with(AmplitudeStates states, const SteadyParameters& begin, const Taken& taken, double ratio) {
   AmplitudeFit fit;
   fit.at = begin;
   const KnownDeviations& known = states.known();
@@ -303,7 +111,7 @@ AmplitudeFit with_all_columns(AmplitudeFit fit) {
 /// The fit with the best ratio of the deviations. Some 25 states hardly determine it, so it has a prior: sensors of
 /// equal relative accuracy, with a factor of three as one standard deviation. At one frequency without phases the
 /// record does not determine it at all, because the gain of Y on x hardly varies: only x has errors then.
-AmplitudeFit best_fit(const SteadyStates& states, const SteadyParameters& begin, const Taken& taken) {
+AmplitudeFit best_fit(const AmplitudeStates& states, const SteadyParameters& begin, const Taken& taken) {
   if (is_stated(states.known())) return with_all_columns(fit_with(states, begin, taken, 1.0));
   if (states.frequencies() < 2 && states.phases() == 0)
     return with_all_columns(fit_with(states, begin, taken, 0.0));
@@ -324,10 +132,11 @@ AmplitudeFit best_fit(const SteadyStates& states, const SteadyParameters& begin,
 /// Leaves out the terms that amplitudes alone do not show. At resonance the drive is in quadrature with the motion,
 /// and a force in phase with the motion hardly changes its amplitude: only an absurd force would be seen. Such a
 /// term is not tested, but may explain what another test finds.
-void leave_out_unseen(const SteadyStates& states, const PlainFriction& friction, const Taken& taken,
+void leave_out_unseen(const AmplitudeStates& states, const PlainFriction& friction, const Taken& taken,
                       JointModel& model) {
   if (states.with_phases()) return;
   constexpr double seen = 0.2;
+  constexpr double small = 1e-5;
   const std::vector<const AmplitudeTerm*>& terms = states.terms();
   for (std::size_t j = 0; j < terms.size(); ++j) {
     double radial = 0.0;
@@ -345,7 +154,7 @@ void leave_out_unseen(const SteadyStates& states, const PlainFriction& friction,
 }
 
 /// The constants with the fitted natural frequency: another stiffness, or another mass.
-KnownConstants constants_at(const AmplitudeFit& fit, const SteadyStates& states, KnownConstants constants) {
+KnownConstants constants_at(const AmplitudeFit& fit, const AmplitudeStates& states, KnownConstants constants) {
   for (std::size_t j = 0; j < states.terms().size(); ++j) {
     const double g = fit.at.g[static_cast<Eigen::Index>(j)];
     if (states.terms()[j]->freed == Freed::stiffness) constants.stiffness *= std::exp(-2.0 * g);
@@ -355,7 +164,7 @@ KnownConstants constants_at(const AmplitudeFit& fit, const SteadyStates& states,
 }
 
 /// The fit with more relaxations free than `fit`. It is never worse: it may begin at `fit` as well, and may stay.
-AmplitudeFit fit_beside(const AmplitudeFit& fit, const SteadyStates& states, const Taken& hidden,
+AmplitudeFit fit_beside(const AmplitudeFit& fit, const AmplitudeStates& states, const Taken& hidden,
                         const Taken& taken) {
   SteadyParameters begin{start_beside(fit.at.friction, states.points()), states.none_relaxed()};
   AmplitudeFit best = best_fit(states, begin, taken);
@@ -373,7 +182,7 @@ AmplitudeFit fit_beside(const AmplitudeFit& fit, const SteadyStates& states, con
   return best.deviance > fit.deviance ? fit : best;
 }
 
-JointModel amplitude_model_of(const AmplitudeFit& fit, const SteadyStates& states, const Taken& relaxed,
+JointModel amplitude_model_of(const AmplitudeFit& fit, const AmplitudeStates& states, const Taken& relaxed,
                               double unit, const KnownConstants& stated) {
   const KnownConstants constants = constants_at(fit, states, stated);
   JointModel model;
@@ -426,7 +235,7 @@ std::variant<JointModel, std::string> amplitude_model(const Record& record, cons
   double ratio = 1.0;
   while (points.size() >= fewest) {
     if (std::string lack = lacks_levels(points); !lack.empty()) return lack;
-    const SteadyStates states(points, true, stated);
+    const AmplitudeStates states(points, true, stated);
     const AmplitudeFit fit = best_fit(states, {first_guess(points), states.none_relaxed()}, {});
     if (!std::isfinite(fit.deviance)) return "no damping ratio and friction force fit the steady states";
     if (drop_sticking(points, fit.at.friction, left_out)) continue;

@@ -39,10 +39,13 @@ Complex plain_drive(const PlainFriction& friction, double x, double r) {
   const sim::analytic::DenHartog d = functions_at(friction.zeta, r);
   const double x_f = friction.x_f;
   const Complex stiffness((1.0 - r) * (1.0 + r), 2.0 * friction.zeta * r);
-  // The drive that the closed form needs, counted from the turning point, and the fundamental of x under it.
+  // The drive that the closed form needs, counted from the turning point. The fundamental of x under it is what
+  // friction leaves of it, over the stiffness: the phase is counted from there. Roots of norms: std::abs, which
+  // minds overflow, would take a sixth of the ledger's time.
   const Complex drive = Complex(x + d.G * x_f, -d.H * x_f) * stiffness;
-  const Complex fundamental = (drive - i * (4.0 / std::numbers::pi * x_f)) / stiffness;
-  return drive * std::polar(1.0, -std::arg(fundamental));
+  const Complex left = drive - i * (4.0 / std::numbers::pi * x_f);
+  const double size = std::sqrt(std::norm(left) * std::norm(stiffness));
+  return size > 0.0 ? drive * (std::conj(left) * stiffness / size) : drive;
 }
 
 std::vector<SteadyPoint> points_of(const std::vector<Pair>& states, const KnownConstants& constants, double unit) {

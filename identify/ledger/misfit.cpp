@@ -26,9 +26,8 @@ double largest_change(const JointModel& model, const Eigen::MatrixXd& columns, d
   return std::max(change(0, model.value.zeta), change(1, model.value.F0));
 }
 
-}  // namespace
-
-std::optional<Misfit> misfit_of(const JointModel& model, const Taken& taken, double least_change) {
+/// Of the channel that the model misses most, whether by chance or not. Nothing: its noise is not known.
+std::optional<Misfit> largest_misfit(const JointModel& model, const Taken& taken) {
   const Eigen::MatrixXd columns = free_columns(model.base, model.relaxed, taken);
   const double freedom = static_cast<double>(columns.rows() - columns.cols()) - model.spent;
   if (model.known_noise.empty() || freedom < 1.0) return std::nullopt;
@@ -45,9 +44,25 @@ std::optional<Misfit> misfit_of(const JointModel& model, const Taken& taken, dou
     if (p_value < misfit.p_value) misfit = {p_value, std::sqrt(F)};
     first += noise.rows;
   }
-  if (!(misfit.p_value < family_level)) return std::nullopt;
-  const double length = std::sqrt(std::max(0.0, left.squaredNorm() - freedom));
-  return largest_change(model, columns, length) >= least_change ? std::optional(misfit) : std::nullopt;
+  return misfit;
+}
+
+}  // namespace
+
+std::optional<Misfit> misfit_of(const JointModel& model, const Taken& taken, double least_change) {
+  const std::optional<Misfit> misfit = largest_misfit(model, taken);
+  if (!misfit || !(misfit->p_value < family_level)) return std::nullopt;
+  const Eigen::MatrixXd columns = free_columns(model.base, model.relaxed, taken);
+  const double freedom = static_cast<double>(columns.rows() - columns.cols()) - model.spent;
+  const double squares = left_beside(columns, model.residuals).squaredNorm();
+  const double length = std::sqrt(std::max(0.0, squares - freedom));
+  return largest_change(model, columns, length) >= least_change ? misfit : std::nullopt;
+}
+
+bool leaves_misfit(const JointModel& model, const Taken& taken, double least_change) {
+  constexpr double most_times = 3.0;
+  const std::optional<Misfit> left = largest_misfit(model, taken);
+  return (left && left->times > most_times) || misfit_of(model, taken, least_change);
 }
 
 std::string misfit_size(const Misfit& misfit) {

@@ -309,7 +309,8 @@ FoundDeparture departure_shown(const JointModel& model, const Taken& taken,
 
 /// Does a relaxed model explain what the one before missed as a whole: far better, with nothing left beside it?
 bool explains(const JointModel& relaxed, const Taken& taken, double deviance_before, double least_change) {
-  if (!(relaxed.deviance < deviance_before - far_better) || misfit_of(relaxed, taken, least_change)) return false;
+  if (!(relaxed.deviance < deviance_before - far_better) || leaves_misfit(relaxed, taken, least_change))
+    return false;
   const std::vector<RelaxationTest> tests = tests_beside(relaxed, project(relaxed, taken), least_change);
   return std::ranges::all_of(tests, [](const RelaxationTest& test) { return test.p_value >= family_level; });
 }
