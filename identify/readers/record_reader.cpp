@@ -59,11 +59,20 @@ constexpr std::array<Foreign, 15> foreign_formats = {
      {"<"sv, "the file is a page of the web, or XML", "the data as CSV"},
      {"{"sv, "the file is JSON", "the data as CSV"}}};
 
+/// What follows blank lines and comments.
+std::string_view content_of(std::string_view beginning) {
+  while (beginning.starts_with('#') || beginning.starts_with('\n') || beginning.starts_with('\r'))
+    beginning.remove_prefix(std::min(beginning.find('\n'), beginning.size() - 1) + 1);
+  return beginning;
+}
+
 /// A file that cannot be a data file, such as an endless device, is not read to its end.
 void refuse_at_sight(std::string_view beginning, const std::string& name) {
   for (const Foreign& format : foreign_formats)
     if (beginning.starts_with(format.magic))
       refuse_file(name, std::string(format.message), std::string(format.advice));
+  if (content_of(beginning).starts_with("schema: dualdamp/"))
+    refuse_file(name, "the file is a scenario", "a data file; 'dualdamp run' takes a scenario");
   const bool is_binary = beginning.find('\0') != std::string_view::npos;
   if (is_binary && !is_mat(beginning) && !is_universal_file(beginning) && !is_utf16(beginning))
     refuse_binary(beginning, name);

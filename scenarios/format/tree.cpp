@@ -133,10 +133,12 @@ Document::Document(std::string name, const std::string& text, core::SettingWords
         Diagnostic{{sources_.front().name, 0, 0, {}}, "the file is too large", "at most 1 MiB", {}, {}});
   root_ = parse(0, 0);
   if (root_.kind == Node::Kind::map) return;
-  const bool empty = root_.kind == Node::Kind::null;
-  throw InputError(Diagnostic{locate(empty ? Place{0, 1, 1} : root_.place),
+  // A text without a key that yaml-cpp reads, such as the rows of a data file, leaves problems.
+  const bool empty = root_.kind == Node::Kind::null && problems_.empty();
+  const std::string schema = "a file that begins with 'schema: " + std::string(schema_name) + "'";
+  throw InputError(Diagnostic{locate(root_.kind == Node::Kind::null ? Place{0, 1, 1} : root_.place),
                               empty ? "the file is empty" : "a scenario is a map of keys and values",
-                              "a file that begins with 'schema: " + std::string(schema_name) + "'",
+                              empty ? schema : schema + "; data files are read by identify, fit and predict",
                               {},
                               {}});
 }

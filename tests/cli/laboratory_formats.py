@@ -294,6 +294,7 @@ REFUSED = [
     ("packed.csv.gz", b"\x1f\x8b\x08" + bytes(100), [], "the file is compressed (gzip)"),
     ("workbook.xlsx", b"PK\x03\x04" + bytes(1000), [], "the file is a workbook"),
     ("lines.json", '{"Y": [1, 2], "x": [2, 3]}', [], "the file is JSON"),
+    ("rig.yaml", "# A rig.\n\nschema: dualdamp/1\nsystem: {mass: 1 kg}\n", [], "the file is a scenario"),
     ("rows_with_another_separator.csv", "Y [mm],x [mm]\n" + table("", MM, ";"), [], "separated as those of the header"),
     ("capital_units.csv", table("Y [mm],x [MM]", MM), [], "did you mean 'mm'?"),
     ("page.csv", "<!DOCTYPE html><html><body>404</body></html>", [], "the file is a page of the web"),

@@ -94,6 +94,8 @@ TEST_CASE("refused: files that are no text or no scenario", "[scenarios][refused
   CHECK(message("# nothing\n") == "the file is empty");
   CHECK(message("---\n") == "the file is empty");
   CHECK(message("\xEF\xBB\xBF") == "the file is empty");
+  CHECK(message("Y [mm],x [mm]\n1,2\n3,4\n") == "a scenario is a map of keys and values");
+  CHECK(message("Y [mm],x [mm]\n") == "a scenario is a map of keys and values");
   CHECK(message("5\n") == "a scenario is a map of keys and values");
   CHECK(message("- a\n") == "a scenario is a map of keys and values");
   CHECK(message("title: \xFF\xFE\n") == "this is not UTF-8 text");

@@ -291,14 +291,14 @@ std::optional<double> Profiler::followed(Eigen::Index i, double value, double be
   }
 }
 
-bool Profiler::is_flat(Eigen::Index i, const FittedParameter& fitted, double limit) const {
+bool Profiler::acts_faintly(Eigen::Index i, const FittedParameter& fitted, double limit) const {
   const double norm = rows_.col(i).norm();
   return std::isnan(fitted.std) && problem_.space()[i].logarithmic && norm > 0.0 && norm < limit;
 }
 
 double Profiler::first_distance(Eigen::Index i, const FittedParameter& fitted, double limit) const {
   if (!std::isnan(fitted.std)) return limit * fitted.std;
-  if (is_flat(i, fitted, limit)) return std::abs(problem_.space().slope(q_)(i, i));
+  if (acts_faintly(i, fitted, limit)) return std::abs(problem_.space().slope(q_)(i, i));
   // A parameter without an effect near the estimate may have one further off.
   const double norm = rows_.col(i).norm();
   constexpr double near = 1e-3;
@@ -348,7 +348,7 @@ double Profiler::end(Eigen::Index i, const FittedParameter& fitted, double limit
     if (is_astray) others = within, --glances_left;
     if (std::abs(last - 1.0) < close) return value;
     if (last < 1.0 && value == side.last_value()) return value;
-    if (last < 1.0 && is_flat(i, fitted, limit) && sign * (value - farthest) >= 0.0) return side.last_value();
+    if (last < 1.0 && acts_faintly(i, fitted, limit) && sign * (value - farthest) >= 0.0) return side.last_value();
     const double next = bracket.guess(distance, last);
     bracket.take(distance, last, is_astray);
     if (last < 1.0) within = others;

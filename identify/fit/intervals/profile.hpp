@@ -93,7 +93,7 @@ class Profiler {
   [[nodiscard]] double growth_of(const Eigen::VectorXd& residuals) const;
   /// Whether a parameter that is sought by its logarithm has no effect near the estimate: a factor e of it changes
   /// the readings by less than the limit. Its profile goes outwards by factors, to the end of the search.
-  [[nodiscard]] bool is_flat(Eigen::Index i, const FittedParameter& fitted, double limit) const;
+  [[nodiscard]] bool acts_faintly(Eigen::Index i, const FittedParameter& fitted, double limit) const;
   /// The first distance of the parameter from its estimate.
   [[nodiscard]] double first_distance(Eigen::Index i, const FittedParameter& fitted, double limit) const;
   /// Where a profile begins: the value of its parameter there, and the growth.
