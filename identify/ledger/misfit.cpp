@@ -47,22 +47,26 @@ std::optional<Misfit> largest_misfit(const JointModel& model, const Taken& taken
   return misfit;
 }
 
+/// Whether an error as long as the misfit could change zeta or F0 by this much.
+bool matters(const JointModel& model, const Taken& taken, double least_change) {
+  const Eigen::MatrixXd columns = free_columns(model.base, model.relaxed, taken);
+  const double freedom = static_cast<double>(columns.rows() - columns.cols()) - model.spent;
+  const double squares = left_beside(columns, model.residuals).squaredNorm();
+  return largest_change(model, columns, std::sqrt(std::max(0.0, squares - freedom))) >= least_change;
+}
+
 }  // namespace
 
 std::optional<Misfit> misfit_of(const JointModel& model, const Taken& taken, double least_change) {
   const std::optional<Misfit> misfit = largest_misfit(model, taken);
-  if (!misfit || !(misfit->p_value < family_level)) return std::nullopt;
-  const Eigen::MatrixXd columns = free_columns(model.base, model.relaxed, taken);
-  const double freedom = static_cast<double>(columns.rows() - columns.cols()) - model.spent;
-  const double squares = left_beside(columns, model.residuals).squaredNorm();
-  const double length = std::sqrt(std::max(0.0, squares - freedom));
-  return largest_change(model, columns, length) >= least_change ? misfit : std::nullopt;
+  if (!misfit || !(misfit->p_value < family_level) || !matters(model, taken, least_change)) return std::nullopt;
+  return misfit;
 }
 
 bool leaves_misfit(const JointModel& model, const Taken& taken, double least_change) {
   constexpr double most_times = 3.0;
   const std::optional<Misfit> left = largest_misfit(model, taken);
-  return (left && left->times > most_times) || misfit_of(model, taken, least_change);
+  return left && (left->p_value < family_level || left->times > most_times) && matters(model, taken, least_change);
 }
 
 std::string misfit_size(const Misfit& misfit) {

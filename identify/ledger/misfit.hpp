@@ -24,8 +24,8 @@ inline constexpr double misfit_share = 0.1;
 /// The misfit of a model with these relaxations taken; nothing if it is not significant or does not matter.
 [[nodiscard]] std::optional<Misfit> misfit_of(const JointModel& model, const Taken& taken, double least_change);
 
-/// Whether the relaxations taken leave a misfit that is significant, or one of more than three times the noise: of
-/// few states such a misfit may have lost its significance with the freedom that they took.
+/// Whether the relaxations taken leave a misfit that matters and is significant or more than three times the noise:
+/// of few states such a misfit may have lost its significance with the freedom that they took.
 [[nodiscard]] bool leaves_misfit(const JointModel& model, const Taken& taken, double least_change);
 
 /// "the joint model misses these data by 12 times their noise (p = 1e-9)"
