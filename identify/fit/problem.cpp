@@ -111,6 +111,11 @@ bool FitProblem::has_steady_states() const {
   });
 }
 
+bool FitProblem::has_jumps() const {
+  return std::ranges::any_of(readings_.signals(),
+                             [&](const SignalRows& rows) { return readings_.signal(rows).name == "a"; });
+}
+
 long FitProblem::work() const {
   long sum = 0;
   for (const Experiment* experiment : readings_.experiments()) sum += *experiment->work;
@@ -197,15 +202,15 @@ void FitProblem::mend_jumps(const Eigen::VectorXd& below, const Eigen::VectorXd&
 }
 
 bool FitProblem::column(const Eigen::VectorXd& q, const Eigen::VectorXd& middle, const All& neighbours,
-                        Eigen::Index i, double step, bool seeks, Eigen::VectorXd& slope) const {
+                        Eigen::Index i, const Difference& difference, Eigen::VectorXd& slope) const {
   const SearchCoordinate& c = space_[i];
   const FitParameter& parameter = space_.parameters()[static_cast<std::size_t>(i)];
   constexpr double of_difference = 1e-3;
-  const double h = step * (c.logarithmic ? 1.0 : std::max(1.0, std::abs(q[i])));
+  const double h = difference.step * (c.logarithmic ? 1.0 : std::max(1.0, std::abs(q[i])));
   std::array<double, 2> at = {std::max(q[i] - h, c.low), std::min(q[i] + h, c.high)};
   std::array<Eigen::VectorXd, 2> outputs = {middle, middle};
   for (std::size_t side = 0; side < 2; ++side) {
-    if (side == 0 && accuracy_.is_one_sided && at[1] > q[i]) {
+    if (side == 0 && difference.is_one_sided && at[1] > q[i]) {
       at[side] = q[i];
       continue;
     }
@@ -233,7 +238,7 @@ bool FitProblem::column(const Eigen::VectorXd& q, const Eigen::VectorXd& middle,
   }
   if (!(at[1] > at[0])) return false;
   slope = (outputs[1] - outputs[0]) / (at[1] - at[0]);
-  if (at[0] < q[i] && q[i] < at[1] && !seeks)
+  if (at[0] < q[i] && q[i] < at[1] && !difference.seeks)
     mend_jumps((middle - outputs[0]) / (q[i] - at[0]), (outputs[1] - middle) / (at[1] - q[i]), slope);
   return slope.allFinite();
 }
@@ -271,10 +276,12 @@ bool FitProblem::derivatives(const Eigen::VectorXd& q, Eigen::VectorXd& result, 
     Eigen::VectorXd slope;
     constexpr double farthest = 0.1;
     constexpr double farther = 10.0;
-    double step = accuracy_.step;
-    bool has_slope = column(q, result, neighbours, i, step, seeks, slope);
-    while (seeks && has_slope && slope.squaredNorm() == 0.0 && (step *= farther) < 1.01 * farthest)
-      has_slope = column(q, result, neighbours, i, step, seeks, slope);
+    Difference difference{accuracy_.step, seeks, accuracy_.is_one_sided || (seeks && !has_jumps())};
+    bool has_slope = column(q, result, neighbours, i, difference, slope);
+    while (seeks && has_slope && slope.squaredNorm() == 0.0 && (difference.step *= farther) < 1.01 * farthest) {
+      difference.is_one_sided = accuracy_.is_one_sided;
+      has_slope = column(q, result, neighbours, i, difference, slope);
+    }
     if (has_slope)
       jacobian.col(i) = slope;
     else

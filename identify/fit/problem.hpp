@@ -86,9 +86,10 @@ class FitProblem {
   /// Predicted readings, not divided by the noise. False: the rig has no such motion, or a law refuses the values.
   [[nodiscard]] bool outputs(const Eigen::VectorXd& q, Eigen::VectorXd& result,
                              const LastMotions* last = nullptr) const;
-  /// Outputs and their derivatives by the coordinates. `seeks`: a coordinate without an effect near `q` gets a
-  /// difference over a wider step, so that a search can leave the place. Else jumps of an acceleration within a
-  /// step are left out. `last`, if given, then holds the motions at `q`.
+  /// Outputs and their derivatives by the coordinates. `seeks`: for a step of a search. A coordinate without an
+  /// effect near `q` gets a difference over a wider step, so that a search can leave the place; elsewhere one-sided
+  /// differences suffice, which take half of the motions, unless a signal jumps. Without `seeks` jumps of an
+  /// acceleration within a step are left out. `last`, if given, then holds the motions at `q`.
   [[nodiscard]] bool derivatives(const Eigen::VectorXd& q, Eigen::VectorXd& result, Eigen::MatrixXd& jacobian,
                                  bool seeks = false, LastMotions* last = nullptr) const;
 
@@ -97,9 +98,17 @@ class FitProblem {
 
  private:
   using All = std::vector<std::shared_ptr<const Neighbours>>;
-  /// One column of the derivatives, by differences over `step`. False: there is no motion on either side.
+  /// How a column of the derivatives is computed.
+  struct Difference {
+    double step = 0.0;
+    bool seeks = false;  ///< jumps of an acceleration within the step are not left out
+    bool is_one_sided = false;
+  };
+  /// One column of the derivatives. False: there is no motion on either side.
   [[nodiscard]] bool column(const Eigen::VectorXd& q, const Eigen::VectorXd& middle, const All& neighbours,
-                            Eigen::Index i, double step, bool seeks, Eigen::VectorXd& slope) const;
+                            Eigen::Index i, const Difference& difference, Eigen::VectorXd& slope) const;
+  /// Whether a signal jumps at events.
+  [[nodiscard]] bool has_jumps() const;
   /// The motions at `q` and what finds those near it; nothing: there are none.
   [[nodiscard]] std::optional<All> neighbours(const Eigen::VectorXd& q, const LastMotions* last,
                                               Eigen::VectorXd& result) const;

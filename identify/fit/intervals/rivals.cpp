@@ -47,7 +47,9 @@ Interval widened(const Interval& interval, const Rival& rival, Eigen::Index i, c
                  double width) {
   const double value = rival.values[i];
   const bool is_positive = parameter.range.low >= 0.0 && value > 0.0;
-  const double factor = is_positive ? std::exp(std::min(width / value, 100.0)) : 1.0;
+  // Where a parameter has lost its effect its deviation is rounding, and says nothing about values far from there.
+  constexpr double farthest = 3.0;
+  const double factor = is_positive ? std::exp(std::min(width / value, farthest)) : 1.0;
   const double low = is_positive ? value / factor : value - width;
   const double high = is_positive ? value * factor : value + width;
   return {std::max(std::min(interval[0], low), parameter.range.low),

@@ -1,11 +1,15 @@
 #include <array>
+#include <atomic>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <memory>
 #include <numbers>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "identify/fit/fit.hpp"
+#include "identify/fit/problem.hpp"
 #include "tests/identify/fit/sum_of_squares.hpp"
 #include "tests/identify/fit/synthetic.hpp"
 
@@ -57,4 +61,34 @@ TEST_CASE("fit: a profile follows a bend of the valley beside which there is no 
   const FittedParameter& mass = test::fitted(fit, "mass");
   CHECK(mass.profile95[0] == Approx(std::sin(low)).margin(0.02));
   CHECK(mass.profile95[1] == Approx(std::sin(high)).margin(0.02));
+}
+
+TEST_CASE("fit: a step of a search takes one motion for each parameter, unless a signal jumps", "[identify][fit]") {
+  Rig rig = test::rig_with(test::law_case_of("viscous_saturating"));
+  rig.laws.front().values = {{"coefficient", test::saturating_coefficient}, {"saturation_velocity", 2.0}};
+  for (const char* signal : {"x", "a"}) {
+    CAPTURE(signal);
+    std::atomic<int> motions = 0;
+    Experiments experiments;
+    experiments.push_back(std::make_unique<test::SumOfSquares>(
+        [&](double t, const sim::Oscillator& oscillator) -> std::optional<std::array<double, 3>> {
+          ++motions;
+          return {{t, oscillator.damping, oscillator.mass}};
+        }));
+    experiments.front()->signals.front().name = signal;
+    const std::vector<FitParameter> parameters =
+        test::sought_in(rig, {"damping", "mass", "saturation_velocity"}, 1.0);
+    const FitProblem problem(rig, parameters, experiments, {1.0, 1.0, 1.0});
+    const auto motions_of = [&](bool seeks) {
+      motions = 0;
+      Eigen::VectorXd outputs;
+      Eigen::MatrixXd jacobian;
+      REQUIRE(
+          problem.derivatives(problem.space().point(Eigen::Vector3d(80.0, 1.0, 2.0)), outputs, jacobian, seeks));
+      CHECK(jacobian(20, 0) * std::sqrt(20.0) == Approx(1.0).epsilon(1e-6));
+      return motions.load();
+    };
+    CHECK(motions_of(false) == 1 + 2 * 3);
+    CHECK(motions_of(true) == (signal == std::string("a") ? 1 + 2 * 3 : 1 + 3));
+  }
 }

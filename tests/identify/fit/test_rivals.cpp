@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "identify/fit/fit.hpp"
 #include "tests/identify/fit/sum_of_squares.hpp"
@@ -27,15 +28,19 @@ std::unique_ptr<Experiment> two_minima(double slope, double middle, double gap) 
       });
 }
 
-Fit fit_of_two_minima(double slope, double middle, double begun_at, double gap = 0.0) {
+Fit fit_of(std::unique_ptr<Experiment> experiment, double begun_at) {
   Rig rig = test::rig_with(test::law_case_of("viscous_saturating"));
   rig.known.oscillator.damping = 100.0;
   rig.laws.front().values = {{"coefficient", test::saturating_coefficient},
                              {"saturation_velocity", std::exp(begun_at)}};
   Experiments experiments;
-  experiments.push_back(two_minima(slope, middle, gap));
+  experiments.push_back(std::move(experiment));
   std::vector<FitParameter> parameters = test::sought_in(rig, {"damping", "saturation_velocity"}, 1.0);
   return fit_rig(rig, std::move(parameters), experiments);
+}
+
+Fit fit_of_two_minima(double slope, double middle, double begun_at, double gap = 0.0) {
+  return fit_of(two_minima(slope, middle, gap), begun_at);
 }
 
 }  // namespace
@@ -74,4 +79,19 @@ TEST_CASE("rivals: a minimum beyond the noise is none", "[identify][fit]") {
   CHECK(std::log(speed.value) == Approx(-1.0).margin(0.05));
   CHECK(speed.interval95[1] < std::exp(-0.8));
   CHECK(fit.warnings.empty());
+}
+
+TEST_CASE("rivals: one without an effect of the parameter says nothing about values far from it",
+          "[identify][fit]") {
+  // Beyond t = 1 the sum of squares is nearly constant, 2.4 variances above the minimum at t = -1.
+  const auto plateau = [](double t, const sim::Oscillator& oscillator) -> std::optional<std::array<double, 3>> {
+    const double level = t < 0.0 ? 0.0 : std::sqrt(2.4) + 1e-3 * std::abs(t - 1.5);
+    return {{t < 1.0 ? steepness * (t * t - 1.0) : 0.0, level, oscillator.damping - 100.0}};
+  };
+  const Fit fit = fit_of(std::make_unique<test::SumOfSquares>(plateau), 0.9);
+  const FittedParameter& speed = test::fitted(fit, "saturation_velocity");
+  CHECK(std::log(speed.value) == Approx(-1.0).margin(0.02));
+  CHECK(std::log(speed.interval95[0]) > -2.01);
+  CHECK(std::log(speed.interval95[1]) > 1.0);
+  CHECK(fit.warnings.size() == 1);
 }
