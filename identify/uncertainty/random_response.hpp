@@ -19,7 +19,7 @@
 namespace dualdamp::identify {
 
 struct RandomResponse {
-  const History& measured;
+  const History& measured;  ///< four samples or more in a natural period
   ForceParameters law;  ///< k > 0, c >= 0, F0 >= 0
   double intensity = 0.0;
 

@@ -255,6 +255,13 @@ Estimate stochastic_averaging(const Record& record, const KnownConstants& consta
                          core::format_number(periods, 3));
     return estimate;
   }
+  const double samples = static_cast<double>(history->x.size()) / periods;
+  constexpr double coarsest = 8.0;
+  if (samples < coarsest) {
+    refuse(estimate, "the amplitude needs at least 8 samples in a natural period, and there are " +
+                         core::format_number(samples, 3));
+    return estimate;
+  }
   const Averages averages = averages_of(*history, constants);
   if (!averages.fault.empty()) {
     refuse(estimate, averages.fault);

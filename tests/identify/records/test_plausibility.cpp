@@ -273,6 +273,27 @@ TEST_CASE("Numbers of samples for times, hertz for rad/s, and damping that hardl
   CHECK(odd_readings({.pairs = rig.record}, rig.constants).size() == 1);
 }
 
+TEST_CASE("Milliseconds read as seconds under a drive are refused near resonance, a slow drive is not") {
+  KnownConstants constants;
+  constants.mass = 1.0;
+  constants.stiffness = 4000.0;
+  const double natural = constants.natural_frequency();
+  // At resonance, x = F/(2 zeta k); below it, x = F/k.
+  for (const double amplification : {10.0, 1.0}) {
+    CAPTURE(amplification);
+    History history;
+    history.sample_rate = 1e-3 * 50.0 * natural / (2.0 * pi);
+    for (int i = 0; i < 2000; ++i) {
+      const double phase = 2.0 * pi * i / 50.0;
+      history.force.push_back(3.0 * std::cos(phase));
+      history.x.push_back(amplification * 3.0 / constants.stiffness * std::cos(phase - (amplification > 1.0 ? 1.57 : 0.1)));
+    }
+    const auto faults = gross_faults({.histories = {history}}, constants, {}, "data.csv");
+    REQUIRE(faults.size() == (amplification > 1.0 ? 1U : 0U));
+    if (amplification > 1.0) CHECK(mentions(faults.front().allowed, {"ms"}));
+  }
+}
+
 TEST_CASE("A motion faster than 1000 m/s in its stated unit gets a warning") {
   const KnownConstants constants{1.0, 1500.0, unknown};
   const DecayRecord decay{{0.04, -0.03, 0.02}, {}};

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/constants.hpp"
 #include "tests/identify/estimates.hpp"
 #include "tests/identify/random_response.hpp"
 
@@ -58,6 +59,22 @@ TEST_CASE("Friction too small to be seen and short records are told") {
       stochastic_averaging(record_of({random_response(5.0, 1.0, D, 20.0, 5)}), bearing_constants);
   CHECK_FALSE(brief.outcome.ok());
   CHECK(brief.reason.find("400 natural periods") != std::string::npos);
+}
+
+TEST_CASE("A record without samples in a natural period has no amplitude") {
+  // The motion follows a slow force, as in a test for hysteresis at a fraction of the natural frequency.
+  for (const double samples : {0.3, 3.0, 7.5}) {
+    CAPTURE(samples);
+    History history;
+    history.sample_rate = samples * bearing_constants.natural_frequency() / core::two_pi;
+    for (int i = 0; i < 4000; ++i) {
+      history.force.push_back(3.0 * std::sin(0.01 * i));
+      history.x.push_back(history.force.back() / bearing_constants.stiffness);
+    }
+    const Estimate e = stochastic_averaging(record_of({history}), bearing_constants);
+    REQUIRE_FALSE(e.outcome.ok());
+    CHECK(e.reason.find("at least 8 samples") != std::string::npos);
+  }
 }
 
 TEST_CASE("An excitation that is not white must be recorded") {
