@@ -383,20 +383,23 @@ class Assembly {
       start -= static_cast<std::size_t>(std::ranges::lower_bound(doubled, start) - doubled.begin());
   }
 
-  /// The signal whose smoothness is compared: the first one that was measured.
-  [[nodiscard]] const std::vector<double>& leading_signal() const {
+  static std::span<const double> cut(const std::vector<double>& column, std::size_t first, std::size_t last) {
+    return std::span<const double>(column).subspan(first, last - first);
+  }
+
+  /// What was measured in these rows; the times, if nothing was.
+  [[nodiscard]] std::vector<std::span<const double>> signals(Part rows) const {
+    std::vector<std::span<const double>> found;
     for (const std::string_view name : {"x", "y", "v", "a", "force"})
-      if (const std::vector<double>* column = values(name)) return *column;
-    return *values("t");
+      if (const std::vector<double>* column = values(name)) found.push_back(cut(*column, rows.first, rows.last));
+    if (found.empty()) found.push_back(cut(*values("t"), rows.first, rows.last));
+    return found;
   }
 
   /// Nothing if there was a problem.
   std::optional<History> history(Part rows, const std::string& label) {
-    const auto cut = [](const std::vector<double>& column, std::size_t first, std::size_t last) {
-      return std::span<const double>(column).subspan(first, last - first);
-    };
     const TimeBase base = time_base_of({.t = cut(*values("t"), rows.first, rows.last),
-                                        .signal = cut(leading_signal(), rows.first, rows.last),
+                                        .signals = signals(rows),
                                         .quantum = table_.time_quantum,
                                         .digits = table_.time_digits});
     if (base.fault) complain(rows.first + base.fault->row, "t", base.fault->message, base.fault->allowed);
@@ -420,8 +423,7 @@ class Assembly {
                                        {"force", &History::force}})
       if (const std::vector<double>* column = values(name)) {
         const auto part = cut(*column, rows.first + base.first, rows.first + base.last);
-        result.*member =
-            base.is_interpolated ? interpolated_evenly(t, part) : std::vector<double>(part.begin(), part.end());
+        result.*member = even_samples(base, t, part);
       }
     if (const auto fault = check_test(result, is_imposed_, warnings_))
       complain(rows.first + base.first, fault->column, fault->message, fault->allowed);

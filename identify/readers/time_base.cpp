@@ -4,10 +4,12 @@
 #include <array>
 #include <boost/math/tools/minima.hpp>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "core/diagnostics.hpp"
 #include "core/numbers.hpp"
+#include "identify/readers/polynomial.hpp"
 #include "identify/readers/problems.hpp"
 #include "identify/statistics/median.hpp"
 
@@ -32,16 +34,17 @@ constexpr int digits_shown = 4;
 
 std::string seconds(double time) { return core::format_number(time, digits_shown) + " s"; }
 
-/// The value at `at` of the cubic through four points.
-double cubic(const std::array<double, 4>& t, const std::array<double, 4>& x, double at) {
-  double value = 0.0;
-  for (std::size_t i = 0; i < t.size(); ++i) {
-    double weight = 1.0;
-    for (std::size_t k = 0; k < t.size(); ++k)
-      if (k != i) weight *= (at - t[k]) / (t[i] - t[k]);
-    value += weight * x[i];
+/// Of the line of least squares.
+double slope(std::span<const std::size_t> places, std::span<const double> t) {
+  const double middle = std::accumulate(places.begin(), places.end(), 0.0) / static_cast<double>(places.size());
+  double products = 0.0;
+  double squares = 0.0;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const double place = static_cast<double>(places[i]) - middle;
+    products += place * (t[i] - t[0]);
+    squares += place * place;
   }
-  return value;
+  return products / squares;
 }
 
 class StampReader {
@@ -65,8 +68,9 @@ class StampReader {
     const double step = median_step(all_);
     if (even && long_steps(step) > most_lone_gaps) return rows(all_, {});
     if (first_double() < t_.size()) return bursts();
-    const Part longest = longest_without(gap * step, all_);
-    if (longest.size() < all_.size() && is_even(longest)) return without_gaps(longest);
+    if (std::optional<TimeBase> base = with_lost_samples(step)) return *std::move(base);
+    const Part part = most_moving_without(gap * step);
+    if (part.size() < all_.size() && is_even(part)) return without_gaps(part);
     return jitter(step);
   }
 
@@ -76,6 +80,8 @@ class StampReader {
     std::size_t last = 0;
     [[nodiscard]] std::size_t size() const { return last - first; }
   };
+
+  [[nodiscard]] const std::span<const double>& leading() const { return stamps_.signals.front(); }
 
   static TimeBase fault(std::size_t row, std::string message, std::string allowed) {
     TimeBase base;
@@ -130,15 +136,9 @@ class StampReader {
   }
 
   [[nodiscard]] double step_of_least_squares(Part part) const {
-    const double middle = 0.5 * static_cast<double>(part.size() - 1);
-    double products = 0.0;
-    double squares = 0.0;
-    for (std::size_t row = part.first; row < part.last; ++row) {
-      const double place = static_cast<double>(row - part.first) - middle;
-      products += place * (t_[row] - t_[part.first]);
-      squares += place * place;
-    }
-    return products / squares;
+    std::vector<std::size_t> places(part.size());
+    std::iota(places.begin(), places.end(), 0);
+    return slope(places, t_.subspan(part.first, part.size()));
   }
 
   /// Slope of the narrowest strip that holds all stamps. The stamps of a coarse clock are stairs along a line.
@@ -195,20 +195,31 @@ class StampReader {
 
   [[nodiscard]] double median_step(Part part) const { return upper_median(steps(part)); }
 
-  [[nodiscard]] Part longest_without(double longest_step, Part part) const {
-    Part longest{part.first, part.first};
-    std::size_t first = part.first;
-    for (std::size_t row = part.first + 1; row <= part.last; ++row) {
-      if (row < part.last && t_[row] - t_[row - 1] <= longest_step) continue;
-      if (row - first > longest.size()) longest = {first, row};
-      first = row;
-    }
-    return longest;
-  }
-
   [[nodiscard]] bool is_too_short(Part part) const {
     return part.size() < fewest_samples ||
            static_cast<double>(part.size()) < least_share * static_cast<double>(all_.size());
+  }
+
+  /// Of the parts without a longer step and with rows enough, the one with the largest sum of squares of the
+  /// motion: behind a lost stretch of a decay the mass may be at rest. The longest one, if none has rows enough.
+  [[nodiscard]] Part most_moving_without(double longest_step) const {
+    const double middle = upper_median({leading().begin(), leading().end()});
+    Part longest;
+    Part best;
+    double most = -1.0;
+    Part part;
+    double squares = 0.0;
+    for (std::size_t row = 0; row <= all_.last; ++row) {
+      if (row == all_.last || (row > 0 && t_[row] - t_[row - 1] > longest_step)) {
+        part.last = row;
+        if (part.size() > longest.size()) longest = part;
+        if (!is_too_short(part) && squares > most) best = part, most = squares;
+        part.first = row;
+        squares = 0.0;
+      }
+      if (row < leading().size()) squares += (leading()[row] - middle) * (leading()[row] - middle);
+    }
+    return most < 0.0 ? longest : best;
   }
 
   [[nodiscard]] TimeBase torn(Part longest) const {
@@ -224,18 +235,39 @@ class StampReader {
   }
 
   /// The stretches before and after the one that is used, and what to do with them.
-  [[nodiscard]] std::string gap_warning(Part longest) const {
+  [[nodiscard]] std::string gap_warning(Part used) const {
     std::vector<std::string> others;
-    if (longest.first > 0) others.push_back(span_text({0, longest.first}));
-    if (longest.last < all_.last) others.push_back(span_text({longest.last, all_.last}));
+    if (used.first > 0) others.push_back(span_text({0, used.first}));
+    if (used.last < all_.last) others.push_back(span_text({used.last, all_.last}));
     return "the times have gaps: of " + std::to_string(all_.size()) +
-           " rows only the longest uninterrupted stretch is used, " + span_text(longest) + "; left out are " +
-           core::joined(others, " and ") +
+           " rows only the uninterrupted stretch with the most motion is used, " + span_text(used) +
+           "; left out are " + core::joined(others, " and ") +
            ": a label in a column sweep for each stretch, the same in all its rows, makes it a test of its own";
   }
 
-  [[nodiscard]] TimeBase without_gaps(Part longest) const {
-    return is_too_short(longest) ? torn(longest) : rows(longest, gap_warning(longest));
+  [[nodiscard]] TimeBase without_gaps(Part part) const {
+    return is_too_short(part) ? torn(part) : rows(part, gap_warning(part));
+  }
+
+  /// Nothing, unless a few samples are lost among even ones and all signals are smooth across them.
+  [[nodiscard]] std::optional<TimeBase> with_lost_samples(double usual_step) const {
+    std::optional<RowPlaces> places = row_places(t_, usual_step);
+    if (!places || places->lost == 0) return std::nullopt;
+    const auto place = [&](std::size_t row) { return static_cast<double>(places->of_row[row]); };
+    const double step = (t_.back() - t_.front()) / place(all_.last - 1);
+    for (std::size_t row = 0; row < all_.last; ++row)
+      if (std::abs(t_[row] - t_.front() - place(row) * step) > clock_jitter * step + largest_rounding(all_))
+        return std::nullopt;
+    if (!std::ranges::all_of(stamps_.signals, [&](const auto& one) { return can_be_filled(*places, one); }))
+      return std::nullopt;
+    const bool is_one = places->lost == 1;
+    TimeBase base =
+        rows(all_, (is_one ? "1 sample is" : std::to_string(places->lost) + " samples are") +
+                       " missing between the times, at most " + std::to_string(places->lost_in_a_row) +
+                       " in a row: filled by polynomials through the samples beside " + (is_one ? "it" : "them"));
+    base.step = slope(places->of_row, t_);
+    base.places = std::move(places);
+    return base;
   }
 
   /// A coarse clock repeats a stamp where two samples fall into one of its steps. A row that does not belong there
@@ -270,8 +302,8 @@ class StampReader {
   [[nodiscard]] double roughness_beside(std::size_t row, std::size_t left_out) const {
     constexpr std::size_t reach = 4;
     std::vector<double> near;
-    for (std::size_t i = row < reach ? 0 : row - reach; i < std::min(row + reach, stamps_.signal.size()); ++i)
-      if (i != left_out) near.push_back(stamps_.signal[i]);
+    for (std::size_t i = row < reach ? 0 : row - reach; i < std::min(row + reach, leading().size()); ++i)
+      if (i != left_out) near.push_back(leading()[i]);
     double sum = 0.0;
     for (std::size_t i = 2; i + 2 < near.size(); ++i)
       sum += std::pow((4.0 * (near[i - 1] + near[i + 1]) - near[i - 2] - near[i + 2]) / 6.0 - near[i], 2);
@@ -301,7 +333,7 @@ class StampReader {
   }
 
   [[nodiscard]] TimeBase jitter(double step) const {
-    const Part part = longest_without(jittered_gap * step, all_);
+    const Part part = most_moving_without(jittered_gap * step);
     if (is_too_short(part)) return torn(part);
     const std::vector<double> all_steps = steps(part);
     const auto [low, high] = std::ranges::minmax(all_steps);
@@ -331,12 +363,12 @@ class StampReader {
     double at_stamps = 0.0;
     double at_even = 0.0;
     const std::array<double, 4> even = {-2.0, -1.0, 1.0, 2.0};
-    for (std::size_t i = part.first + 2; i + 2 < part.last && i + 2 < stamps_.signal.size(); ++i) {
-      const auto& x = stamps_.signal;
+    for (std::size_t i = part.first + 2; i + 2 < part.last && i + 2 < leading().size(); ++i) {
+      const auto& x = leading();
       const std::array<double, 4> near = {x[i - 2], x[i - 1], x[i + 1], x[i + 2]};
       const std::array<double, 4> times = {t_[i - 2], t_[i - 1], t_[i + 1], t_[i + 2]};
-      at_stamps += std::pow(cubic(times, near, t_[i]) - x[i], 2);
-      at_even += std::pow(cubic(even, near, 0.0) - x[i], 2);
+      at_stamps += std::pow(polynomial(times, near, t_[i]) - x[i], 2);
+      at_even += std::pow(polynomial(even, near, 0.0) - x[i], 2);
     }
     return at_stamps <= at_even;
   }
@@ -346,10 +378,8 @@ class StampReader {
   Part all_;
 };
 
-}  // namespace
-
-TimeBase time_base_of(const TimeStamps& stamps) { return StampReader(stamps).run(); }
-
+/// The signal at as many even times from the first stamp to the last, by cubics through four neighbours. Stamps
+/// must increase.
 std::vector<double> interpolated_evenly(std::span<const double> t, std::span<const double> values) {
   const std::size_t n = t.size();
   std::vector<double> result(n);
@@ -358,10 +388,20 @@ std::vector<double> interpolated_evenly(std::span<const double> t, std::span<con
     const double at = t[0] + (t[n - 1] - t[0]) * static_cast<double>(i) / static_cast<double>(n - 1);
     while (next + 1 < n && t[next] < at) ++next;
     const std::size_t first = std::min(next < 2 ? 0 : next - 2, n - 4);
-    result[i] = cubic({t[first], t[first + 1], t[first + 2], t[first + 3]},
-                      {values[first], values[first + 1], values[first + 2], values[first + 3]}, at);
+    const std::array<double, 4> near = {t[first], t[first + 1], t[first + 2], t[first + 3]};
+    result[i] = polynomial(near, {values[first], values[first + 1], values[first + 2], values[first + 3]}, at);
   }
   return result;
+}
+
+}  // namespace
+
+TimeBase time_base_of(const TimeStamps& stamps) { return StampReader(stamps).run(); }
+
+std::vector<double> even_samples(const TimeBase& base, std::span<const double> t, std::span<const double> values) {
+  if (base.is_interpolated) return interpolated_evenly(t, values);
+  if (base.places) return filled(*base.places, values);
+  return {values.begin(), values.end()};
 }
 
 }  // namespace dualdamp::identify

@@ -4,7 +4,8 @@
 ///
 /// Let t_i be the stamps and l_i the line through the first and the last of them.
 /// * Even: |t_i - l_i| is at most the rounding of the printed digits and 1 % of a step.
-/// * Gaps: steps above 1.5 usual steps. The longest part without a gap is used, if it is even.
+/// * Gaps: steps above 1.5 usual steps. Up to three lost samples in a row are filled where all signals are smooth
+///   across them (lost_samples.hpp). Else the part without a gap that moves most is used, if it is even.
 /// * Bursts: many stamps appear several times, as from a serial line that sends its samples in blocks. The samples
 ///   are taken as even if all stamps lie within 1.5 bursts of a straight line.
 /// * Jitter: either the samples are even and the stamps are late, or the samples were taken at the stamped times.
@@ -21,12 +22,14 @@
 #include <string>
 #include <vector>
 
+#include "identify/readers/lost_samples.hpp"
+
 namespace dualdamp::identify {
 
-/// The stamps of one test and one of its signals.
+/// The stamps of one test and its signals.
 struct TimeStamps {
-  std::span<const double> t;  ///< s
-  std::span<const double> signal;
+  std::span<const double> t;                     ///< s
+  std::vector<std::span<const double>> signals;  ///< at least one; the first one tells what is smoother
   /// Times are rounded to a multiple of `quantum` [s] or to `digits` significant digits, whichever is coarser.
   double quantum = 0.0;
   int digits = 17;
@@ -42,16 +45,17 @@ struct TimeFault {
 struct TimeBase {
   std::size_t first = 0;
   std::size_t last = 0;
-  double step = 0.0;               ///< s, between samples
-  bool is_interpolated = false;    ///< the caller must interpolate the signals from the stamps to even times
-  std::string warning;             ///< empty: none
-  std::optional<TimeFault> fault;  ///< why the rows cannot be used
+  double step = 0.0;                ///< s, between samples
+  bool is_interpolated = false;     ///< signals are to be interpolated from the stamps to even times
+  std::optional<RowPlaces> places;  ///< the samples between these places of the rows are to be filled
+  std::string warning;              ///< empty: none
+  std::optional<TimeFault> fault;   ///< why the rows cannot be used
 };
 
 [[nodiscard]] TimeBase time_base_of(const TimeStamps& stamps);
 
-/// The signal at as many even times from the first stamp to the last, by cubics through four neighbours. Stamps
-/// must increase.
-[[nodiscard]] std::vector<double> interpolated_evenly(std::span<const double> t, std::span<const double> values);
+/// A signal at even times. `t` and `values`: of the rows that are used.
+[[nodiscard]] std::vector<double> even_samples(const TimeBase& base, std::span<const double> t,
+                                               std::span<const double> values);
 
 }  // namespace dualdamp::identify

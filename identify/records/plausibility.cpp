@@ -165,7 +165,8 @@ class Check {
   /// Whether spring and inertia of the motion need a gross multiple of the force of the drive.
   [[nodiscard]] bool moves_beyond_drive(const History& history, double omega) const {
     const auto size = [&](const std::vector<double>& signal) { return amplitude(signal, history, omega); };
-    const double force = std::fmax(size(history.force), 0.0) + constants_.stiffness * std::fmax(size(history.y), 0.0);
+    const double force =
+        std::fmax(size(history.force), 0.0) + constants_.stiffness * std::fmax(size(history.y), 0.0);
     return std::abs(constants_.stiffness - constants_.mass * omega * omega) * size(history.x) > gross * force;
   }
 

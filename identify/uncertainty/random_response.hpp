@@ -20,7 +20,7 @@ namespace dualdamp::identify {
 
 struct RandomResponse {
   const History& measured;  ///< four samples or more in a natural period
-  ForceParameters law;  ///< k > 0, c >= 0, F0 >= 0
+  ForceParameters law;      ///< k > 0, c >= 0, F0 >= 0
   double intensity = 0.0;
 
   /// Length of a synthetic record over that of the measured record.

@@ -286,7 +286,8 @@ TEST_CASE("Milliseconds read as seconds under a drive are refused near resonance
     for (int i = 0; i < 2000; ++i) {
       const double phase = 2.0 * pi * i / 50.0;
       history.force.push_back(3.0 * std::cos(phase));
-      history.x.push_back(amplification * 3.0 / constants.stiffness * std::cos(phase - (amplification > 1.0 ? 1.57 : 0.1)));
+      history.x.push_back(amplification * 3.0 / constants.stiffness *
+                          std::cos(phase - (amplification > 1.0 ? 1.57 : 0.1)));
     }
     const auto faults = gross_faults({.histories = {history}}, constants, {}, "data.csv");
     REQUIRE(faults.size() == (amplification > 1.0 ? 1U : 0U));
