@@ -84,9 +84,12 @@ class DecayReader {
     width_ = std::max(half_period_ / 4.0, narrowest);
 
     const std::size_t held = held_until();
-    for (std::size_t i = 0; i + 1 < turns.size(); ++i)
-      if (turns[i] > 0 && turns[i] >= held) add(result, turns[i]);  // before that a turning point is noise
-    add_first(result, turns.front(), held);
+    bool has_first = false;
+    for (std::size_t i = 0; i + 1 < turns.size(); ++i) {
+      const bool is_added = turns[i] > 0 && turns[i] >= held && add(result, turns[i]);  // before, it is noise
+      has_first = has_first || (is_added && i == 0);
+    }
+    if (!has_first || static_cast<double>(turns.front()) >= 2.0 * width_) add_first(result, held);
     add_last(result, turns.back());
     const std::string fault = keep_decay(result);
     return fault.empty() ? result : refused(fault, result.is_coarse, result.is_driven);
@@ -194,14 +197,13 @@ class DecayReader {
   }
 
   /// Adds the position of release: where the mass is held, or the first sample if the velocity is zero there.
-  void add_first(DerivedDecay& result, std::size_t first_turn, std::size_t held) const {
+  void add_first(DerivedDecay& result, std::size_t held) const {
     if (static_cast<double>(held) > 2.0 * width_) {
       const Mean mean = mean_of(0, held);
       put_first(result, held - 1, mean.value, mean.std);
       result.first = held;
       return;
     }
-    if (static_cast<double>(first_turn) < 2.0 * width_ && first_turn > held) return;  // added as a turning point
     // Ten samples average noise well enough. They may reach over half of the swing; the fit has to have one more
     // than its unknowns.
     const auto reach = static_cast<std::size_t>(std::max(width_, std::min(9.0, half_period_ / 2.0)));
@@ -251,11 +253,17 @@ class DecayReader {
   }
 
   /// Adds the value of the fit where its slope is zero. The powers 2, 3 and 4 have a coefficient on each side.
-  void add(DerivedDecay& result, std::size_t turn) const {
+  /// False: the record has too few samples on one side.
+  bool add(DerivedDecay& result, std::size_t turn) const {
     const auto reach = static_cast<std::size_t>(width_);
     const std::size_t first = turn > reach ? turn - reach : 0;
     const std::size_t last = std::min(turn + reach + 1, x_.size());
-    if (last - first < std::min(2 * std::size_t{turn_columns}, 2 * reach + 1)) return;
+    if (last - first < std::min(2 * std::size_t{turn_columns}, 2 * reach + 1)) return false;
+    const auto has_sides = [&](double centre) {
+      constexpr double fewest = 2.5;  // samples, of three unknowns
+      return std::min(centre - static_cast<double>(first), static_cast<double>(last - 1) - centre) >= fewest;
+    };
+    if (!has_sides(static_cast<double>(turn))) return false;
     const auto at = [&](double centre) {
       return local_fit(x_, first, last, centre, width_, turn_columns, [](double u, auto row) {
         const Eigen::Index side = u < 0.0 ? 0 : 1;
@@ -268,15 +276,17 @@ class DecayReader {
     // the error of the fit.
     const double height = x_[turn] - 0.5 * (x_[first] + x_[last - 1]);
     const double inside = std::max(0.5 * band_, 0.01 * std::abs(height));
+    constexpr double none = std::numeric_limits<double>::max();
     const auto squares = [&](double centre) {
+      if (!has_sides(centre)) return none;
       const LocalFit trial = at(centre);
       const bool is_extreme = std::copysign(1.0, height) * (x_[turn] - trial.value) <= inside;
-      return is_extreme ? trial.sum_of_squares : std::numeric_limits<double>::max();
+      return is_extreme ? trial.sum_of_squares : none;
     };
     constexpr int trials = 12;
     const double step = 2.0 * 0.3 * width_ / trials;
     double best = static_cast<double>(turn);
-    double least = std::numeric_limits<double>::max();
+    double least = none;
     for (int k = 0; k <= trials; ++k) {
       const double trial = static_cast<double>(turn) + (k - 0.5 * trials) * step;
       const double sum = squares(trial);
@@ -287,6 +297,7 @@ class DecayReader {
     const double centre = boost::math::tools::brent_find_minima(squares, best - step, best + step, bits).first;
     const LocalFit fit = at(centre);
     put(result, centre, fit.value, fit.std);
+    return true;
   }
 
   /// Adds the position in which the mass sticks to the end of the record.

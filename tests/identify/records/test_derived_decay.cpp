@@ -118,6 +118,28 @@ TEST_CASE("A release from rest at the first sample is an extreme, however much n
   }
 }
 
+TEST_CASE("Noise that turns within the first samples of a release adds no extreme") {
+  // Noise that grows with the reading is largest there, and large beside its mean over the record.
+  constexpr double X = 60e-3;
+  const std::vector<double> exact = sim::analytic::free_decay_extremes(soft_zeta, soft_x_f, X, 20);
+  int without_release = 0;
+  for (unsigned seed = 0; seed < 40; ++seed) {
+    CAPTURE(seed);
+    History history = released(X, 3.0, 1000.0);
+    testing::Normal normal(seed);
+    for (double& x : history.x) x *= 1.0 + 5e-3 * normal();
+    const DerivedDecay decay = decay_of(history);
+    CAPTURE(decay.fault);
+    const std::size_t count = decay.record.extremes.size();
+    REQUIRE((count == exact.size() || count + 1 == exact.size()));
+    without_release += count < exact.size() ? 1 : 0;
+    for (std::size_t i = 0; i < count; ++i)
+      CHECK(decay.record.extremes[i] == Approx(exact[exact.size() - count + i]).margin(1e-2 * X));
+  }
+  // The noise may show a velocity.
+  CHECK(without_release <= 2);
+}
+
 TEST_CASE("A last swing that is smaller than the noise's band is told from a stop at the last turning point") {
   // In units of x_f, the last turning point is at `last`, and the mass comes to rest on the same side.
   const double zeta = 0.01;
