@@ -138,7 +138,10 @@ class DecayReader {
       if (swing(i) >= least_share * largest) lengths.push_back(static_cast<double>(turns[i] - turns[i - 1]));
     const std::size_t begin = std::max(turns[0], held_until());
     if (lengths.empty()) return static_cast<double>(turns[1]) - static_cast<double>(begin);
-    return upper_median(std::move(lengths));
+    // The lower one of the middle two: a rest that wanders makes the last swing longer.
+    const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>((lengths.size() - 1) / 2);
+    std::ranges::nth_element(lengths, middle);
+    return *middle;
   }
 
   [[nodiscard]] std::string duration() const {
