@@ -150,7 +150,7 @@ Branch Continuation::run() {
     }
     if (!record(node, *next)) return ended(BranchEnd::orbit, ends_inside);
     if (left && next->parameter == from_ && from_ != to_)
-      return ended(BranchEnd::range, "the branch turns back and leaves the range where it began");
+      return ended(BranchEnd::range, "the branch turns back and leaves the range where it began" + meeting());
     if (left) return std::move(branch_);
     node = std::move(*next);
     if (node.period.size > without_bound * driven_displacement(at(node.parameter)))
@@ -159,6 +159,17 @@ Branch Continuation::run() {
   }
   return ended(BranchEnd::points,
                "the branch is not complete: it stops after " + std::to_string(options_.max_points) + " points");
+}
+
+/// Words that say so if the last orbit of the branch is the mirror image of the first one.
+std::string Continuation::meeting() const {
+  constexpr double near = 1e-6;
+  const SteadyState& first = branch_.points.front().state;
+  const SteadyState& last = branch_.points.back().state;
+  const double most = near * first.amplitude;
+  if (std::abs(first.peak + first.trough) <= most || std::abs(first.peak + last.trough) > most) return {};
+  return ": its asymmetric orbits met their mirror images, where they join a branch of symmetric ones; begin at the "
+         "other end of the range to follow that one";
 }
 
 /// The branch, if it ends just ahead where no step arrives: the motion dies, or neighbouring motions part ever

@@ -52,6 +52,18 @@ double rounding_of_forces(const Model& model, const ForcingPeriod& period) {
   return roundings * std::numeric_limits<double>::epsilon() * driven_displacement(model) / size;
 }
 
+/// How far an orbit is from its mirror image, in parts of its size.
+double asymmetry(const ForcingPeriod& period) { return std::abs(period.peak + period.trough) / period.size; }
+
+/// Whether one orbit is its own mirror image and the other one clearly is none. Branches of both meet where the
+/// symmetric orbits change their stability; the asymmetric branch goes on there to the mirror images of its orbits.
+bool changes_symmetry(const ForcingPeriod& a, const ForcingPeriod& b) {
+  constexpr double none = 1e-7;
+  constexpr double clear = 1e-3;
+  const auto [low, high] = std::minmax({asymmetry(a), asymmetry(b)});
+  return low < none && high > clear;
+}
+
 /// Whether the branch may fold between two orbits: there a real Floquet multiplier passes 1, or touches it, or an
 /// asymmetric orbit meets its mirror image.
 bool may_fold_between(const ForcingPeriod& a, const ForcingPeriod& b) {
@@ -371,6 +383,10 @@ std::optional<Node> Continuation::advance(const Node& from, double& step) {
     std::optional<VectorXd> next = tangent(*node, along);
     if (!next) {
       nearest_ = 0.0;
+      continue;
+    }
+    if (changes_symmetry(from.period, node->period)) {
+      nearest_ = 0.0;  // an orbit, but of another branch
       continue;
     }
     // A tangent that turns the parameter back where the branch cannot fold has the wrong sense.

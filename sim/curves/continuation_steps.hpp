@@ -114,6 +114,7 @@ class Continuation {
   [[nodiscard]] std::optional<double> grazing_ahead() const;
   [[nodiscard]] bool ends_ahead(const Node& node) const;
   [[nodiscard]] std::string parting_at(const Node& node) const;
+  [[nodiscard]] std::string meeting() const;
   [[nodiscard]] std::string where_held(double held, double other);
   [[nodiscard]] std::optional<double> rest_ahead(const Node& node);
   [[nodiscard]] bool comes_to_rest(double parameter, const State& start);

@@ -164,3 +164,20 @@ TEST_CASE("steps along a branch are measured by how far each state reaches in it
   CHECK(lagging.points.size() < 800);
   CHECK(largest_error(lagging, model, &sim::Excitation::frequency, 150) < 1e-8);
 }
+
+TEST_CASE("a branch of asymmetric orbits goes on to their mirror images, and not to symmetric ones") {
+  sim::Model model = smooth(friction::Law(friction::Stribeck(friction::StribeckCurve(0.02, 0.05, 0.05))), 1e-11);
+  model.oscillator = {.mass = 1.0, .stiffness = 1.0, .damping = 0.05, .cubic_stiffness = 1.0};
+  model.excitation.amplitude = 0.2;
+  model.excitation.frequency = 0.0;
+  const sim::Branch branch = continue_branch(model, BranchParameter::frequency, 0.5, 2.5);
+  REQUIRE(branch.outcome.ok());
+  const auto asymmetry = [](const sim::BranchPoint& point) { return point.state.peak + point.state.trough; };
+  CHECK(asymmetry(branch.points.front()) == Approx(-asymmetry(branch.points.back())).epsilon(1e-6));
+  // Where the branch of symmetric orbits, from 0.6 down, says that they cease to attract.
+  CHECK(std::ranges::any_of(branch.changes, [](const sim::BranchChange& change) {
+    return change.kind == sim::ChangeKind::fold && std::abs(change.parameter - 0.567504222) < 1e-6;
+  }));
+  REQUIRE(branch.warnings.size() == 1);
+  CHECK(branch.warnings.front().find("met their mirror images") != std::string::npos);
+}
