@@ -10,8 +10,9 @@
 
 #include "core/constants.hpp"
 #include "core/numbers.hpp"
-#include "identify/records/phase_checks.hpp"
-#include "identify/records/sensor_agreement.hpp"
+#include "identify/records/faults/frequency_unit.hpp"
+#include "identify/records/faults/phase_checks.hpp"
+#include "identify/records/faults/sensor_agreement.hpp"
 #include "identify/records/sine_fit.hpp"
 #include "identify/records/turning_points.hpp"
 #include "identify/statistics/median.hpp"
@@ -295,15 +296,9 @@ class Check {
     const std::string where = " at " + in_hertz(omega) + ", where the natural frequency is " +
                               in_hertz(constants_.natural_frequency()) +
                               ": spring and inertia of the motion x need more force than the base gives, k Y";
-    for (const auto& [factor, unit] :
-         {std::pair{core::two_pi, "Hz, not rad/s"}, {1.0 / core::two_pi, "rad/s, not Hz"}}) {
-      std::vector<Pair> turned = pairs;
-      for (Pair& pair : turned) pair.omega = factor * frequency_of(pair, constants_);
-      if (balance_of(turned, constants_).too_much > 0) continue;
-      refuse("x, Y and the frequency do not belong together" + where,
-             std::string("the frequency in its unit: it may be in ") + unit);
-      return;
-    }
+    if (const char* const unit = other_unit_of_frequency(pairs, constants_))
+      return refuse("x, Y and the frequency do not belong together" + where,
+                    std::string("the frequency in its unit: it may be in ") + unit);
     if (balance.swapped_too_much == 0)
       refuse("columns x and Y seem to be swapped, or a constant is wrong: in " + std::to_string(balance.too_much) +
                  " of " + std::to_string(balance.pairs) + " pairs," + where,
@@ -320,7 +315,9 @@ class Check {
     const std::string swapped = "x is the amplitude of the mass, Y that of the base; " +
                                 words_(core::Setting::column, "x", "...") + ", " +
                                 words_(core::Setting::column, "Y", "...");
-    if (2 * balance.too_much > balance.pairs && balance.pairs > 0) return refuse_balance(pairs, balance, swapped);
+    const bool are_hertz = record_.histories.empty() && are_in_hertz(pairs, constants_);
+    if (are_hertz || (2 * balance.too_much > balance.pairs && balance.pairs > 0))
+      return refuse_balance(pairs, balance, swapped);
     check_phases(pairs);
     if (faults_.empty()) check_line(pairs, swapped);
   }

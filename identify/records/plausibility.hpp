@@ -6,6 +6,8 @@
 ///   read as seconds and, for extremes of a free vibration, numbers of samples;
 /// * x, v and a at the main frequency w of a history, |a| = w |v| = w^2 |x|; or mean v^2 = (w x)^2/2 of a pair;
 /// * the balance of forces, |k - m w^2| x <= k Y. Damping and friction act at right angles to it;
+/// * the same balance with frequencies that are numbers of hertz, read as rad/s
+/// (identify/records/faults/frequency_unit.hpp);
 /// * the work of the base in a period, pi k Y x sin(phase) >= 0. If it is negative, x and Y are swapped or one of
 ///   them has a wrong sign. The work of a force is checked too, less the energy of the motion. Without a phase, the
 ///   line x(Y) is checked: swapped columns give zeta > 1 and F0 < 0;
