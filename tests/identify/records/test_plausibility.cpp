@@ -366,11 +366,13 @@ TEST_CASE("A force or a base of the wrong sign takes work out of the motion, and
     CHECK(faults_with(1.0, ratio, 0.05).empty());
     CHECK(faults_with(1.0, ratio, 0.05, true).empty());
   }
-  for (const double ratio : {0.95, 1.0, 1.05}) {
+  for (const double ratio : {0.8, 0.95, 1.0, 1.05, 1.4}) {
+    CAPTURE(ratio);
     CHECK(mentions(faults_with(-1.0, ratio, 0.0), "one of them has the wrong sign"));
     const std::string of_base = faults_with(-1.0, ratio, 0.0, true);
     CHECK(mentions(of_base, "the base takes "));
     CHECK(mentions(of_base, "y and x positive in one direction: "));
+    CHECK(mentions(of_base, "x and y are swapped"));
   }
 }
 
