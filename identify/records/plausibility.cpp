@@ -10,8 +10,10 @@
 
 #include "core/constants.hpp"
 #include "core/numbers.hpp"
-#include "identify/records/phase_checks.hpp"
-#include "identify/records/sensor_agreement.hpp"
+#include "identify/records/faults/drive_work.hpp"
+#include "identify/records/faults/frequency_unit.hpp"
+#include "identify/records/faults/phase_checks.hpp"
+#include "identify/records/faults/sensor_agreement.hpp"
 #include "identify/records/sine_fit.hpp"
 #include "identify/records/turning_points.hpp"
 #include "identify/statistics/median.hpp"
@@ -260,29 +262,26 @@ class Check {
     }
   }
 
-  /// Checks that the work of force or base is at least the growth of the energy of the motion: friction gives none.
+  /// Checks that the work of force or base is possible.
   void check_work(const History& history, double omega) {
     const bool is_force = !history.force.empty();
-    // Of both at once, either may be wrong. Phases of pairs tell more of a base.
-    if (history.x.empty() || is_force != history.y.empty() || (!is_force && record_.pairs)) return;
-    const std::vector<double>& drive = is_force ? history.force : history.y;
-    double work = 0.0, moved = 0.0;
-    for (std::size_t i = 1; i < history.x.size(); ++i) {
-      const double force = 0.5 * (drive[i] + drive[i - 1]) * (is_force ? 1.0 : constants_.stiffness);
-      const double part = force * (history.x[i] - history.x[i - 1]);
-      work += part;
-      moved += std::abs(part);
+    if (!is_force && record_.pairs) return;  // phases of pairs tell more of a base
+    const std::optional<double> work = impossible_work(history, constants_, omega);
+    if (!work) return;
+    const std::string taken = "the " + std::string(is_force ? "force" : "base") + " takes " + shown(-*work) +
+                              unit("J") + " out of the motion x, more than the motion has: ";
+    const std::string name = is_force ? "force" : "y";
+    const std::string positive = name + " and x positive in one direction: " + turned(name);
+    if (is_force) return refuse(taken + "one of them has the wrong sign", positive);
+    // Exchanged, the work of a base has the other sign as well. A mass mostly moves further than its base.
+    std::array<std::string, 2> causes = {"one of them has the wrong sign", "x and y are swapped"};
+    std::array<std::string, 2> remedies = {
+        positive, words_(core::Setting::column, "x", "...") + ", " + words_(core::Setting::column, "y", "...")};
+    if (range_of(history.y) > range_of(history.x)) {
+      std::ranges::reverse(causes);
+      std::ranges::reverse(remedies);
     }
-    const double range = range_of(history.x);
-    const double stiffness =
-        std::fmax(constants_.mass * omega * omega, std::fmax(constants_.stiffness, 0.0));  // either may be unknown
-    const double energy = 0.125 * stiffness * range * range;  // at most, at the beginning
-    constexpr double clearly = 0.2;
-    if (!(work + 2.0 * energy < -clearly * moved)) return;
-    const auto [name, who] = is_force ? std::pair("force", "force") : std::pair("y", "base");
-    refuse("the " + std::string(who) + " takes " + shown(-work) + unit("J") +
-               " out of the motion x, more than the motion has: one of them has the wrong sign",
-           std::string(name) + " and x positive in one direction: " + turned(name));
+    refuse(taken + causes[0] + ", or " + causes[1], remedies[0] + "; or " + remedies[1]);
   }
 
   [[nodiscard]] std::string unit(const char* name) const { return " " + constants_.unit(name); }
@@ -305,15 +304,9 @@ class Check {
     const std::string where = " at " + in_hertz(omega) + ", where the natural frequency is " +
                               in_hertz(constants_.natural_frequency()) +
                               ": spring and inertia of the motion x need more force than the base gives, k Y";
-    for (const auto& [factor, unit] :
-         {std::pair{core::two_pi, "Hz, not rad/s"}, {1.0 / core::two_pi, "rad/s, not Hz"}}) {
-      std::vector<Pair> turned = pairs;
-      for (Pair& pair : turned) pair.omega = factor * frequency_of(pair, constants_);
-      if (balance_of(turned, constants_).too_much > 0) continue;
-      refuse("x, Y and the frequency do not belong together" + where,
-             std::string("the frequency in its unit: it may be in ") + unit);
-      return;
-    }
+    if (const char* const unit = other_unit_of_frequency(pairs, constants_))
+      return refuse("x, Y and the frequency do not belong together" + where,
+                    std::string("the frequency in its unit: it may be in ") + unit);
     if (balance.swapped_too_much == 0)
       refuse("columns x and Y seem to be swapped, or a constant is wrong: in " + std::to_string(balance.too_much) +
                  " of " + std::to_string(balance.pairs) + " pairs," + where,
@@ -330,7 +323,9 @@ class Check {
     const std::string swapped = "x is the amplitude of the mass, Y that of the base; " +
                                 words_(core::Setting::column, "x", "...") + ", " +
                                 words_(core::Setting::column, "Y", "...");
-    if (2 * balance.too_much > balance.pairs && balance.pairs > 0) return refuse_balance(pairs, balance, swapped);
+    const bool are_hertz = record_.histories.empty() && are_in_hertz(pairs, constants_);
+    if (are_hertz || (2 * balance.too_much > balance.pairs && balance.pairs > 0))
+      return refuse_balance(pairs, balance, swapped);
     check_phases(pairs);
     if (faults_.empty()) check_line(pairs, swapped);
   }

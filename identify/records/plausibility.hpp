@@ -6,9 +6,12 @@
 ///   read as seconds and, for extremes of a free vibration, numbers of samples;
 /// * x, v and a at the main frequency w of a history, |a| = w |v| = w^2 |x|; or mean v^2 = (w x)^2/2 of a pair;
 /// * the balance of forces, |k - m w^2| x <= k Y. Damping and friction act at right angles to it;
+/// * the same balance with frequencies that are numbers of hertz, read as rad/s
+/// (identify/records/faults/frequency_unit.hpp);
 /// * the work of the base in a period, pi k Y x sin(phase) >= 0. If it is negative, x and Y are swapped or one of
-///   them has a wrong sign. The work of a force is checked too, less the energy of the motion. Without a phase, the
-///   line x(Y) is checked: swapped columns give zeta > 1 and F0 < 0;
+///   them has a wrong sign. Without a phase, the line x(Y) is checked: swapped columns give zeta > 1 and F0 < 0;
+/// * the work of the force or base of a history, less the energy that the motion begins with
+///   (identify/records/faults/drive_work.hpp);
 /// * the phase in the balance of forces, k Y cos(phase) = (k - m w^2) x. Finds degrees read as radians;
 /// * speeds above 50 m/s and accelerations above 10,000 m/s^2, if no unit was stated.
 /// The limits are wide: factors of 5 and more, in most of the pairs. Smaller faults are left to the verdict.

@@ -295,6 +295,54 @@ TEST_CASE("Milliseconds read as seconds under a drive are refused near resonance
   }
 }
 
+namespace {
+
+/// A frequency response of twelve pairs from `lowest` to `highest` times the natural frequency.
+Rig response(double lowest, double highest, bool has_phases, double zeta = 0.08) {
+  Rig rig{.constants = {1.0, 1421.223, unknown}};
+  const auto functions_at = [&](double r) { return sim::analytic::den_hartog(zeta, r); };
+  for (int i = 0; i < 12; ++i) {
+    const double r = lowest + (highest - lowest) * i / 11.0;
+    const double Y = 8e-3 * (1.0 + 0.005 * (i % 3 - 1));
+    const auto state = sim::analytic::non_sticking_state(functions_at(r), Y, 1e-3);
+    if (!state) continue;
+    Pair pair{Y, state->amplitude, "", i + 1};
+    pair.omega = r * rig.constants.natural_frequency();
+    if (has_phases) pair.phase = state->phase;
+    rig.record.pairs.push_back(pair);
+  }
+  REQUIRE(rig.record.pairs.size() > 4);
+  return rig;
+}
+
+}  // namespace
+
+TEST_CASE("A column of hertz that is read as rad/s is refused, and no sound response is") {
+  for (const bool has_phases : {true, false})
+    for (const auto& [lowest, highest] : {std::pair{0.85, 1.2}, {0.85, 0.98}, {0.6, 1.8}, {1.02, 1.4}}) {
+      CAPTURE(has_phases, lowest, highest);
+      Rig rig = response(lowest, highest, has_phases);
+      CHECK(faults_in(rig.record, rig.constants).empty());
+      // A stiffness that is wrong by a factor is for the ledger, or has another name.
+      for (const double factor : {0.1, 0.3, 0.5, 2.0, 4.0, 10.0}) {
+        KnownConstants wrong = rig.constants;
+        wrong.stiffness *= factor;
+        CHECK_FALSE(mentions(faults_in(rig.record, wrong), "it may be in Hz, not rad/s"));
+      }
+      for (Pair& pair : rig.record.pairs) pair.omega /= 2.0 * pi;
+      CHECK(mentions(faults_in(rig.record, rig.constants), "it may be in Hz, not rad/s"));
+    }
+  for (const double r : {0.14, 0.2, 6.0, 9.0}) {  // as hertz, two of these are at resonance
+    CAPTURE(r);
+    Rig far = response(0.85, 1.2, false);
+    for (Pair& pair : far.record.pairs) {
+      pair.omega = r * (1.0 + 0.01 * pair.number) * far.constants.natural_frequency();
+      pair.x = pair.Y / std::abs(1.0 - r * r);
+    }
+    CHECK(faults_in(far.record, far.constants).empty());
+  }
+}
+
 TEST_CASE("A motion faster than 1000 m/s in its stated unit gets a warning") {
   const KnownConstants constants{1.0, 1500.0, unknown};
   const DecayRecord decay{{0.04, -0.03, 0.02}, {}};
@@ -340,11 +388,13 @@ TEST_CASE("A force or a base of the wrong sign takes work out of the motion, and
     CHECK(faults_with(1.0, ratio, 0.05).empty());
     CHECK(faults_with(1.0, ratio, 0.05, true).empty());
   }
-  for (const double ratio : {0.95, 1.0, 1.05}) {
+  for (const double ratio : {0.8, 0.95, 1.0, 1.05, 1.4}) {
+    CAPTURE(ratio);
     CHECK(mentions(faults_with(-1.0, ratio, 0.0), "one of them has the wrong sign"));
     const std::string of_base = faults_with(-1.0, ratio, 0.0, true);
     CHECK(mentions(of_base, "the base takes "));
     CHECK(mentions(of_base, "y and x positive in one direction: "));
+    CHECK(mentions(of_base, "x and y are swapped"));
   }
 }
 

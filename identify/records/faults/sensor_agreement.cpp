@@ -1,4 +1,4 @@
-#include "identify/records/sensor_agreement.hpp"
+#include "identify/records/faults/sensor_agreement.hpp"
 
 #include <Eigen/Core>
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "identify/records/phase_checks.hpp"
+#include "identify/records/faults/phase_checks.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -58,12 +58,6 @@ std::vector<Cause> wrong_signs(const std::vector<Pair>& pairs, bool from_histori
   return list;
 }
 
-bool fits(const std::vector<Pair>& pairs, const KnownConstants& constants) {
-  constexpr double good = 0.15;
-  const Balance balance = balance_of(pairs, constants);
-  return !balance.takes_work() && balance.phases > 0 && upper_median(balance.cosines) < good;
-}
-
 /// Does another natural frequency, the same for all pairs, explain the phases?
 bool fits_with_other_mass(const std::vector<Pair>& pairs, KnownConstants constants) {
   std::vector<double> masses;
@@ -74,7 +68,7 @@ bool fits_with_other_mass(const std::vector<Pair>& pairs, KnownConstants constan
   }
   if (masses.empty()) return false;
   constants.mass = upper_median(std::move(masses));
-  return constants.mass > 0.0 && fits(pairs, constants);
+  return constants.mass > 0.0 && phases_fit(pairs, constants);
 }
 
 struct Causes {
@@ -82,7 +76,7 @@ struct Causes {
 
   void add_fitting(const std::vector<Cause>& list, const KnownConstants& constants) {
     for (const Cause& cause : list)
-      if (fits(cause.pairs, constants)) add(cause.text, cause.remedy);
+      if (phases_fit(cause.pairs, constants)) add(cause.text, cause.remedy);
   }
   void add(const std::string& text, const std::string& remedy) {
     texts.push_back(text);
@@ -122,6 +116,12 @@ Balance balance_of(const std::vector<Pair>& pairs, const KnownConstants& constan
     balance.cosines.push_back(std::abs(std::cos(pair.phase) - real * pair.x / pair.Y));
   }
   return balance;
+}
+
+bool phases_fit(const std::vector<Pair>& pairs, const KnownConstants& constants) {
+  constexpr double good = 0.15;
+  const Balance balance = balance_of(pairs, constants);
+  return !balance.takes_work() && balance.phases > 0 && upper_median(balance.cosines) < good;
 }
 
 std::optional<double> excess_of_Y(const std::vector<Pair>& pairs, const KnownConstants& constants) {

@@ -32,6 +32,9 @@ struct Balance {
 
 [[nodiscard]] Balance balance_of(const std::vector<Pair>& pairs, const KnownConstants& constants);
 
+/// Whether there are phases, and most of them fit x and Y.
+[[nodiscard]] bool phases_fit(const std::vector<Pair>& pairs, const KnownConstants& constants);
+
 /// How many times too large Y is for x and the phases. Nothing if they do not tell: that needs pairs on both sides
 /// of the natural frequency, whose k Y cos(phase) is in proportion to (k - m w^2) x. On one side friction that
 /// holds the mass for a part of the period makes up for any factor.
