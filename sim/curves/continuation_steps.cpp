@@ -55,13 +55,13 @@ double rounding_of_forces(const Model& model, const ForcingPeriod& period) {
 /// How far an orbit is from its mirror image, in parts of its size.
 double asymmetry(const ForcingPeriod& period) { return std::abs(period.peak + period.trough) / period.size; }
 
-/// Whether one orbit is its own mirror image and the other one clearly is none. Branches of both meet where the
-/// symmetric orbits change their stability; the asymmetric branch goes on there to the mirror images of its orbits.
-bool changes_symmetry(const ForcingPeriod& a, const ForcingPeriod& b) {
+/// Whether a step leads from an asymmetric orbit to one that is its own mirror image and does not attract. Branches
+/// of both meet there; the asymmetric one goes on to the mirror images of its orbits. One that attracts is where a
+/// sweep goes on.
+bool leaves_for_symmetry(const ForcingPeriod& from, const ForcingPeriod& to) {
   constexpr double none = 1e-7;
   constexpr double clear = 1e-3;
-  const auto [low, high] = std::minmax({asymmetry(a), asymmetry(b)});
-  return low < none && high > clear;
+  return asymmetry(from) > clear && asymmetry(to) < none && to.radius() > 1.0;
 }
 
 /// Whether the branch may fold between two orbits: there a real Floquet multiplier passes 1, or touches it, or an
@@ -385,7 +385,7 @@ std::optional<Node> Continuation::advance(const Node& from, double& step) {
       nearest_ = 0.0;
       continue;
     }
-    if (changes_symmetry(from.period, node->period)) {
+    if (leaves_for_symmetry(from.period, node->period)) {
       nearest_ = 0.0;  // an orbit, but of another branch
       continue;
     }
