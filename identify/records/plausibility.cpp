@@ -13,6 +13,7 @@
 #include "identify/records/faults/drive_work.hpp"
 #include "identify/records/faults/frequency_unit.hpp"
 #include "identify/records/faults/phase_checks.hpp"
+#include "identify/records/faults/resonance_line.hpp"
 #include "identify/records/faults/sensor_agreement.hpp"
 #include "identify/records/sine_fit.hpp"
 #include "identify/records/turning_points.hpp"
@@ -44,48 +45,6 @@ std::string times_off(double ratio, std::span<const double> factors = of_motions
       std::ranges::find_if(factors, [size](double f) { return std::abs(std::log(size / f)) < near; });
   return "about " + (factor == factors.end() ? shown(size) : core::format_number(*factor, digits + 1)) +
          " times too " + (ratio > 1.0 ? "large" : "small");
-}
-
-/// The line x = (Y - b)/(2 zeta), where friction makes b > 0; and the same line with x and Y exchanged.
-struct ResonanceLine {
-  double zeta, intercept, other_zeta, other_intercept;
-};
-
-/// The line through the pairs, if there are at least three, near resonance, at one frequency, on a straight line.
-std::optional<ResonanceLine> resonance_line(const std::vector<Pair>& pairs, const KnownConstants& constants) {
-  const double natural = constants.natural_frequency();
-  const double n = static_cast<double>(pairs.size());
-  double x = 0.0;
-  double Y = 0.0;
-  for (const Pair& pair : pairs) {
-    const double r = frequency_of(pair, constants) / natural;
-    constexpr double near = 0.1;
-    if (!(std::abs(r - 1.0) < near) ||
-        !is_same_frequency(frequency_of(pair, constants), frequency_of(pairs[0], constants)))
-      return std::nullopt;
-    x += pair.x / n;
-    Y += pair.Y / n;
-  }
-  double xx = 0.0;
-  double xY = 0.0;
-  double YY = 0.0;
-  for (const Pair& pair : pairs) {
-    xx += (pair.x - x) * (pair.x - x);
-    xY += (pair.x - x) * (pair.Y - Y);
-    YY += (pair.Y - Y) * (pair.Y - Y);
-  }
-  constexpr double straight = 0.9;
-  if (pairs.size() < 3 || !(xY > 0.0) || xY * xY < straight * xx * YY) return std::nullopt;
-  const double zeta = 0.5 * YY / xY;
-  const double other = 0.5 * xx / xY;
-  return ResonanceLine{zeta, Y - 2.0 * zeta * x, other, x - 2.0 * other * Y};
-}
-
-/// Whether a damping ratio is one that hardly any rig has, but that a unit wrong by 1000 makes.
-bool is_odd(double zeta) {
-  constexpr double least = 2e-4;
-  constexpr double most = 20.0;
-  return zeta < least || zeta > most;
 }
 
 class Check {
