@@ -64,28 +64,6 @@ Json checks_json(const std::vector<Check>& checks) {
   return list;
 }
 
-Json verification_json(const Verification& verification) {
-  Json json = {{"engine", verification.engine}};
-  if (verification.quantity.empty()) {
-    json["largest_difference"] = nullptr;
-    json["quantity"] = nullptr;
-  } else {
-    json["largest_difference"] = verification.largest_difference;
-    json["quantity"] = verification.quantity;
-    json["tolerance"] = verification.tolerance;
-  }
-  json["quantities"] = verification.quantities;
-  if (verification.rows_left_out > 0) json["rows_left_out"] = verification.rows_left_out;
-  if (verification.rows_without_numbers > 0) json["rows_without_numbers"] = verification.rows_without_numbers;
-  if (verification.others_left_out > 0) json["others_left_out"] = verification.others_left_out;
-  if (verification.times_left_out > 0) json["times_left_out"] = verification.times_left_out;
-  if (verification.multipliers_left_out > 0) json["multipliers_left_out"] = verification.multipliers_left_out;
-  if (verification.time_shift > 0.0) json["time_shift"] = verification.time_shift;
-  json["agrees"] = verification.agrees;
-  if (!verification.reason.empty()) json["reason"] = verification.reason;
-  return json;
-}
-
 /// Units of the numbers in the result, by path: for an angle they differ from those of the reference page.
 Json units_json(const std::vector<ResultField>& fields) {
   Json json = Json::object();
@@ -212,7 +190,7 @@ Writer json_document(std::shared_ptr<const Scenario> scenario, std::shared_ptr<c
           json["units"] = units_json(scenario->result_fields);
         json["warnings"] = result->warnings;
         json["checks"] = checks_json(result->checks);
-        if (result->verification) json["verification"] = verification_json(*result->verification);
+        if (result->verification) json["verification"] = json_of(*result->verification);
         if (!result->failure.empty()) json["errors"].push_back({{"message", result->failure}});
         write_members(out, json, "", [&](const std::string& key, const Json& value, const std::string& margin) {
           if (key == "result")

@@ -147,7 +147,7 @@ RunResult run(const Scenario& scenario, const RunOptions& options) {
     answer = failed(missing + " left the range of double precision");
   if (!is_first) return {};
   provenance.duration = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  std::optional<Verification> verification;
+  std::optional<Verification> verification = std::move(answer.verification);
   if (scenario.verify && !answer.result.is_null()) verification = verify(scenario, options, answer);
   RunResult result = result_of(scenario, std::move(answer));
   if (verification && !verification->agrees) result.status = core::ExitStatus::check_failed;

@@ -183,6 +183,14 @@ void warn_of_boundary(Answer& answer, const std::vector<sim::BoundaryPoint>& bou
          return std::to_string(point.unknown_below) +
                 (point.unknown_below == 1 ? " such amplitude" : " such amplitudes");
        });
+  warn([](const sim::BoundaryPoint& point) { return point.is_stopped; },
+       "the search for it was stopped, because it takes too long",
+       [](const sim::BoundaryPoint& point) { return point.outcome.reason; });
+  warn([&](const sim::BoundaryPoint& point) { return is_ok(point) && point.seen_up_to.has_value(); },
+       "the scan above it was stopped, because it takes too long: whether the mass sticks again is not known",
+       [&](const sim::BoundaryPoint& point) {
+         return "it looked at amplitudes up to " + core::format_number(*point.seen_up_to, 6) + " " + unit;
+       });
 }
 
 /// The sticking boundary beside a map.

@@ -2,12 +2,14 @@
 /// The answer of an analysis: JSON, tables, warnings.
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/diagnostics.hpp"
 #include "scenarios/format/json.hpp"
 #include "scenarios/results/table.hpp"
+#include "scenarios/results/verification_result.hpp"
 
 namespace dualdamp::sim {
 struct State;
@@ -30,8 +32,9 @@ struct Answer {
   std::vector<std::string> warnings;
   std::vector<Table> tables;
   std::vector<TextFile> files = {};
-  std::shared_ptr<const sim::State> orbit = {};  ///< of a steady state: its state at t = 0
-  double final_acceleration = none;              ///< of a motion: at its end [m/s^2]
+  std::shared_ptr<const sim::State> orbit = {};   ///< of a steady state: its state at t = 0
+  std::optional<Verification> verification = {};  ///< of a sweep: of its points together
+  double final_acceleration = none;               ///< of a motion: at its end [m/s^2]
 };
 
 /// No result, and why.

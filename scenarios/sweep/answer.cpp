@@ -127,6 +127,7 @@ class SweepAnswer {
     add_tables(answer);
     add_status(answer);
     add_warnings(answer);
+    add_verification(answer);
     answer.result["sweep"] = std::move(points_);
     return answer;
   }
@@ -181,6 +182,29 @@ class SweepAnswer {
       const std::string count = group.points > 1 ? std::to_string(group.points) + others : "";
       answer.warnings.push_back(group.text + " (" + count + describe_point(keys_, group.first) + ")");
     }
+  }
+
+  /// The verification of the point that is nearest to its tolerance, with the counts of all points.
+  void add_verification(Answer& answer) const {
+    std::size_t verified = 0;
+    std::size_t apart = 0;
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      if (!points_.at(i).contains("verification")) continue;
+      Verification one = verification_of(points_.at(i).at("verification"));
+      ++verified;
+      if (!one.agrees) ++apart;
+      const std::string place = describe_point(keys_, i);
+      one.engine += ", at " + place;
+      if (!one.quantity.empty()) one.quantity = "sweep[" + std::to_string(i) + "].result." + one.quantity;
+      if (!one.reason.empty()) one.reason = place + ": " + one.reason;
+      answer.verification = answer.verification ? merged(*std::move(answer.verification), std::move(one)) : one;
+    }
+    if (verified == 0) return;
+    const std::string of_all = " of " + std::to_string(verified) + (verified == 1 ? " point" : " points");
+    answer.verification->engine += ", one" + of_all;
+    if (apart > 0)
+      answer.verification->reason =
+          std::to_string(apart) + of_all + " without agreement; first " + answer.verification->reason;
   }
 
   [[nodiscard]] Column swept_column(const SweptColumn& key, const std::vector<std::size_t>& rows) const {
@@ -340,11 +364,7 @@ std::string line_of(std::size_t number, const std::vector<SweptColumn>& keys, co
   if (reason.empty() && run.verification && !run.verification->agrees) reason = run.verification->reason;
   if (!reason.empty()) line["reason"] = std::move(reason);
   if (!run.warnings.empty()) line["warnings"] = run.warnings;
-  if (run.verification)
-    line["verification"] = {{"engine", run.verification->engine},
-                            {"largest_difference", finite_or_null(run.verification->largest_difference)},
-                            {"quantity", run.verification->quantity},
-                            {"agrees", run.verification->agrees}};
+  if (run.verification) line["verification"] = json_of(*run.verification);
   return line.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 

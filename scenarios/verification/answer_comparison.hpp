@@ -17,24 +17,9 @@
 
 #include "scenarios/format/result_field.hpp"
 #include "scenarios/results/answer.hpp"
+#include "scenarios/results/verification_result.hpp"
 
 namespace dualdamp::scenarios {
-
-struct Verification {
-  std::string engine;               ///< how the result was computed again, in words
-  double largest_difference = 0.0;  ///< relative, of the quantity that is nearest to its tolerance, or beyond it
-  double tolerance = 0.0;           ///< of that quantity
-  std::string quantity;             ///< its path in the result; empty: there was nothing to compare
-  long quantities = 0;              ///< number of compared values
-  long rows_left_out = 0;           ///< rows of lists for which only one computation has numbers
-  long rows_without_numbers = 0;    ///< rows of lists for which both have a reason instead
-  long others_left_out = 0;         ///< other steady states that only one computation knows
-  long times_left_out = 0;          ///< times of events of a mass that hardly moves
-  long multipliers_left_out = 0;    ///< Floquet multipliers that depend on a slider at its limit
-  double time_shift = 0.0;          ///< largest one by which a number at a given time was compared [s]
-  bool agrees = true;
-  std::string reason;  ///< why it does not agree or could not be computed
-};
 
 /// Largest relative difference of a quantity of this unit that counts as an error of computation.
 [[nodiscard]] double verification_tolerance(std::string_view unit);

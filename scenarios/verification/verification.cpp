@@ -81,12 +81,10 @@ Verification compare_computations(const Scenario& scenario, const Question& ques
   return apart ? *std::move(apart) : none;
 }
 
-/// The one that does not agree, or else the one nearer to its tolerance. If neither agrees, the first.
+/// The worse of two comparisons of one result, with the quantities of both.
 Verification worse(Verification a, Verification b) {
   const long quantities = a.quantities + b.quantities;
-  const auto share = [](const Verification& v) { return v.largest_difference / v.tolerance; };
-  const bool is_b = b.quantities > 0 && a.agrees && (!b.agrees || share(b) > share(a));
-  Verification result = is_b ? std::move(b) : std::move(a);
+  Verification result = b.quantities > 0 && is_worse(a, b) ? std::move(b) : std::move(a);
   result.quantities = quantities;
   return result;
 }

@@ -77,10 +77,45 @@ std::optional<double> den_hartogs(const Model& model, const ForceLimits& limits)
   return is_force ? force : force / o.stiffness;
 }
 
-SteadyState at(Model& model, double amplitude, int max_periods = SteadyStateOptions{}.max_periods) {
-  model.excitation.amplitude = amplitude;
-  return steady_state(model, {.max_periods = max_periods, .detail = OrbitDetail::extremes});
-}
+/// Steady states of one model by amplitude, up to a limit of work.
+class States {
+ public:
+  States(Model model, long most_work) : model_(std::move(model)), most_work_(most_work) {}
+
+  SteadyState at(double amplitude, int max_periods = SteadyStateOptions{}.max_periods) {
+    if (is_exhausted()) {
+      SteadyState none;
+      none.outcome = too_long();
+      return none;
+    }
+    model_.excitation.amplitude = amplitude;
+    SteadyState state = steady_state(model_, {.max_periods = max_periods,
+                                              .most_work = most_work_ - work_,
+                                              .detail = OrbitDetail::extremes,
+                                              .others = false});
+    const core::SearchCount& count = state.certificate;
+    work_ += count.searches + count.panels + count.splits;
+    return state;
+  }
+
+  [[nodiscard]] const Model& model() const { return model_; }
+  [[nodiscard]] long work() const { return work_; }
+  [[nodiscard]] bool is_exhausted() const { return work_ >= most_work_; }
+  /// Whether so little is left that a scan must leave it to the bisection.
+  [[nodiscard]] bool ends_scan() const { return work_ >= most_work_ / 4 * 3; }
+  [[nodiscard]] bool is_stopped() const { return is_stopped_; }
+  [[nodiscard]] core::Outcome too_long() {
+    is_stopped_ = true;
+    return {core::OutcomeKind::event_limit,
+            "the search for the boundary was stopped: its steady states take too long to compute"};
+  }
+
+ private:
+  Model model_;
+  long most_work_;
+  long work_ = 0;
+  bool is_stopped_ = false;
+};
 
 bool sticks(const SteadyState& state) { return !state.sticks.empty(); }
 
@@ -99,10 +134,10 @@ struct Bracket {
 };
 
 /// The steady state at `amplitude`, or at the next of the amplitudes `factor` apart that has one.
-SteadyState next_known(Model& model, double& amplitude, double factor) {
-  SteadyState state = at(model, amplitude);
+SteadyState next_known(States& states, double& amplitude, double factor) {
+  SteadyState state = states.at(amplitude);
   for (int i = 0; i < most_unknown && !state.outcome.ok(); ++i) {
-    SteadyState next = at(model, amplitude * std::pow(factor, i + 1));
+    SteadyState next = states.at(amplitude * std::pow(factor, i + 1));
     if (!next.outcome.ok()) continue;
     amplitude *= std::pow(factor, i + 1);
     return next;
@@ -112,8 +147,8 @@ SteadyState next_known(Model& model, double& amplitude, double factor) {
 
 /// Doubles the amplitude while the mass sticks, or halves it while the mass does not. Amplitudes without a steady
 /// state are passed over.
-core::Outcome bracket(Model& model, double amplitude, Bracket& found) {
-  SteadyState state = next_known(model, amplitude, 2.0);
+core::Outcome bracket(States& states, double amplitude, Bracket& found) {
+  SteadyState state = next_known(states, amplitude, 2.0);
   const bool up = sticks(state);
   for (int i = 0; i < max_doublings && state.outcome.ok(); ++i) {
     if (sticks(state)) {
@@ -124,7 +159,7 @@ core::Outcome bracket(Model& model, double amplitude, Bracket& found) {
     }
     if (sticks(state) != up) return {};
     amplitude *= up ? 2.0 : 0.5;
-    state = next_known(model, amplitude, up ? 2.0 : 0.5);
+    state = next_known(states, amplitude, up ? 2.0 : 0.5);
   }
   if (!state.outcome.ok()) return state.outcome;
   return {core::OutcomeKind::no_steady_state, up ? always_sticks : always_slides};
@@ -132,14 +167,14 @@ core::Outcome bracket(Model& model, double amplitude, Bracket& found) {
 
 /// Halves the bracket. Where a steady state at its middle is not found, one beside the middle will do. Motions may
 /// approach their orbits ever more slowly towards the boundary: a bracket that is `close` is not worth waiting for.
-core::Outcome narrow(Model& model, Bracket& found) {
+core::Outcome narrow(States& states, Bracket& found) {
   constexpr std::array<double, 3> places = {0.5, 0.4, 0.6};
   while (found.high - found.low > precision * found.high) {
     const bool is_close = found.high - found.low <= close * found.high;
     core::Outcome outcome;
     for (const double place : places) {
       const double amplitude = found.low + place * (found.high - found.low);
-      SteadyState state = is_close ? at(model, amplitude, patience_if_close) : at(model, amplitude);
+      SteadyState state = is_close ? states.at(amplitude, patience_if_close) : states.at(amplitude);
       outcome = state.outcome;
       if (!outcome.ok() && is_close) return {};
       if (!outcome.ok()) continue;
@@ -160,8 +195,8 @@ core::Outcome narrow(Model& model, Bracket& found) {
 /// sticking from sliding.
 class Scan {
  public:
-  Scan(Model& model, std::span<const double> asked, BoundaryPoint& point)
-      : model_(model), asked_(asked), point_(point) {}
+  Scan(States& states, std::span<const double> asked, BoundaryPoint& point)
+      : states_(states), asked_(asked), point_(point) {}
 
   /// The first change from sticking to sliding among the amplitudes that are looked at.
   core::Outcome bracket(const ForceLimits& limits, Bracket& found);
@@ -174,9 +209,9 @@ class Scan {
   std::optional<double> bottom_below(double amplitude);
   double top_above(double amplitude, Bracket& found);
   [[nodiscard]] std::vector<double> between(double bottom, double top) const;
-  [[nodiscard]] bool gives_up() const { return failures_ >= most_failures; }
+  [[nodiscard]] bool gives_up() const { return failures_ >= most_failures || states_.ends_scan(); }
 
-  Model& model_;
+  States& states_;
   std::span<const double> asked_;
   BoundaryPoint& point_;
   SteadyState state_;      ///< the last one
@@ -185,7 +220,7 @@ class Scan {
 };
 
 Scan::Motion Scan::motion_at(double amplitude) {
-  state_ = at(model_, amplitude);
+  state_ = states_.at(amplitude);
   if (!state_.outcome.ok()) {
     if (failures_++ == 0) failure_ = state_.outcome;
     return Motion::none;
@@ -197,12 +232,13 @@ Scan::Motion Scan::motion_at(double amplitude) {
 /// The amplitude whose force equals the friction, if there are neither harmonics nor an offset. A law without force
 /// at the start (free play) says nothing: then the largest amplitude that is asked for, or that of the model.
 double Scan::break_away(const ForceLimits& limits) const {
-  Excitation unit = model_.excitation;
+  const Model& model = states_.model();
+  Excitation unit = model.excitation;
   unit.harmonics.clear();
   unit.amplitude = 1.0;
   const double force = limits.holding > 0.0 ? limits.holding : limits.kinetic;
-  if (force > 0.0) return force / std::abs(Drive(model_.oscillator, unit).force_phasor(0));
-  const double asked = asked_.empty() ? model_.excitation.amplitude : std::ranges::max(asked_);
+  if (force > 0.0) return force / std::abs(Drive(model.oscillator, unit).force_phasor(0));
+  const double asked = asked_.empty() ? model.excitation.amplitude : std::ranges::max(asked_);
   return asked > 0.0 ? asked : 1.0;
 }
 
@@ -243,14 +279,22 @@ std::vector<double> Scan::between(double bottom, double top) const {
 core::Outcome Scan::bracket(const ForceLimits& limits, Bracket& found) {
   const double begin = break_away(limits);
   const std::optional<double> bottom = bottom_below(begin);
+  if (states_.ends_scan()) return states_.too_long();
   if (!bottom && gives_up()) return failure_;
   if (!bottom) return {core::OutcomeKind::no_steady_state, always_slides};
   const double top = top_above(begin, found);
   found.low = *bottom;
   failures_ = 0;  // those of the scan itself
   bool is_below = true;
+  double seen = *bottom;
   for (const double amplitude : between(*bottom, top)) {
+    if (states_.ends_scan()) {
+      if (is_below) return states_.too_long();
+      point_.seen_up_to = seen;
+      break;
+    }
     if (gives_up()) break;
+    seen = amplitude;
     const Motion motion = motion_at(amplitude);
     if (motion == Motion::none) {
       point_.unknown_below += is_below ? 1 : 0;
@@ -271,17 +315,21 @@ core::Outcome Scan::bracket(const ForceLimits& limits, Bracket& found) {
   return {core::OutcomeKind::no_steady_state, always_sticks};
 }
 
-BoundaryPoint find(Model model, const ForceLimits& limits, double omega, std::span<const double> asked) {
+BoundaryPoint find(Model model, const ForceLimits& limits, double omega, std::span<const double> asked,
+                   long most_work) {
   model.excitation.frequency = omega;
   BoundaryPoint point{.omega = omega};
+  States states(model, most_work);
   Bracket found;
-  point.outcome = has_one_boundary(model, limits) ? bracket(model, first_amplitude(model, limits), found)
-                                                  : Scan(model, asked, point).bracket(limits, found);
-  if (point.outcome.ok()) point.outcome = narrow(model, found);
+  point.outcome = has_one_boundary(model, limits) ? bracket(states, first_amplitude(model, limits), found)
+                                                  : Scan(states, asked, point).bracket(limits, found);
+  if (point.outcome.ok()) point.outcome = narrow(states, found);
   point.amplitude = found.high;
   point.sticks = found.low;
   point.slides = found.high;
   point.x = found.above.amplitude;
+  point.work = states.work();
+  point.is_stopped = !point.outcome.ok() && states.is_stopped();
   if (point.outcome.ok()) point.closed_form = den_hartogs(model, limits);
   return point;
 }
@@ -296,13 +344,13 @@ Model driven(Model model) {
 }  // namespace
 
 std::vector<BoundaryPoint> sticking_boundary(const Model& model, std::span<const double> frequencies,
-                                             std::span<const double> amplitudes) {
+                                             std::span<const double> amplitudes, long most_work) {
   require_in(friction::positive, "analysis.frequencies", frequencies, "rad/s");
   const ForceLimits limits = limits_of(valid_harmonic(driven(model), "sticking_boundary"));
   std::vector<BoundaryPoint> boundary(frequencies.size());
   in_parts(frequencies.size(), 1, 0, [&](std::size_t first, std::size_t count) {
     for (std::size_t i = first; i < first + count; ++i)
-      boundary[i] = find(model, limits, frequencies[i], amplitudes);
+      boundary[i] = find(model, limits, frequencies[i], amplitudes, most_work);
   });
   return boundary;
 }

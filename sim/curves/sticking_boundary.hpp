@@ -15,7 +15,8 @@
 /// (`sim/analytic/den_hartog.hpp`), which shares no code with the engine.
 ///
 /// Cost: some fifty steady states a frequency; with a scan some hundred to three hundred, and those of the caller's
-/// amplitudes. Frequencies are computed in parallel.
+/// amplitudes. Frequencies are computed in parallel. The search at a frequency has a limit of work, of which a scan
+/// leaves a quarter to the bisection.
 
 #include <optional>
 #include <span>
@@ -38,12 +39,20 @@ struct BoundaryPoint {
   /// The smallest and the largest amplitude above the boundary at which the scan saw the mass stick again; between
   /// them it need not stick everywhere.
   std::optional<std::pair<double, double>> sticks_again{};
-  int unknown_below = 0;  ///< scanned amplitudes below the boundary without a steady state
+  /// If the scan was stopped above the boundary because it takes too long: the largest amplitude it looked at.
+  std::optional<double> seen_up_to{};
+  bool is_stopped = false;  ///< no boundary was found, because the search takes too long
+  long work = 0;            ///< searches for events, panels and splits of all its steady states
+  int unknown_below = 0;    ///< scanned amplitudes below the boundary without a steady state
 };
+
+/// Work of the search at one frequency; some half a minute.
+inline constexpr long most_boundary_work = 20'000'000;
 
 /// The boundary at each of `frequencies` [rad/s]; a scan also looks at `amplitudes` [m or N]. Needs a harmonic
 /// excitation and a law that holds the mass.
 [[nodiscard]] std::vector<BoundaryPoint> sticking_boundary(const Model& model, std::span<const double> frequencies,
-                                                           std::span<const double> amplitudes = {});
+                                                           std::span<const double> amplitudes = {},
+                                                           long most_work = most_boundary_work);
 
 }  // namespace dualdamp::sim

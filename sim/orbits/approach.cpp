@@ -12,6 +12,7 @@
 #include "core/numbers.hpp"
 #include "sim/engine/closed_form.hpp"
 #include "sim/neutral_margin.hpp"
+#include "sim/orbits/least_amplitude.hpp"
 #include "sim/orbits/orbit_account.hpp"
 
 namespace dualdamp::sim {
@@ -43,6 +44,9 @@ constexpr double multiplier_rounding = 1e-10;
 constexpr double not_there = 0.1;
 /// Above this product the motion would be there: what keeps it from closing is no slow displacement.
 constexpr double long_there = 10.0;
+
+/// A motion still grows if every steady state is larger by this factor.
+constexpr double far_larger = 2.0;
 
 /// A motion that closes this well is compared with its rounding.
 constexpr double near_rounding = 1e-8;
@@ -83,6 +87,19 @@ constexpr const char* hardly_attracting =
 constexpr const char* repelling =
     "unstable: a Floquet multiplier lies outside the unit circle; the motion stays on this "
     "orbit only while nothing disturbs it";
+
+/// Ok unless every steady state is far larger than the motion has ever been [m].
+core::Outcome growth_beyond_friction(const Model& model, double largest) {
+  const double least = least_amplitude(model);
+  if (least == core::infinity)
+    return {core::OutcomeKind::no_steady_state,
+            "no steady state: the amplitude grows without bound: at an undamped resonance the drive exceeds 4/pi "
+            "times the largest friction force"};
+  if (!(least > far_larger * largest)) return {};
+  return {core::OutcomeKind::no_steady_state,
+          "no steady state found: the amplitude still grows, to at least " + core::format_number(least, 3) + " " +
+              model.unit("m") + ": near a resonance the drive exceeds 4/pi times the largest friction force"};
+}
 
 }  // namespace
 
@@ -357,6 +374,7 @@ core::Outcome Approach::failure() {
             "no steady state: the amplitude still grows; damping limits it at a much larger amplitude, or never"};
   }
   if (!followed.ok()) return followed;
+  if (core::Outcome grows = growth_beyond_friction(model_, growth_.largest()); !grows.ok()) return grows;
   if (divergence_ > diverging) {
     return {core::OutcomeKind::no_steady_state,
             "no steady state: the motion is aperiodic: it has not come back within " + std::to_string(passed_) +

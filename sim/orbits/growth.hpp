@@ -64,6 +64,8 @@ class Growth {
     const double quarter = seen_[seen_.size() / 4 - 1];
     return is_endless() || (now >= beating * largest_ && is_growth(half - quarter, now - half, now));
   }
+  /// The largest amplitude so far [m].
+  [[nodiscard]] double largest() const { return largest_; }
   /// Whether the motion grew up to the end.
   [[nodiscard]] bool has_grown() const {
     return is_endless() || second_half_ > 1.5 * first_half_ || last_seen_ > 1.5 * first_half_;

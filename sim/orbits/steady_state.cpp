@@ -1,6 +1,7 @@
 #include "sim/orbits/steady_state.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -52,7 +53,36 @@ State linear_response(const Model& model) {
     state.v -= w * x.imag();
   }
   state.direction = state.v < 0.0 ? Direction::backward : Direction::forward;
+  for (const friction::Law& law : model.friction) state.memories.push_back(law.start({}));
   return state;
+}
+
+/// Nothing moves the mass, apart from a constant force.
+bool is_undriven(const Excitation& drive) {
+  return drive.amplitude == 0.0 &&
+         std::ranges::all_of(drive.harmonics, [](const Harmonic& harmonic) { return harmonic.amplitude == 0.0; });
+}
+
+/// Whether the law has no force on a mass at rest: it can hold it nowhere.
+bool is_free_at_rest(const friction::Law& law) {
+  const auto none_in = [&](Direction direction) { return law.force({}, {}, direction) == 0.0; };
+  return !law.has_memory() && law.static_limit({}, {}) == 0.0 && none_in(Direction::none) &&
+         none_in(Direction::forward) && none_in(Direction::backward);
+}
+
+/// Whether the law never has a force.
+bool is_idle(const friction::Law& law) {
+  if (!law.is_affine() || !is_free_at_rest(law)) return false;
+  return std::ranges::all_of(std::array{Direction::forward, Direction::backward}, [&](Direction direction) {
+    const friction::Affine force = law.affine_force({}, {}, direction);
+    return force.position == 0.0 && force.velocity == 0.0 && force.rate == 0.0 && force.transient == 0.0;
+  });
+}
+
+/// A motion that dies away never closes relative to its size; where it ends is known.
+bool ends_in_linear_response(const Model& model) {
+  return model.friction.empty() ||
+         (is_undriven(model.excitation) && std::ranges::all_of(model.friction, is_free_at_rest));
 }
 
 class OrbitFinder {
@@ -141,7 +171,7 @@ std::optional<Orbit> OrbitFinder::only_orbit_from(const State& start, SteadyStat
 std::optional<Orbit> OrbitFinder::the_only_orbit(SteadyState& result) {
   State start;
   const InitialState& initial = model_.initial;
-  if (model_.friction.empty() && motions_ == Motions::meet_sliding) {
+  if (motions_ == Motions::meet_sliding && ends_in_linear_response(model_)) {
     start = linear_response(model_);
   } else if (std::optional<State> sliding = start_of_sliding_orbit()) {
     start = *std::move(sliding);
@@ -349,6 +379,17 @@ void OrbitFinder::find(SteadyState& result) {
   warn_of_steps(*orbit, result);
 }
 
+/// That of the model without its laws, which never have a force: a mass at rest would seem to stick by them.
+SteadyState without_laws(const Model& model, const SteadyStateOptions& options) {
+  Model bare = model;
+  bare.friction.clear();
+  SteadyStateOptions of_bare = options;
+  if (of_bare.from) of_bare.from->memories.clear();
+  SteadyState result = steady_state(bare, of_bare);
+  for (const friction::Law& law : model.friction) result.start.memories.push_back(law.start({}));
+  return result;
+}
+
 }  // namespace
 
 bool SteadyState::stable() const {
@@ -366,6 +407,8 @@ SteadyState steady_state(const Model& model, const SteadyStateOptions& options) 
     result.outcome = {core::OutcomeKind::no_steady_state, "no steady state: " + std::string(law.aperiodic())};
     return result;
   }
+  const bool has_idle_laws = !model.friction.empty() && std::ranges::all_of(model.friction, is_idle);
+  if (has_idle_laws && is_undriven(model.excitation)) return without_laws(model, options);
   OrbitFinder finder(model, options);
   finder.find(result);
   if (result.outcome.ok()) finder.describe(result);

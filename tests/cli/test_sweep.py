@@ -200,9 +200,26 @@ class Sweep(Case):
 
     def test_verify(self):
         self.write("two.yaml", TWO_KEYS)
-        self.run_program("run", "two.yaml", "--out", "out", "--verify")
-        for point in json.loads((self.folder / "out/result.json").read_text())["result"]["sweep"]:
-            self.assertTrue(point["verification"]["agrees"])
+        told = self.run_program("run", "two.yaml", "--out", "out", "--verify").stdout
+        document = json.loads((self.folder / "out/result.json").read_text())
+        points = [point["verification"] for point in document["result"]["sweep"]]
+        self.assertTrue(all(point["agrees"] for point in points))
+        self.assertIn("agrees", told)
+        whole = document["verification"]
+        self.assertTrue(whole["agrees"])
+        self.assertEqual(whole["quantities"], sum(point["quantities"] for point in points))
+        shares = [point["largest_difference"] / point["tolerance"] for point in points]
+        worst = shares.index(max(shares))
+        self.assertEqual(whole["largest_difference"], points[worst]["largest_difference"])
+        self.assertTrue(whole["quantity"].startswith(f"sweep[{worst}].result."), whole["quantity"])
+
+    def test_verify_of_points_that_do_not_agree(self):
+        # At a loose tolerance, steps err by more than a verification allows.
+        self.write("loose.yaml", TWO_KEYS.replace("law: coulomb, kinetic: 4.39 N", "law: lugre, kinetic: 4.39 N, static: 6 N, "
+                   "stribeck_velocity: 0.05 m/s, sigma0: 10000 N/m, sigma1: 20 N.s/m") + "numerics: {tolerance: 1e-4}\n")
+        result = self.run_program("run", "loose.yaml", "--out", "out", "--verify", status=1)
+        self.assertIn("DOES NOT AGREE", result.stdout)
+        self.assertIn("without agreement; first", result.stderr)
 
 
 if __name__ == "__main__":

@@ -177,3 +177,30 @@ TEST_CASE("a scan also looks at the amplitudes of the caller; plain Coulomb fric
   CHECK(sim::sticking_boundary(model(0.05, 1.0, 1.0), frequency)[0].amplitude ==
         sim::sticking_boundary(model(0.05, 1.0, 1.0), frequency, far)[0].amplitude);
 }
+
+TEST_CASE("a boundary that takes too long is given up, with the amplitudes between which it lies") {
+  const auto boundary = [](const std::vector<double>& amplitudes, long most_work) {
+    return sim::sticking_boundary(model(0.05, 1.0, 1.5), std::vector{0.6}, amplitudes, most_work)[0];
+  };
+  const sim::BoundaryPoint whole = boundary({}, sim::most_boundary_work);
+  REQUIRE(whole.outcome.ok());
+  CHECK_FALSE(whole.seen_up_to.has_value());
+
+  const sim::BoundaryPoint stopped = boundary({}, whole.work / 4);
+  CHECK(stopped.is_stopped);
+  CHECK_THAT(stopped.outcome.reason, Catch::Contains("stopped"));
+  CHECK(stopped.sticks > 0.0);
+  CHECK(stopped.sticks < whole.amplitude);
+  CHECK(stopped.work < whole.work / 3);
+
+  // Of many amplitudes above the boundary only some are looked at, and the bisection still has its share.
+  std::vector<double> far;
+  for (int i = 0; i < 400; ++i) far.push_back((2.0 + 0.01 * i) * whole.amplitude);
+  const long all = boundary(far, sim::most_boundary_work).work;
+  const sim::BoundaryPoint above = boundary(far, all / 2);
+  REQUIRE(above.outcome.ok());
+  CHECK(above.amplitude == whole.amplitude);
+  REQUIRE(above.seen_up_to.has_value());
+  CHECK(*above.seen_up_to > above.amplitude);
+  CHECK(*above.seen_up_to < far.back());
+}

@@ -188,6 +188,11 @@ TEST_CASE("no number is returned where there is none") {
     CHECK(state.outcome.reason.find("grows") != std::string::npos);
     CHECK(state.transient_periods < 2000);
   }
+  SECTION("so little below that limit that growth does not show in 20,000 periods") {
+    const sim::SteadyState state = sim::steady_state(base_driven(1.0, 100.0, 0.0, 7.85398, 7.85398, 0.1, 10.0));
+    CHECK(state.outcome.kind == core::OutcomeKind::no_steady_state);
+    CHECK(state.outcome.reason.find("grows without bound") != std::string::npos);
+  }
   SECTION("just above that limit it is bounded") {
     CHECK(sim::steady_state(base_driven(1.0, 1.0, 0.0, 0.79, 0.79, 1.0, 1.0)).outcome.ok());
   }
