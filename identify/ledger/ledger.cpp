@@ -43,9 +43,10 @@ std::string rounded(double value) { return core::format_number(value, digits_sho
 std::string in_percent(double share) { return core::percent(share, digits_shown); }
 
 /// The first of the models that the record allows; else why there is none.
-MaybeModel testable_model(const Record& record, const KnownConstants& constants, const KnownDeviations& known) {
+MaybeModel testable_model(const Record& record, const KnownConstants& constants, const KnownDeviations& known,
+                          std::string* missed = nullptr) {
   MaybeModel model = std::string("the record holds nothing that can be tested");
-  if (!record.histories.empty()) model = history_model(record, constants, known.sigma_x);
+  if (!record.histories.empty()) model = history_model(record, constants, known.sigma_x, missed);
   if (auto* of_histories = std::get_if<JointModel>(&model); of_histories != nullptr && known.sigma_Y > 0.0)
     of_histories->warnings.emplace_back(
         "the stated deviation of Y is not used by joint_fit: it reads the samples of the histories, and takes the "
@@ -366,7 +367,7 @@ Ledger tested_ledger(const Record& record, const KnownConstants& constants, cons
   ledger.coordinate = constants.coordinate;
   ledger.recorded = recorded_in(record);
   for (const Assumption assumption : assumptions()) ledger.entries.emplace_back().assumption = assumption;
-  const MaybeModel found = testable_model(record, constants, options.deviations);
+  const MaybeModel found = testable_model(record, constants, options.deviations, &ledger.missed_motion);
   if (const auto* reason = std::get_if<std::string>(&found)) {
     for (LedgerEntry& entry : ledger.entries) entry.reason = *reason;
     return ledger;

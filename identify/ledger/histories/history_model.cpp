@@ -210,14 +210,17 @@ class Histories {
 }  // namespace
 
 std::variant<JointModel, std::string> history_model(const Record& record, const KnownConstants& constants,
-                                                    double sigma_x) {
+                                                    double sigma_x, std::string* missed) {
   if (std::string fault = fault_of_histories(record); !fault.empty()) return fault;
   Estimate exclusions;
   const auto histories = std::make_shared<Histories>(record, constants, sigma_x, exclusions);
   HistoryLinearisation& motion = histories->motion();
   const ForwardFit& fit = motion.fit();
   if (!fit.problem().empty()) return fit.problem();
-  if (std::string fault = histories->fault_of_fit(); !fault.empty()) return fault;
+  if (std::string fault = histories->fault_of_fit(); !fault.empty()) {
+    if (missed != nullptr) *missed = fault;
+    return fault;
+  }
   JointModel model = histories->fitted({});
   const double ratio = motion.scatter();
   const auto freedom = static_cast<double>(sigma_x > 0.0 ? model.residuals.size() : 0);
