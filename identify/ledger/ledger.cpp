@@ -20,6 +20,7 @@
 #include "identify/ledger/histories/history_model.hpp"
 #include "identify/ledger/other_geometry.hpp"
 #include "identify/ledger/relaxation_tests.hpp"
+#include "identify/ledger/sensor_or_symmetry.hpp"
 #include "identify/ledger/stated_noise.hpp"
 #include "identify/statistics/decompositions.hpp"
 #include "identify/statistics/least_squares.hpp"
@@ -164,6 +165,7 @@ class Writer {
                                rounded(test.coefficient) + " s, less than their distance of " +
                                rounded(model_.step_interval) + " s, stands for it"
                          : harmless() + (any(harming) ? " if it is this; " + alternatives(departure, test) : "");
+      entry.reason += size_of_constant_force(model_, test);
       if (harms && is_uneven(test))
         entry.reason += std::string("; ") + (test.zeta_part == 0.0 ? "F0" : "zeta") +
                         " of a part of the record is off its mean by " + in_percent(unevenness(test));

@@ -125,9 +125,13 @@ class Histories {
   [[nodiscard]] JointModel joint(const Place& at, const Taken& taken, const Taken& all) {
     JointModel model;
     model.relaxations = motion_.list().relaxations;
-    for (std::size_t j = 0; j < motion_.list().parts.size(); ++j)
-      model.relaxations[j].is_far = motion_.list().parts[j].kind == FreedPart::Kind::corner ||
-                                    (!motion_.is_constant(j) && freed(j).has_value());
+    for (std::size_t j = 0; j < motion_.list().parts.size(); ++j) {
+      const FreedPart& part = motion_.list().parts[j];
+      model.relaxations[j].is_far =
+          part.kind == FreedPart::Kind::corner || (!motion_.is_constant(j) && freed(j).has_value());
+      if (part.kind == FreedPart::Kind::zero || (part.term != nullptr && part.term->is_constant))
+        model.relaxations[j].constant_force = motion_.unit_force();
+    }
     if (std::optional<LinearisedHistories> found =
             taken.empty() ? seen_from_afar(at, all) : motion_.at(at, all, Whitening::on)) {
       model.deviance =
