@@ -137,6 +137,7 @@ struct Estimate {
       findings;  ///< results of the method's own tests against its assumptions, each a sentence
   /// The method finds as much in motions of its own law: its findings say nothing against the law.
   bool misreads_its_law = false;
+  bool is_of_histories = false;  ///< read from histories by a method that reads steady states too
   // Until concluded() (answer/answer.hpp) the next three are the method's own; then `usable` and `reason` are those
   // of the ledger, and a value that the method did not correct for its bias is corrected.
   bool usable = false;  ///< sound and without findings

@@ -34,12 +34,16 @@ bool rests_on_departure(const Estimate& estimate, const Ledger& ledger) {
   });
 }
 
+bool reads_histories(const Estimate& estimate) {
+  const MethodEntry* method = find_method(estimate.method);
+  return estimate.is_of_histories || (method != nullptr && method->needs == RecordKind::history);
+}
+
 /// What a method found stands where the ledger did not clear it: a ledger that tested something else than the
 /// histories cannot speak against what a method found in them, and one that saw a departure bears it out.
 bool keeps_its_findings(const Estimate& estimate, const Ledger& ledger) {
-  const MethodEntry* method = find_method(estimate.method);
-  if (method == nullptr || estimate.findings.empty()) return false;
-  return (method->needs == RecordKind::history && !ledger.tests_histories) || rests_on_departure(estimate, ledger);
+  if (find_method(estimate.method) == nullptr || estimate.findings.empty()) return false;
+  return (reads_histories(estimate) && !ledger.tests_histories) || rests_on_departure(estimate, ledger);
 }
 
 /// A range over laws of which none fits, any other estimate where the joint model misses the record, and one that
@@ -54,6 +58,8 @@ bool misses(Estimate& estimate, const Ledger& ledger) {
     estimate.reason = none;
   else if (!ledger.force_excess.empty())
     estimate.reason = ledger.force_excess;
+  else if (!ledger.missed_motion.empty() && reads_histories(estimate))
+    estimate.reason = ledger.missed_motion;
   else if (ledger.misfit && !estimate.laws)
     estimate.reason = misfit_size(*ledger.misfit);
   else if (const std::string fault = fault_of_joint(ledger); !fault.empty() && !estimate.laws)

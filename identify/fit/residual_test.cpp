@@ -12,8 +12,10 @@
 
 #include "core/diagnostics.hpp"
 #include "core/numbers.hpp"
+#include "identify/records/spikes.hpp"
 #include "identify/statistics/decompositions.hpp"
 #include "identify/statistics/distributions.hpp"
+#include "identify/statistics/median.hpp"
 #include "identify/statistics/statistics.hpp"
 
 namespace dualdamp::identify {
@@ -307,6 +309,42 @@ std::vector<double> zero_gains_of(const FitProblem& problem, const Eigen::Vector
 
 namespace {
 
+/// Readings further from the fit than any noise, in their order: spikes of samples; of other readings one in ten.
+std::vector<std::size_t> outliers_of(const Signal& signal, const Eigen::VectorXd& misses) {
+  constexpr Eigen::Index fewest = 8;
+  if (misses.size() < fewest || misses.size() != std::ssize(signal.measured)) return {};
+  constexpr double far = 10.0;
+  const Eigen::VectorXd sizes = misses.cwiseAbs();
+  const double bound = far * median_deviation({sizes.begin(), sizes.end()});
+  std::vector<std::size_t> found;
+  if (signal.is_sampled) {
+    for (const Spike& spike : spikes_of(signal.measured))
+      if (sizes[static_cast<Eigen::Index>(spike.sample)] > bound) found.push_back(spike.sample);
+    return found;
+  }
+  for (std::size_t i = 0; i < signal.measured.size(); ++i)
+    if (sizes[static_cast<Eigen::Index>(i)] > bound) found.push_back(i);
+  constexpr std::size_t one_in = 10;
+  return one_in * found.size() > signal.measured.size() ? std::vector<std::size_t>{} : found;
+}
+
+std::string outlier_warning(const Signal& signal, const std::vector<std::size_t>& outliers,
+                            const std::string& label) {
+  constexpr std::size_t most = 3;
+  std::vector<std::string> places;
+  for (const std::size_t i : outliers) {
+    if (places.size() == most) break;
+    places.push_back(core::format_number(signal.at[i], 4) + (signal.at_unit.empty() ? "" : " " + signal.at_unit));
+  }
+  const bool is_one = outliers.size() == 1;
+  return label + ": " + std::to_string(outliers.size()) + (is_one ? " reading of " : " readings of ") +
+         signal.name + (is_one ? " is an outlier" : " are outliers") + ", far from the fit beside all others (" +
+         signal.at_name + " = " + core::joined(places) + (outliers.size() > most ? " and more" : "") +
+         "), and move the estimates: correct or remove " + (is_one ? "it" : "them") +
+         ", or limit the influence with 'robust'. Until then the residuals do not tell whether the law is "
+         "that of the rig";
+}
+
 /// Residuals of samples that hold motion, or of other readings that are too large or too similar.
 std::string not_noise_warning(const Experiment& experiment, const Experiments& experiments,
                               const FittedSignal& fitted, const Fit& fit, const std::string& subject) {
@@ -364,6 +402,11 @@ void warn_of_signal(const Experiments& experiments, bool robust, double zero_gai
       Eigen::Map<const Eigen::VectorXd>(signal.measured.data(), static_cast<Eigen::Index>(signal.measured.size()));
   if (signal.noise > 0.0 && std::isnan(fitted.noise) && !is_rounding(fitted.misses, measured))
     fit.warnings.push_back(coarse_samples_warning(signal, fitted, subject));
+  if (const auto outliers = robust ? std::vector<std::size_t>{} : outliers_of(signal, fitted.misses);
+      !outliers.empty()) {
+    fit.warnings.push_back(outlier_warning(signal, outliers, experiment.label));
+    return;
+  }
   const double drift = drift_of(experiment, fitted);
   const std::optional<RecordParameter> zero =
       drift == 0.0 ? zero_off(experiments, fitted, zero_gain, fit) : std::nullopt;

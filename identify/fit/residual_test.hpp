@@ -58,7 +58,8 @@ void compare_with_stated(double deviation, double freedom, FittedSignal& signal)
 
 /// Adds warnings to `fit`: signals whose residuals are not noise, and stated noises that are wrong. Also signals
 /// whose residuals look like noise, but far above that of the sensor; not in a `robust` fit, where outliers do
-/// that. Also signals whose zero is off; `fit.parameters` say which zeros are sought. `zero_gains`: of each signal.
+/// that. Of outliers it says nothing else: they move the fit. Also signals whose zero is off; `fit.parameters` say
+/// which zeros are sought. `zero_gains`: of each signal.
 void warn_of_residuals(const Experiments& experiments, bool robust, const std::vector<double>& zero_gains,
                        Fit& fit);
 

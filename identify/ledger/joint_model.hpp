@@ -35,6 +35,9 @@ struct Relaxation {
   bool is_far = false;
   /// A positive coefficient makes a law of friction of it, with a Coulomb force and a viscous damping of its own.
   bool is_law = false;
+  /// The constant force that a coefficient of one stands for, by a zero of x or by friction that differs between
+  /// the directions [N]; 0: another effect.
+  double constant_force = 0.0;
 };
 
 /// What was read.

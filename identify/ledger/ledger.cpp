@@ -20,6 +20,7 @@
 #include "identify/ledger/histories/history_model.hpp"
 #include "identify/ledger/other_geometry.hpp"
 #include "identify/ledger/relaxation_tests.hpp"
+#include "identify/ledger/sensor_or_symmetry.hpp"
 #include "identify/ledger/stated_noise.hpp"
 #include "identify/statistics/decompositions.hpp"
 #include "identify/statistics/least_squares.hpp"
@@ -43,9 +44,10 @@ std::string rounded(double value) { return core::format_number(value, digits_sho
 std::string in_percent(double share) { return core::percent(share, digits_shown); }
 
 /// The first of the models that the record allows; else why there is none.
-MaybeModel testable_model(const Record& record, const KnownConstants& constants, const KnownDeviations& known) {
+MaybeModel testable_model(const Record& record, const KnownConstants& constants, const KnownDeviations& known,
+                          std::string* missed = nullptr) {
   MaybeModel model = std::string("the record holds nothing that can be tested");
-  if (!record.histories.empty()) model = history_model(record, constants, known.sigma_x);
+  if (!record.histories.empty()) model = history_model(record, constants, known.sigma_x, missed);
   if (auto* of_histories = std::get_if<JointModel>(&model); of_histories != nullptr && known.sigma_Y > 0.0)
     of_histories->warnings.emplace_back(
         "the stated deviation of Y is not used by joint_fit: it reads the samples of the histories, and takes the "
@@ -163,6 +165,7 @@ class Writer {
                                rounded(test.coefficient) + " s, less than their distance of " +
                                rounded(model_.step_interval) + " s, stands for it"
                          : harmless() + (any(harming) ? " if it is this; " + alternatives(departure, test) : "");
+      entry.reason += size_of_constant_force(model_, test);
       if (harms && is_uneven(test))
         entry.reason += std::string("; ") + (test.zeta_part == 0.0 ? "F0" : "zeta") +
                         " of a part of the record is off its mean by " + in_percent(unevenness(test));
@@ -366,7 +369,7 @@ Ledger tested_ledger(const Record& record, const KnownConstants& constants, cons
   ledger.coordinate = constants.coordinate;
   ledger.recorded = recorded_in(record);
   for (const Assumption assumption : assumptions()) ledger.entries.emplace_back().assumption = assumption;
-  const MaybeModel found = testable_model(record, constants, options.deviations);
+  const MaybeModel found = testable_model(record, constants, options.deviations, &ledger.missed_motion);
   if (const auto* reason = std::get_if<std::string>(&found)) {
     for (LedgerEntry& entry : ledger.entries) entry.reason = *reason;
     return ledger;

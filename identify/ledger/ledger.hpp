@@ -116,6 +116,9 @@ struct Ledger {
   /// Steady states that need more force than their drive gives, a sentence (force_balance.hpp). No estimate with
   /// the constants as stated describes them.
   std::string force_excess = {};
+  /// Every fit of the simulated motion misses half of the measured one or more, a sentence. No estimate of the
+  /// histories describes the rig; steady states or extremes taken from them are tested by themselves.
+  std::string missed_motion = {};
   /// The record contradicts its assumptions, and would contradict none if x were measured, or friction acted,
   /// against something else, a sentence (other_geometry.hpp). No estimate with x as stated describes the rig.
   std::string other_geometry = {};

@@ -129,6 +129,8 @@ class Prediction(case.Case):
         self.assertIn("nothing drives the model", self.run_program("fit", "coulomb", record, *CONSTANTS, "--set", "excitation={type: none}", status=3).stderr)
         forced = self.write("forced.csv", record.read_text().replace("y [m]", "force [N]"))
         self.assertIn("or --loop for a friction loop", self.run_program("fit", "coulomb", forced, *CONSTANTS, status=3).stderr)
+        springless = ("--mass", "1 kg", "--stiffness", "0 N/m", "--drive", "force")
+        self.assertIn("--loop compares the force", self.run_program("fit", "coulomb", forced, *springless, status=3).stderr)
         both = self.write("both.csv", "t [s],x [m],y [m],force [N]\n" + "".join(",".join((*row, str(1.5 * float(row[2])))) + "\n" for row in rows))
         self.assertIn("or leave out y", self.run_program("fit", "coulomb", both, *CONSTANTS, status=3).stderr)
         # Of a file with a gap the longest stretch is used, with its part of the drive.

@@ -125,9 +125,13 @@ class Histories {
   [[nodiscard]] JointModel joint(const Place& at, const Taken& taken, const Taken& all) {
     JointModel model;
     model.relaxations = motion_.list().relaxations;
-    for (std::size_t j = 0; j < motion_.list().parts.size(); ++j)
-      model.relaxations[j].is_far = motion_.list().parts[j].kind == FreedPart::Kind::corner ||
-                                    (!motion_.is_constant(j) && freed(j).has_value());
+    for (std::size_t j = 0; j < motion_.list().parts.size(); ++j) {
+      const FreedPart& part = motion_.list().parts[j];
+      model.relaxations[j].is_far =
+          part.kind == FreedPart::Kind::corner || (!motion_.is_constant(j) && freed(j).has_value());
+      if (part.kind == FreedPart::Kind::zero || (part.term != nullptr && part.term->is_constant))
+        model.relaxations[j].constant_force = motion_.unit_force();
+    }
     if (std::optional<LinearisedHistories> found =
             taken.empty() ? seen_from_afar(at, all) : motion_.at(at, all, Whitening::on)) {
       model.deviance =
@@ -210,14 +214,17 @@ class Histories {
 }  // namespace
 
 std::variant<JointModel, std::string> history_model(const Record& record, const KnownConstants& constants,
-                                                    double sigma_x) {
+                                                    double sigma_x, std::string* missed) {
   if (std::string fault = fault_of_histories(record); !fault.empty()) return fault;
   Estimate exclusions;
   const auto histories = std::make_shared<Histories>(record, constants, sigma_x, exclusions);
   HistoryLinearisation& motion = histories->motion();
   const ForwardFit& fit = motion.fit();
   if (!fit.problem().empty()) return fit.problem();
-  if (std::string fault = histories->fault_of_fit(); !fault.empty()) return fault;
+  if (std::string fault = histories->fault_of_fit(); !fault.empty()) {
+    if (missed != nullptr) *missed = fault;
+    return fault;
+  }
   JointModel model = histories->fitted({});
   const double ratio = motion.scatter();
   const auto freedom = static_cast<double>(sigma_x > 0.0 ? model.residuals.size() : 0);

@@ -25,9 +25,11 @@
 namespace dualdamp::identify {
 
 /// The model, or why there is none. `sigma_x`: stated deviation of a sample of x [m], used unless the samples
-/// scatter clearly more; 0: none. How long errors last is taken from the samples in any case.
+/// scatter clearly more; 0: none. How long errors last is taken from the samples in any case. `missed` receives the
+/// reason where every fit misses half of the motion or more.
 [[nodiscard]] std::variant<JointModel, std::string> history_model(const Record& record,
                                                                   const KnownConstants& constants,
-                                                                  double sigma_x = 0.0);
+                                                                  double sigma_x = 0.0,
+                                                                  std::string* missed = nullptr);
 
 }  // namespace dualdamp::identify

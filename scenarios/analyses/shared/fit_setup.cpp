@@ -352,6 +352,8 @@ identify::Experiments experiments_from(const std::vector<DataItem>& items, const
                items[i].words(core::Setting::column, "omega", "NAME");
     if (!fault.empty()) faults.push_back({place, items[i].file + ": " + fault});
     if (std::string idle = idle_drive(items[i], model); !idle.empty()) faults.push_back({place, std::move(idle)});
+    if (std::string lack = lacking_spring(items[i], model.oscillator.stiffness); !lack.empty())
+      faults.push_back({place, std::move(lack)});
     for (const std::size_t h : items[i].zeroed)
       if (found.size() == items[i].data.record.histories.size())
         found[h]->record_free.push_back(RecordParameter::offset);

@@ -137,6 +137,16 @@ std::string idle_drive(const DataItem& item, const sim::Model& model) {
   return {};
 }
 
+std::string lacking_spring(const DataItem& item, double stiffness) {
+  if (stiffness != 0.0 || !item.is_motion()) return {};
+  const bool has_force =
+      std::ranges::any_of(item.data.record.histories, [](const History& h) { return !h.force.empty(); });
+  return item.file + ": the motion of a history is simulated with a spring, and the stiffness is 0" +
+         (has_force ? ": " + item.words(core::Setting::loop) +
+                          " compares the force along the measured motion, and needs no spring"
+                    : "");
+}
+
 namespace {
 
 /// What the file states about its drive: y, force, none; empty: nothing.

@@ -18,6 +18,9 @@ void refuse_other_drives(const std::vector<DataItem>& items, const std::string& 
 /// What to do about a drive that the file holds and the model lacks; empty if there is none.
 [[nodiscard]] std::string idle_drive(const DataItem& item, const sim::Model& model);
 
+/// Why the histories of a file cannot be simulated with a stiffness of zero, and what can be done; else empty.
+[[nodiscard]] std::string lacking_spring(const DataItem& item, double stiffness);
+
 /// The drives that the records themselves hold, by cubic splines: the columns that `drive` of the data files names;
 /// without it y, the motion of the base, of a file without force, if nothing else drives histories (`is_open`). A
 /// single history makes its drive the excitation of the scenario. Each of several gets its own

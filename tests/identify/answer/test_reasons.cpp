@@ -127,3 +127,22 @@ TEST_CASE("A range over laws names each departure whose estimate it was extended
                  " The interval of any_law also holds the estimate with quadratic term over speed free, which lies "
                  "outside this range."));
 }
+
+TEST_CASE("Where the simulated motion misses the measured one, nothing that reads the histories answers") {
+  const Estimate fit = estimate("output_error", 0.01, 2.0, 0.01);
+  Estimate balance = estimate("energy_balance", 0.01, 2.0, 0.5);
+  const Estimate extremes = estimate("free_decay", 0.01, 2.0, 0.9);
+  Ledger missed = ledger({});
+  missed.missed_motion = "the simulated motion misses 74 % of the measured one";
+  const Identification of_states = concluded({fit, balance}, missed);
+  REQUIRE(of_states.answer);
+  CHECK(*of_states.answer == 1);
+  balance.is_of_histories = true;
+  const Identification of_extremes = concluded({fit, balance, extremes}, missed);
+  REQUIRE(of_extremes.answer);
+  CHECK(*of_extremes.answer == 2);
+  missed.data.clear();
+  const Identification found = concluded({fit, balance}, missed);
+  CHECK_FALSE(found.answer);
+  CHECK(mentions(found.reason, "the simulated motion misses 74 % of the measured one"));
+}

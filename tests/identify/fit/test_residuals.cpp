@@ -107,6 +107,29 @@ TEST_CASE("residuals: a fit that leaves more than noise says so", "[identify][fi
              Catch::StartsWith("record.csv: the residuals of x") && Catch::Contains("are not noise"));
 }
 
+TEST_CASE("residuals: a few spikes are named with the option that limits their influence", "[identify][fit]") {
+  const test::LawCase& law = test::law_case_of("coulomb");
+  identify::Record record = test::history_of(test::rig_with(law), {}, 6);
+  std::vector<double>& x = record.histories.front().x;
+  for (const std::size_t i : {x.size() / 5, x.size() / 3, x.size() / 2, x.size() - 20})
+    x[i] += 0.4 * std::ranges::max(x);
+  const auto warnings = [&](bool robust) {
+    identify::Rig rig = test::rig_with(law);
+    std::string fault;
+    const identify::Experiments experiments = identify::experiments_of(record, {.name = "record.csv"}, fault);
+    std::vector<identify::FitParameter> parameters = test::sought_in(rig, {"kinetic"}, 1.2);
+    for (const identify::RecordParameter each : experiments.front()->record_free)
+      parameters.push_back(identify::parameter_of_record(*experiments.front(), 0, each, true));
+    return identify::fit_rig(rig, std::move(parameters), experiments, {.robust = robust, .profile = false})
+        .warnings;
+  };
+  REQUIRE(warnings(false).size() == 1);
+  CHECK_THAT(warnings(false).front(), Catch::StartsWith("record.csv: 4 readings of x are outliers") &&
+                                          Catch::Contains("(t = ") &&
+                                          Catch::Contains("limit the influence with 'robust'"));
+  for (const std::string& warning : warnings(true)) CHECK_THAT(warning, !Catch::Contains("outliers"));
+}
+
 TEST_CASE("residuals: a stated noise that is ten times off is told, and intervals are never too narrow for it",
           "[identify][fit]") {
   const test::LawCase& law = test::law_case_of("coulomb");

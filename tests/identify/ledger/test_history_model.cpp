@@ -394,6 +394,13 @@ TEST_CASE("A zero of x comes before friction of one direction, and alone where t
   const Ledger possible = with_zero(4e-4);
   REQUIRE(possible.departures.size() == 1);
   CHECK(possible.departures[0] == std::vector<Assumption>{Assumption::sensors, Assumption::symmetry});
+  for (const Assumption named : possible.departures[0]) {
+    const std::string& reason = possible.entry(named).reason;
+    const std::string size = ", the same as a zero of x that is off by ";
+    REQUIRE(reason.find(size) != std::string::npos);
+    CHECK(std::stod(reason.substr(reason.find(size) + size.size())) == Approx(4e-4).epsilon(0.05));
+    CHECK(reason.find("half of the difference of F0 between the directions is ") != std::string::npos);
+  }
   const Ledger beyond = with_zero(9e-4);
   REQUIRE(beyond.departures.size() == 1);
   CHECK(beyond.departures[0] == std::vector<Assumption>{Assumption::sensors});
