@@ -36,25 +36,6 @@ double error_of_orbit(const ForcingPeriod& period, double omega, double closure)
   return inverse.allFinite() ? std::min(largest, closure * inverse.norm()) : largest;
 }
 
-namespace {
-
-/// Whether the step has brought the orbit closer: by its closure, or by the correction that is left, as the
-/// equations of the step see it. A start beside the states that motions reach (after a stick they lie on a curve)
-/// closes badly, although the period itself leads back to them. The correction weighs such a gap by what it moves
-/// the orbit, and the rest of a slow approach by the many periods that it would take.
-bool comes_closer(const ForcingPeriod& from, const Eigen::VectorXd& step, const ForcingPeriod& to, double omega) {
-  constexpr double closer = 0.5;
-  if (to.closure(omega) < closer * from.closure(omega)) return true;
-  if (!same_mode(from.begin, to.begin) || !to.ends_in_its_mode()) return false;
-  const Eigen::VectorXd left = correction(from, coordinates(to.end) - coordinates(to.begin), omega);
-  const auto length = [&](const Eigen::VectorXd& change) {
-    return distance(from.begin, displaced(from.begin, change), from.size, omega);
-  };
-  return left.size() > 0 && length(left) < closer * length(step);
-}
-
-}  // namespace
-
 NewtonResult close_orbit(PeriodMap& map, const NewtonOptions& options, ForcingPeriod& period) {
   NewtonResult result;
   while (map.outcome().ok() && result.steps < options.most_steps &&
@@ -68,8 +49,14 @@ NewtonResult close_orbit(PeriodMap& map, const NewtonOptions& options, ForcingPe
     ++result.steps;
     const State fallback = period.end;
     if (step.size() > 0) {
+      const auto closes_better = [&](const ForcingPeriod& trial) {
+        return map.outcome().ok() && trial.closure(options.omega) < 0.5 * closure;
+      };
       ForcingPeriod trial = map.from(displaced(period.begin, step), Monodromy::with);
-      if (map.outcome().ok() && comes_closer(period, step, trial, options.omega)) {
+      // After a stick the states that motions reach lie on a curve. A start beside it closes badly, although the
+      // period itself leads back to them; then the next one tells.
+      if (map.outcome().ok() && !closes_better(trial)) trial = map.next(Monodromy::with);
+      if (closes_better(trial)) {
         period = std::move(trial);
         continue;
       }

@@ -163,10 +163,7 @@ Solution solve_in_sizes(const Eigen::MatrixXd& system, const Eigen::VectorXd& ri
 
 Eigen::VectorXd newton_step(const ForcingPeriod& period, double omega) {
   if (!period.ends_in_its_mode()) return {};
-  return correction(period, coordinates(period.end) - coordinates(period.begin), omega);
-}
-
-Eigen::VectorXd correction(const ForcingPeriod& period, const Eigen::VectorXd& gap, double omega) {
+  const Eigen::VectorXd gap = coordinates(period.end) - coordinates(period.begin);
   const Eigen::Index n = gap.size();
   // The matrix of a neighbour that sticks in another mode has other coordinates.
   if (period.monodromy.rows() != n || period.monodromy.cols() != n) return {};

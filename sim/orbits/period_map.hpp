@@ -115,7 +115,5 @@ struct Solution {
 /// period ends in another mode or the equations are singular. A coordinate that the period does not change and that
 /// depends on itself alone (a slider that never slips) stays as it is.
 [[nodiscard]] Eigen::VectorXd newton_step(const ForcingPeriod& period, double omega);
-/// The same for a gap between end and begin that is not that of the period, but has its derivatives.
-[[nodiscard]] Eigen::VectorXd correction(const ForcingPeriod& period, const Eigen::VectorXd& gap, double omega);
 
 }  // namespace dualdamp::sim
