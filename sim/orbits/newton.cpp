@@ -54,9 +54,10 @@ NewtonResult close_orbit(PeriodMap& map, const NewtonOptions& options, ForcingPe
       };
       ForcingPeriod trial = map.from(displaced(period.begin, step), Monodromy::with);
       // After a stick the states that motions reach lie on a curve. A start beside it closes badly, although the
-      // period itself leads back to them; then the next one tells.
-      if (map.outcome().ok() && !closes_better(trial)) trial = map.next(Monodromy::with);
-      if (closes_better(trial)) {
+      // period itself leads back to them; then the next one tells, unless the mass has come to rest.
+      const bool is_first = !map.outcome().ok() || closes_better(trial);
+      if (!is_first) trial = map.next(Monodromy::with);
+      if (closes_better(trial) && (is_first || trial.moves)) {
         period = std::move(trial);
         continue;
       }
