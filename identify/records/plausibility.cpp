@@ -263,9 +263,9 @@ class Check {
     const std::string where = " at " + in_hertz(omega) + ", where the natural frequency is " +
                               in_hertz(constants_.natural_frequency()) +
                               ": spring and inertia of the motion x need more force than the base gives, k Y";
-    if (const char* const unit = other_unit_of_frequency(pairs, constants_))
+    if (const std::vector<std::string> units = other_units_of_frequency(pairs, constants_); !units.empty())
       return refuse("x, Y and the frequency do not belong together" + where,
-                    std::string("the frequency in its unit: it may be in ") + unit);
+                    "the frequency in its unit: it may be in " + core::joined(units, ", or in "));
     if (balance.swapped_too_much == 0)
       refuse("columns x and Y seem to be swapped, or a constant is wrong: in " + std::to_string(balance.too_much) +
                  " of " + std::to_string(balance.pairs) + " pairs," + where,

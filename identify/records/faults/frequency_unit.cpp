@@ -31,11 +31,16 @@ bool is_beyond(const Pair& pair, double share, double factor) {
 
 }  // namespace
 
-const char* other_unit_of_frequency(const std::vector<Pair>& pairs, const KnownConstants& constants) {
-  for (const auto& [factor, unit] :
-       {std::pair{core::two_pi, "Hz, not rad/s"}, {1.0 / core::two_pi, "rad/s, not Hz"}})
-    if (balance_of(at_other_frequencies(pairs, constants, factor), constants).too_much == 0) return unit;
-  return nullptr;
+std::vector<std::string> other_units_of_frequency(const std::vector<Pair>& pairs, const KnownConstants& constants) {
+  constexpr double rpm = core::two_pi / 60.0;
+  std::vector<std::string> units;
+  for (const auto& [factor, unit] : {std::pair{core::two_pi, "Hz, not rad/s"},
+                                     {1.0 / core::two_pi, "rad/s, not Hz"},
+                                     {rpm, "rpm, not rad/s"},
+                                     {rpm / core::two_pi, "rpm, not Hz"}})
+    if (balance_of(at_other_frequencies(pairs, constants, factor), constants).too_much == 0)
+      units.emplace_back(unit);
+  return units;
 }
 
 bool are_in_hertz(const std::vector<Pair>& pairs, const KnownConstants& constants) {

@@ -6,14 +6,16 @@
 ///
 /// Errors: none. Cost: linear.
 
+#include <string>
 #include <vector>
 
 #include "identify/record.hpp"
 
 namespace dualdamp::identify {
 
-/// The unit in which no pair needs far more force than the base gives, as "Hz, not rad/s", or null.
-[[nodiscard]] const char* other_unit_of_frequency(const std::vector<Pair>& pairs, const KnownConstants& constants);
+/// The units in which no pair needs far more force than the base gives, as "Hz, not rad/s".
+[[nodiscard]] std::vector<std::string> other_units_of_frequency(const std::vector<Pair>& pairs,
+                                                                const KnownConstants& constants);
 
 /// Whether frequencies in rad/s are numbers of hertz: a quarter of the pairs, two or more, show more motion below
 /// the natural frequency than any friction allows, and as hertz all of them fit, with their phases. A stiffness

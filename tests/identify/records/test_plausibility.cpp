@@ -267,6 +267,10 @@ TEST_CASE("Numbers of samples for times, hertz for rad/s, and damping that hardl
   CHECK(mentions(faults_in(turned.record, turned.constants), "it may be in rad/s, not Hz"));
   turned.constants.frequency = rig.constants.frequency / (2.0 * pi);
   CHECK(mentions(faults_in(turned.record, turned.constants), "it may be in Hz, not rad/s"));
+  turned.constants.frequency = 60.0 * rig.constants.frequency;
+  CHECK(mentions(faults_in(turned.record, turned.constants), "it may be in rpm, not Hz"));
+  turned.constants.frequency = 30.0 / pi * rig.constants.frequency;
+  CHECK(mentions(faults_in(turned.record, turned.constants), "it may be in rpm, not rad/s"));
 
   CHECK(odd_readings({.pairs = rig.record}, rig.constants).empty());
   for (Pair& pair : rig.record.pairs) pair.Y *= 1e-4;
