@@ -356,7 +356,9 @@ class RigFit {
       if (!lower) return described;
       std::optional<SearchResult> next;
       task_->problem.limit(options.most_work);
-      if (round < most_rounds) next = search_from(task_->problem, *lower, search_);
+      SearchOptions there = search_;
+      there.deviations = found_->deviations;  // with others the search may lead back
+      if (round < most_rounds) next = search_from(task_->problem, *lower, there);
       if (!next) {
         described.warnings.emplace_back(
             "a profile found a smaller sum of squares than that of the estimate, and the search from there did not "

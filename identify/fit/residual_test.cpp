@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <numbers>
 #include <numeric>
 #include <optional>
 #include <unsupported/Eigen/FFT>
@@ -372,19 +373,24 @@ std::string coarse_samples_warning(const Signal& signal, const FittedSignal& fit
          signal.name + ")";
 }
 
-/// Few readings of a noise that is not known may pass every test although the fit is far from them. The share of
-/// the readings that amplitudes or extremes miss, if that is more than a measurement would; else zero.
-double unexplained_share(const Signal& signal, const FittedSignal& fitted, const Eigen::VectorXd& measured) {
+/// Few readings of a noise that is not known may pass every test although the fit is far from them. How much of the
+/// amplitudes or extremes, or of a turn of phase, the fit misses, if that is more than a measurement would; else
+/// empty.
+std::string unexplained_part(const Signal& signal, const FittedSignal& fitted, const Eigen::VectorXd& measured) {
   constexpr double much = 0.05;
-  if (signal.is_sampled || signal.name != "x" || signal.noise > 0.0) return 0.0;
+  constexpr double much_phase = 0.1;  // rad
+  if (signal.is_sampled || signal.noise > 0.0) return {};
+  if (signal.name == "phase" && fitted.rms > much_phase)
+    return core::format_number(fitted.rms * 180.0 / std::numbers::pi, 2) + " deg";
   const double share = fitted.rms / std::sqrt(measured.squaredNorm() / static_cast<double>(measured.size()));
-  return share > much ? share : 0.0;
+  return signal.name == "x" && share > much ? core::percent(share, 2) + " of the readings" : "";
 }
 
-std::string unexplained_warning(double share, const std::string& subject) {
-  return subject + " are " + core::percent(share, 2) +
-         " of the readings: if these are more exact than that, the law is not that of the rig, a constant is wrong, or "
-         "the search missed the best fit (try more starts, bounds, stated values). State the noise (sigma_x)";
+std::string unexplained_warning(const std::string& part, const Signal& signal, const std::string& subject) {
+  return subject + " are " + part +
+         ": if the readings are more exact than that, the law is not that of the rig, a constant is wrong, or "
+         "the search missed the best fit (try more starts, bounds, stated values). State the noise (sigma_" +
+         signal.name + ")";
 }
 
 void warn_of_signal(const Experiments& experiments, bool robust, double zero_gain, const FittedSignal& fitted,
@@ -422,8 +428,8 @@ void warn_of_signal(const Experiments& experiments, bool robust, double zero_gai
   const bool is_told = !signal.is_sampled && scatter == ScatterBesideStated::more;
   if ((!is_noise(fitted.p_value) && !is_told) || (is_far && is_slow(signal, fitted)))
     fit.warnings.push_back(not_noise_warning(experiment, experiments, fitted, fit, subject));
-  else if (const double share = unexplained_share(signal, fitted, measured); share > 0.0)
-    fit.warnings.push_back(unexplained_warning(share, subject));
+  else if (const std::string part = unexplained_part(signal, fitted, measured); !part.empty())
+    fit.warnings.push_back(unexplained_warning(part, signal, subject));
 }
 
 }  // namespace

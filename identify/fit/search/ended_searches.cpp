@@ -43,6 +43,21 @@ bool is_clearly_less(double squares, double than, const FitProblem& problem) {
   return squares < than - enough * variance_of(than, problem);
 }
 
+bool guesses_weights(const FitProblem& problem) {
+  const FitReadings& readings = problem.readings();
+  return readings.signals().size() > 1 && std::ranges::any_of(readings.signals(), [&](const SignalRows& rows) {
+           return !(readings.signal(rows).noise > 0.0);
+         });
+}
+
+double deviance_of(const SearchResult& found, const FitProblem& problem, SearchOptions options) {
+  options.deviations = found.deviations;
+  double sum = WeightedSearch(problem, options).squares(found.coordinates);
+  for (std::size_t s = 0; s < found.deviations.size(); ++s)
+    sum += 2.0 * problem.readings().count(problem.readings().signals()[s]) * std::log(found.deviations[s]);
+  return sum;
+}
+
 LeastSquaresFit scan(LeastSquaresFit from, const WeightedSearch& search, const FitProblem& problem) {
   if (!problem.has_stepped()) return from;
   constexpr double close = 1e-6;
@@ -88,6 +103,7 @@ EndedSearches::EndedSearches(const FitProblem& problem, const SearchOptions& opt
     : problem_(problem),
       options_(options),
       several_weights_(has_several_weights(problem, options)),
+      guesses_weights_(guesses_weights(problem)),
       alike_(problem, options),
       best_(std::move(best)) {
   if (best_) others_ = std::move(best_->rivals);
@@ -96,9 +112,13 @@ EndedSearches::EndedSearches(const FitProblem& problem, const SearchOptions& opt
 std::optional<SearchResult> EndedSearches::result() {
   if (!best_) return std::nullopt;
   if (problem_.is_exhausted()) best_->is_cut_short = true;
-  const double most = least() + most_excess * variance_of(least(), problem_);
+  SearchOptions options = options_;
+  if (guesses_weights_) options.deviations = best_->deviations;
+  const WeightedSearch search(problem_, options);
+  const double least = search.squares(best_->coordinates);
+  const double most = least + most_excess * variance_of(least, problem_);
   for (Eigen::VectorXd& q : others_)
-    if (alike_.squares(q) < most) best_->rivals.push_back(std::move(q));
+    if (search.squares(q) < most) best_->rivals.push_back(std::move(q));
   others_.clear();
   return std::move(best_);
 }
@@ -111,16 +131,24 @@ bool EndedSearches::take(const std::optional<LeastSquaresFit>& found) {
     return false;
   ended_.push_back(*found);
   std::optional<SearchResult> result;
-  if (!problem_.is_exhausted()) result = end(*found);
+  if (!problem_.is_exhausted()) result = end(*found, options_);
   const bool is_cut = problem_.is_exhausted();
   if (is_cut && !best_) {
     // The first place that was found is finished, with as much work again.
     problem_.extend(1.0);
-    result = end(*found);
+    result = end(*found, options_);
   }
   const bool is_best = result && compare(std::move(*result));
   if (best_) best_->is_cut_short = is_cut;
   return is_best;
+}
+
+void EndedSearches::take_weighed(const LeastSquaresFit& from, const std::vector<double>& deviations) {
+  if (!best_ || problem_.is_exhausted()) return;
+  SearchOptions options = options_;
+  options.deviations = deviations;
+  if (std::optional<SearchResult> result = end(from, options); result && !problem_.is_exhausted())
+    compare(std::move(*result));
 }
 
 void EndedSearches::take_rivals(std::vector<LeastSquaresFit> ends, const WeightedSearch& search,
@@ -148,13 +176,19 @@ void EndedSearches::take_rivals(std::vector<LeastSquaresFit> ends, const Weighte
     found.sum_of_squares = search.squares(found);
     if (is_known(found)) continue;
     valleys.push_back({found.parameters, found.sum_of_squares});
-    if (std::optional<SearchResult> result = end(found); result && !problem_.is_exhausted())
+    if (std::optional<SearchResult> result = end(found, options_); result && !problem_.is_exhausted())
       compare(std::move(*result));
   }
 }
 
+bool EndedSearches::is_better(const SearchResult& result) const {
+  // With guessed weights a signal that no parameters explain would decide alone.
+  if (guesses_weights_) return deviance_of(result, problem_, options_) < deviance_of(*best_, problem_, options_);
+  return alike_.squares(result.coordinates) < least();
+}
+
 bool EndedSearches::compare(SearchResult result) {
-  if (best_ && !(alike_.squares(result.coordinates) < least())) {
+  if (best_ && !is_better(result)) {
     others_.push_back(std::move(result.coordinates));
     return false;
   }
@@ -166,8 +200,8 @@ bool EndedSearches::compare(SearchResult result) {
   return true;
 }
 
-std::optional<SearchResult> EndedSearches::end(const LeastSquaresFit& found) const {
-  return ended_search(problem_, scan(found, WeightedSearch(problem_, options_), problem_), options_);
+std::optional<SearchResult> EndedSearches::end(const LeastSquaresFit& found, const SearchOptions& options) const {
+  return ended_search(problem_, scan(found, WeightedSearch(problem_, options), problem_), options);
 }
 
 }  // namespace dualdamp::identify

@@ -27,6 +27,12 @@ void take_better(LeastSquaresFit found, const WeightedSearch& search, const FitP
 /// Whether a sum of squares is less than another one by more than chance between places of one valley.
 [[nodiscard]] bool is_clearly_less(double squares, double than, const FitProblem& problem);
 
+/// Whether several signals weigh each other by deviations of which nothing is known before the fit.
+[[nodiscard]] bool guesses_weights(const FitProblem& problem);
+
+/// -2 ln of the likelihood at the end of a search, whose deviations follow from its residuals; but for a constant.
+[[nodiscard]] double deviance_of(const SearchResult& found, const FitProblem& problem, SearchOptions options);
+
 /// Scans the parameters that act in steps, from the end of another search.
 [[nodiscard]] LeastSquaresFit scan(LeastSquaresFit from, const WeightedSearch& search, const FitProblem& problem);
 
@@ -47,23 +53,29 @@ class EndedSearches {
   /// Ends another search. Returns whether it is the best one.
   bool take(const std::optional<LeastSquaresFit>& found);
 
+  /// Ends a search from `from` that begins with these deviations of the signals.
+  void take_weighed(const LeastSquaresFit& from, const std::vector<double>& deviations);
+
   /// Ends those of these searches of a rough problem that may be rivals of the best one: no higher than chance
   /// explains, and higher ground lies between.
   void take_rivals(std::vector<LeastSquaresFit> ends, const WeightedSearch& search, const FitProblem& problem);
 
-  /// Sum of squares of the best search, with equal weights.
+  /// Sum of squares of the best search, with the weights of all comparisons.
   [[nodiscard]] double least() const { return alike_.squares(best_->coordinates); }
   void set_settled(bool is_settled) { best_->is_settled = is_settled; }
 
  private:
-  [[nodiscard]] std::optional<SearchResult> end(const LeastSquaresFit& found) const;
+  [[nodiscard]] std::optional<SearchResult> end(const LeastSquaresFit& found, const SearchOptions& options) const;
+  /// Whether it is more likely than the best one.
+  [[nodiscard]] bool is_better(const SearchResult& result) const;
   /// Makes it the best one or a rival.
   bool compare(SearchResult result);
 
   const FitProblem& problem_;
   const SearchOptions& options_;
   bool several_weights_;
-  WeightedSearch alike_;  ///< compares ended searches with equal weights
+  bool guesses_weights_;
+  WeightedSearch alike_;  ///< compares ended searches with the same weights
   std::optional<SearchResult> best_;
   std::vector<LeastSquaresFit> ended_;  ///< before their weights were found
   std::vector<Eigen::VectorXd> others_;

@@ -200,6 +200,28 @@ std::optional<LeastSquaresFit> search_roughly(const std::vector<Eigen::VectorXd>
   return best;
 }
 
+/// Searches in which one signal after the other decides: of the others, deviations of their own size are taken. A
+/// law that is not that of the rig may follow the amplitudes or the phases; with guessed weights the search follows
+/// those that it cannot explain.
+void take_each_signal(EndedSearches& ended, const std::vector<Eigen::VectorXd>& points, const FitProblem& problem,
+                      const SearchOptions& options) {
+  constexpr double of_their_size = 100.0;  // times the first deviation
+  constexpr int some = 16;
+  const std::vector<double> first = WeightedSearch(problem, options).deviations();
+  for (std::size_t s = 0; s < first.size(); ++s) {
+    SearchOptions of_signal = options;
+    of_signal.deviations = first;
+    for (std::size_t other = 0; other < first.size(); ++other)
+      if (other != s && !problem.readings().signal(problem.readings().signals()[other]).is_stated)
+        of_signal.deviations[other] *= of_their_size;
+    const WeightedSearch search(problem, of_signal);
+    std::optional<LeastSquaresFit> found;
+    for (const Eigen::VectorXd& q : best_of(points, search, 2))
+      take_better(search.improve(q, rough, some), search, problem, found);
+    if (found) ended.take_weighed(*found, of_signal.deviations);
+  }
+}
+
 /// The first steps need only find the region of the minimum.
 constexpr Accuracy of_first_steps{.tolerance = 1e-7, .step = 1e-3, .is_one_sided = true};
 
@@ -303,6 +325,9 @@ std::optional<SearchResult> search_parameters(const FitProblem& problem,
   const WeightedSearch rough_search(rough_problem, options);
   EndedSearches ended(problem, options);
   ended.take(search_roughly(points, rough_search, rough_problem, options));
+  if (guesses_weights(problem) && ended.best() &&
+      (!ended.is_at_end() || is_far_from_states(problem, ended.best()->coordinates)))
+    take_each_signal(ended, points, rough_problem, options);
   // From a distant start, as for a mass without a stated value, the first parts need more steps.
   if (ended.best() && !ended.is_at_end())
     ended.take(search_growing({ended.best()->coordinates}, 0.1, rough_search, rough_problem, options));

@@ -9,6 +9,8 @@
 /// * If they are still not noise, a search begins with models tied to the measured motion (`tie.hpp`).
 /// * More searches begin far from the end, along parameters that are open there (`far_starts.hpp`), until none of
 ///   them finds anything better.
+/// * Where the weights of several signals can only be guessed, and the residuals are not noise, searches begin in
+///   which one signal after the other decides. The most likely end is the best.
 /// Steady states are also searched for from the best harmonic balance (`harmonic_balance.hpp`).
 /// The first steps have a looser tolerance and fewer samples.
 

@@ -24,6 +24,9 @@ class WeightedSearch {
     return {found.parameters, weights_, unbounded_, deviations_};
   }
 
+  /// Of each signal.
+  [[nodiscard]] const std::vector<double>& deviations() const { return deviations_; }
+
   /// Whether the weights are only guessed yet.
   [[nodiscard]] bool begins_anew() const { return options_.deviations.empty(); }
 
