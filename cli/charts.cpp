@@ -9,8 +9,10 @@
 #include "cli/report/asked_units.hpp"
 #include "cli/report/comparison.hpp"
 #include "cli/report/main_chart.hpp"
+#include "cli/report/mat_export.hpp"
 #include "cli/report/report.hpp"
 #include "cli/report/result_directory.hpp"
+#include "cli/report/stored_run.hpp"
 #include "cli/report/svg.hpp"
 #include "core/diagnostics.hpp"
 #include "core/input_file.hpp"
@@ -20,28 +22,43 @@ namespace dualdamp::cli {
 
 namespace fs = std::filesystem;
 
-std::string plot_result(const std::string& directory, const std::string& file, const std::string& units) {
-  const Chart chart = main_chart(directory, units);
+namespace {
+
+/// Writes one file. Returns messages.
+std::string write_file(const std::string& file, const scenarios::Writer& writer) {
   const fs::path path(file);
   std::string messages;
-  if (!chart.note.empty()) messages += "warning: " + file + ": " + chart.note + "; all are in the tables\n";
-  for (const std::string& warning :
-       write_keeping(path.has_parent_path() ? path.parent_path().string() : ".",
-                     {{path.filename().string(), [&](std::ostream& out) { write_svg(out, chart); }}}))
+  for (const std::string& warning : write_keeping(path.has_parent_path() ? path.parent_path().string() : ".",
+                                                  {{path.filename().string(), writer}}))
     messages += warning + "\n";
   return messages + "wrote " + file + "\n";
 }
 
-void add_plot(CommandOutput& output, const std::string& directory, const std::string& file) {
+}  // namespace
+
+std::string plot_result(const std::string& directory, const std::string& file, const std::string& units) {
+  const Chart chart = main_chart(directory, units);
+  std::string messages;
+  if (!chart.note.empty()) messages += "warning: " + file + ": " + chart.note + "; all are in the tables\n";
+  return messages + write_file(file, [&](std::ostream& out) { write_svg(out, chart); });
+}
+
+std::string export_result(const std::string& directory, const std::string& file) {
+  const StoredRun run(directory);
+  return write_file(file, mat_writer(run));
+}
+
+void add_files(CommandOutput& output, const std::string& directory, const ResultFiles& files) {
   try {
-    output.messages += plot_result(directory, file);
+    if (!files.mat.empty()) output.messages += export_result(directory, files.mat);
+    if (!files.plot.empty()) output.messages += plot_result(directory, files.plot);
   } catch (const core::InputError& error) {
     for (const core::Diagnostic& problem : error.diagnostics()) output.errors += core::format(problem) + "\n";
     output.status = std::max(output.status, core::ExitStatus::usage);
   }
 }
 
-CommandOutput report_on(const std::string& directory, const std::string& units, const std::string& plot) {
+CommandOutput report_on(const std::string& directory, const std::string& units, const ResultFiles& files) {
   // A missing directory has no result; it is not created.
   if (std::error_code error; !fs::is_directory(directory, error)) {
     if (error && !core::is_fault_of_name(error.value()))
@@ -56,7 +73,8 @@ CommandOutput report_on(const std::string& directory, const std::string& units, 
   for (const std::string& warning : write_keeping(directory, {report_page(directory, units)}))
     done.messages += warning + "\n";
   done.messages += "wrote " + (fs::path(directory) / "report.html").string() + "\n";
-  if (!plot.empty()) done.messages += plot_result(directory, plot, units);
+  if (!files.mat.empty()) done.messages += export_result(directory, files.mat);
+  if (!files.plot.empty()) done.messages += plot_result(directory, files.plot, units);
   return done;
 }
 

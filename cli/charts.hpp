@@ -1,9 +1,10 @@
 #pragma once
-/// The commands that draw results: `report`, `--plot` and `compare`.
+/// The commands that draw results: `report`, `--plot` and `compare`; and `--mat`, which writes their tables.
 
 #include <string>
 #include <vector>
 
+#include "cli/command_line/arguments.hpp"
 #include "cli/command_output.hpp"
 
 namespace dualdamp::cli {
@@ -13,13 +14,17 @@ namespace dualdamp::cli {
 [[nodiscard]] std::string plot_result(const std::string& directory, const std::string& file,
                                       const std::string& units = {});
 
-/// The same after a run. If the result has no chart, a message is added to the output.
-void add_plot(CommandOutput& output, const std::string& directory, const std::string& file);
+/// Writes the tables of a result directory into a MATLAB file (`cli/report/mat_export.hpp`). Returns a message.
+/// Errors: `core::InputError` if there is no result or a table was changed, `scenarios::OutputError`.
+[[nodiscard]] std::string export_result(const std::string& directory, const std::string& file);
 
-/// Writes the page of a result directory again and, if `plot` names a file, its main chart. Refuses a directory
-/// that does not exist. Errors: as `plot_result`; `std::system_error`.
+/// Both after a run, if they are asked for. If the result has no chart, a message is added to the output.
+void add_files(CommandOutput& output, const std::string& directory, const ResultFiles& files);
+
+/// Writes the page of a result directory again and the files that are asked for. Refuses a directory that does not
+/// exist. Errors: as `plot_result`; `std::system_error`.
 [[nodiscard]] CommandOutput report_on(const std::string& directory, const std::string& units,
-                                      const std::string& plot);
+                                      const ResultFiles& files);
 
 /// Writes a comparison of several result directories to `out`. Returns a message. Errors: as `comparison`, and
 /// `scenarios::OutputError`.

@@ -73,6 +73,8 @@ int execute(const RunCommand& command) {
       return say(refused(ExitStatus::usage, "--set needs PATH=VALUE, not '" + assignment + "'"), style);
   if (!command.plot.empty() && command.files.size() > 1)
     return say(refused(ExitStatus::usage, "--plot takes the chart of one scenario, not of several"), style);
+  if (!command.mat.empty() && command.files.size() > 1)
+    return say(refused(ExitStatus::usage, "--mat takes the tables of one scenario, not of several"), style);
   if (const std::string problem = clash(command); !problem.empty())
     return say(refused(ExitStatus::usage, problem), style);
   const CommandOutput joined = guarded([] {
@@ -147,9 +149,11 @@ int execute(const ScoreCommand& command) {
 int execute(const ReportCommand& command) {
   if (!command.plot.empty() && command.directories.size() > 1)
     return say(refused(ExitStatus::usage, "--plot takes the chart of one directory, not of several"), {});
+  if (!command.mat.empty() && command.directories.size() > 1)
+    return say(refused(ExitStatus::usage, "--mat takes the tables of one directory, not of several"), {});
   ExitStatus worst = ExitStatus::done;
   for (const std::string& directory : command.directories) {
-    const CommandOutput output = guarded([&] { return report_on(directory, command.shown_units, command.plot); });
+    const CommandOutput output = guarded([&] { return report_on(directory, command.shown_units, command); });
     print(output, {});
     worst = std::max(worst, output.status);
   }

@@ -172,7 +172,7 @@ CommandOutput run_file(const RunCommand& command, const std::string& file) {
         {.directory = output_directory(command, file), .threads = command.jobs, .found = found_cases(command)},
         command.quiet);
     is_done = true;
-    if (!command.plot.empty() && !is_silent()) add_plot(result, output_directory(command, file), command.plot);
+    if (!is_silent()) add_files(result, output_directory(command, file), command);
     return result;
   });
   if (is_done || !bench::Processes::several()) return output;

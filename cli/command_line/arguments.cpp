@@ -135,7 +135,7 @@ class Parser {
         ->excludes(resume);
     run_command.add_flag("--verify", run_.verify,
                          "Compute each result again in another way and compare; the same as numerics.verify");
-    add_plot(run_command, run_.plot);
+    add_result_files(run_command, run_);
     add_shown_units(run_command, run_);
     add_plugins(run_command);
   }
@@ -309,7 +309,7 @@ class Parser {
     report_command.add_option("DIR", report_.directories, "Directories with a result.json")
         ->required()
         ->type_name("");
-    add_plot(report_command, report_.plot);
+    add_result_files(report_command, report_);
     add_shown_units(report_command, report_);
     CLI::App& new_command = add_command(app_, "new", "Print a commented scenario as a first file", new_);
     new_command.add_option("ANALYSIS", new_.analysis, "Its analysis, such as xy_curve; see dualdamp analyses")

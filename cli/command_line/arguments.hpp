@@ -21,7 +21,13 @@ struct ShownUnitOptions {
   std::string shown_units;  ///< of charts, pages and printed tables, separated by commas
 };
 
-struct RunCommand : OutputOptions, ShownUnitOptions {
+/// Files that are written beside a result; empty: none.
+struct ResultFiles {
+  std::string plot;  ///< SVG: the main chart
+  std::string mat;   ///< MATLAB: the tables
+};
+
+struct RunCommand : OutputOptions, ShownUnitOptions, ResultFiles {
   std::vector<std::string> files;
   std::vector<std::string> set;
   int jobs = 0;  ///< number of threads; with several files, how many run at the same time; 0: one file, all cores
@@ -29,7 +35,6 @@ struct RunCommand : OutputOptions, ShownUnitOptions {
   bool resume = false;
   bool overwrite = false;
   bool verify = false;  ///< compute each result again in another way and compare
-  std::string plot;     ///< SVG file for the main chart; empty: none
 };
 
 /// The stress test that `stress export` and `stress score` have in common.
@@ -133,9 +138,8 @@ struct PredictCommand : RecordOptions {
   std::string result;  ///< of a fit: result.json, or its directory
 };
 
-struct ReportCommand : ShownUnitOptions {
+struct ReportCommand : ShownUnitOptions, ResultFiles {
   std::vector<std::string> directories;
-  std::string plot;  ///< SVG file for the main chart; empty: none
 };
 
 struct NewCommand {

@@ -43,12 +43,14 @@ void add_gains(CLI::App& command, std::vector<std::string>& gains) {
       ->type_name("SIGNAL=SHARE");
 }
 
-void add_plot(CLI::App& command, std::string& plot) {
-  command.add_option("--plot", plot, "Also draw the main chart into this SVG file")
-      ->type_name("FILE.svg")
-      ->check([](const std::string& text) {
-        return text.ends_with(".svg") ? std::string() : "'" + text + "' does not end in .svg";
-      });
+void add_result_files(CLI::App& command, ResultFiles& files) {
+  const auto add = [&command](const char* name, std::string& file, const char* text, const std::string& ending) {
+    command.add_option(name, file, text)->type_name("FILE" + ending)->check([ending](const std::string& value) {
+      return value.ends_with(ending) ? std::string() : "'" + value + "' does not end in " + ending;
+    });
+  };
+  add("--plot", files.plot, "Also draw the main chart into this SVG file", ".svg");
+  add("--mat", files.mat, "Also write the tables into this MATLAB file", ".mat");
 }
 
 void add_file_options(CLI::App& command, FileOptions& options) {

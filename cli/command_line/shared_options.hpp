@@ -17,7 +17,7 @@ namespace dualdamp::cli {
 void add_output_options(CLI::App& command, OutputOptions& options);
 /// Adds `--show-in`: units of charts, pages and printed tables. `--unit` is that of a column of a data file.
 void add_shown_units(CLI::App& command, ShownUnitOptions& options);
-void add_plot(CLI::App& command, std::string& plot);
+void add_result_files(CLI::App& command, ResultFiles& files);
 /// Adds `--gain-uncertainty`.
 void add_gains(CLI::App& command, std::vector<std::string>& gains);
 /// Adds the options that state names, units and scales of the columns of a data file.

@@ -49,6 +49,7 @@ def commands():
     second = ["run", "xy_curve.yaml", "--out", "second", *other]
     yield from (Command(f"run {name}", run(name), ["out"], [run(name, *other)]) for name in SCENARIOS if name != "sweep")
     yield Command("run --plot", run("xy_curve", "--plot", "chart.svg"), ["out", "chart.svg"], [run("xy_curve", "--plot", "chart.svg", *other)])
+    yield Command("run --mat", run("simulate", "--mat", "run.mat"), ["out", "run.mat"], [run("simulate", "--mat", "run.mat", *other)])
     yield Command("run --json", run("simulate", "--json"), ["out"], [run("simulate", *other)])
     yield Command("run --verify", run("xy_curve", "--verify"), ["out"], [run("xy_curve", *other)])
     yield Command("run several", ["run", "simulate.yaml", "xy_curve.yaml", "identify.yaml", "--out", "all", "--jobs", "2"],
