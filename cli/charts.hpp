@@ -13,7 +13,8 @@ namespace dualdamp::cli {
 [[nodiscard]] std::string plot_result(const std::string& directory, const std::string& file,
                                       const std::string& units = {});
 
-/// The same after a run. If the result has no chart, a message is added to the output.
+/// Draws the main chart of the result of a run into an SVG file. If the result has no chart, a message is added to
+/// the output.
 void add_plot(CommandOutput& output, const std::string& directory, const std::string& file);
 
 /// Writes the page of a result directory again and, if `plot` names a file, its main chart. Refuses a directory
