@@ -39,13 +39,10 @@ void run_cases(const Grid& grid, const RunContext& context, scenarios::CaseFile&
                        [&](std::size_t motion) { run_motion(grid, steady, motion, wanted, take); });
 }
 
-}  // namespace
-
-CampaignSize size_of(const StressTest& question, const RunContext& context) {
+/// Estimated seconds on all cores: one motion of each departure is computed, read once, and stands for all of that
+/// departure.
+double seconds_of_campaign(const StressTest& question, const CampaignSize& size, const RunContext& context) {
   StressTest sample = question;
-  const Grid whole(question);
-  CampaignSize size{whole.motions(), whole.cases(), whole.cases() * sample.methods.size(), 0.0, 0.0};
-  // One motion of each departure, read once, stands for all of that departure.
   const std::size_t severities = sample.severities.size();
   sample.severities = {sample.severities[severities / 2]};
   sample.ranges.resize(1);
@@ -60,26 +57,40 @@ CampaignSize size_of(const StressTest& question, const RunContext& context) {
   double motions = 0.0;
   for (std::size_t motion = 0; motion < grid.motions(); ++motion) motions += seconds_of(grid, motion);
   const double threads = std::thread::hardware_concurrency();
-  size.seconds =
+  const double seconds =
       motions * static_cast<double>(severities * question.ranges.size() * question.rigs.size()) / threads;
+  if (question.seeds <= 1) return seconds;
   // Time of further readings of a motion. The motion is timed again, because the first motion of a run is slower.
-  if (question.seeds > 1) {
-    constexpr int most = 5;
-    const double once = seconds_of(grid, 0);
-    StressTest repeated = sample;
-    repeated.seeds = std::min(question.seeds, most);
-    const Grid several(repeated);
-    const auto further = static_cast<double>(several.cases_per_motion() - grid.cases_per_motion());
-    size.seconds += std::max(seconds_of(several, 0) - once, 0.0) / further *
-                    static_cast<double>(size.cases - size.motions * grid.cases_per_motion()) / threads;
-  }
+  constexpr int most = 5;
+  const double once = seconds_of(grid, 0);
+  StressTest repeated = sample;
+  repeated.seeds = std::min(question.seeds, most);
+  const Grid several(repeated);
+  const auto further = static_cast<double>(several.cases_per_motion() - grid.cases_per_motion());
+  return seconds + std::max(seconds_of(several, 0) - once, 0.0) / further *
+                       static_cast<double>(size.cases - size.motions * grid.cases_per_motion()) / threads;
+}
+
+/// Estimated memory [MB], from what a run takes for each of these.
+double megabytes_of_campaign(const StressTest& question, const CampaignSize& size) {
   constexpr double of_program = 60.0;
   constexpr double of_case = 30e-6;
   constexpr double of_estimate = 40e-6;
   constexpr double of_sample = 130e-6;  // of a random response, in each thread
-  size.megabytes =
+  const double megabytes =
       of_program + of_case * static_cast<double>(size.cases) + of_estimate * static_cast<double>(size.estimates);
-  if (question.random) size.megabytes += of_sample * question.random->samples() * threads;
+  const double threads = std::thread::hardware_concurrency();
+  return megabytes + (question.random ? of_sample * question.random->samples() * threads : 0.0);
+}
+
+}  // namespace
+
+CampaignSize size_of(const StressTest& question, const RunContext& context) {
+  const Grid grid(question);
+  CampaignSize size{
+      .motions = grid.motions(), .cases = grid.cases(), .estimates = grid.cases() * question.methods.size()};
+  size.seconds = seconds_of_campaign(question, size, context);
+  size.megabytes = megabytes_of_campaign(question, size);
   return size;
 }
 

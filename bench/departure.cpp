@@ -14,12 +14,12 @@ Family CaseDeparture::family() const {
   return beside == nullptr ? first->family : Family::pairs;
 }
 
-std::string CaseDeparture::severity() const {
+std::string CaseDeparture::meaning_of_severity() const {
   if (is_truth()) return "";
   return std::string(first->severity) + (beside == nullptr ? "" : "; " + std::string(beside->severity));
 }
 
-double CaseDeparture::largest() const {
+double CaseDeparture::largest_severity() const {
   return beside == nullptr ? first->largest : std::min(first->largest, beside->largest);
 }
 

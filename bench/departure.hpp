@@ -1,6 +1,5 @@
 #pragma once
-/// The departure of a case of the stress test: none, one of the table, or two of
-/// them at the same severity.
+/// The departure of a case of the stress test: none, one of the table, or two of them at the same severity.
 
 #include <string>
 
@@ -16,10 +15,10 @@ struct CaseDeparture {
   /// "lugre", "lugre + base_gain", "coulomb_viscous"
   [[nodiscard]] std::string name() const;
   [[nodiscard]] Family family() const;
-  /// The meaning of its severity, in words.
-  [[nodiscard]] std::string severity() const;
-  /// Beyond it a severity has no meaning.
-  [[nodiscard]] double largest() const;
+  /// What its severity measures, in words.
+  [[nodiscard]] std::string meaning_of_severity() const;
+  /// The largest severity that has a meaning.
+  [[nodiscard]] double largest_severity() const;
   /// Whether there is still one true zeta, one true F0.
   [[nodiscard]] bool has_zeta() const;
   [[nodiscard]] bool has_F0() const;

@@ -40,9 +40,10 @@ void check_severities(CheckedFile& file, const Json& analysis) {
                   core::format_number(*twice, 6));
   const double most = severities.back();
   for (const CaseDeparture& departure : departures_of(analysis)) {
-    if (most > departure.largest())
+    if (most > departure.largest_severity())
       file.complain("analysis.severities", "'" + departure.name() + "' has no such severity",
-                    "at most " + core::format_number(departure.largest(), 3) + ": " + departure.severity(),
+                    "at most " + core::format_number(departure.largest_severity(), 3) + ": " +
+                        departure.meaning_of_severity(),
                     core::format_number(most, 6));
   }
 }

@@ -12,9 +12,9 @@ struct Listing {
 
 /// A list of all laws if `name` is empty, else the description of the law `name`.
 [[nodiscard]] Listing list_laws(const std::string& name);
-/// The same for methods.
+/// A list of all methods, or the description of one.
 [[nodiscard]] Listing list_methods(const std::string& name);
-/// The same for analyses.
+/// A list of all analyses, or the description of one.
 [[nodiscard]] Listing list_analyses(const std::string& name);
 
 }  // namespace dualdamp::cli

@@ -14,7 +14,7 @@ namespace dualdamp::cli {
 /// Rows of texts as aligned columns, two blanks apart.
 [[nodiscard]] std::string columns(const std::vector<std::vector<std::string>>& rows);
 
-/// The same where cells are sentences: a long cell takes several lines.
+/// Aligned columns whose cells are sentences: a long cell takes several lines.
 [[nodiscard]] std::string folded_columns(const std::vector<std::vector<std::string>>& rows);
 
 /// Shows the progress of a long run as one line on the terminal, which each call overwrites.

@@ -27,7 +27,7 @@ struct Character {
 /// The beginning of `text`: at most `bytes` bytes, cut between characters.
 [[nodiscard]] std::string_view beginning(std::string_view text, std::size_t bytes);
 
-/// The same, followed by "..." if that is not the whole text.
+/// The beginning of `text`, followed by "..." if that is not the whole text.
 [[nodiscard]] std::string shortened(std::string_view text, std::size_t bytes);
 
 }  // namespace dualdamp::core

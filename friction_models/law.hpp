@@ -55,7 +55,7 @@ class Law {
   /// Of a law from a plugin; else empty.
   [[nodiscard]] std::string_view name() const { return model_->name(); }
 
-  /// N
+  /// Friction force [N]; > 0 opposes v > 0. `direction`: of slip, in place of sgn v.
   [[nodiscard]] double force(const Memory& memory, const Instant& now, Direction direction) const {
     return model_->force(memory, now, direction);
   }
@@ -76,7 +76,8 @@ class Law {
 
   /// Whether the law can make the mass stick.
   [[nodiscard]] bool holds_mass() const { return abilities_.sticking != nullptr; }
-  /// N; 0 for a law that does not make the mass stick.
+  /// How far the force can differ from that of direction none before the mass slips [N]; 0 for a law that does not
+  /// hold the mass.
   [[nodiscard]] double static_limit(const Memory& memory, const Instant& now) const {
     return abilities_.sticking != nullptr ? abilities_.sticking->static_limit(memory, now) : 0.0;
   }
@@ -112,10 +113,10 @@ class Law {
     if (abilities_.states != nullptr) abilities_.states->scales(memory, scales);
   }
 
-  /// s; 0: the law does not depend on the past.
+  /// The law also depends on the velocity this long ago [s]; 0: it does not.
   [[nodiscard]] double delay() const { return abilities_.delay != nullptr ? abilities_.delay->delay() : 0.0; }
 
-  /// W
+  /// Power turned to heat [W]; force times velocity, unless the law stores energy.
   [[nodiscard]] double dissipation(const Memory& memory, const Instant& now, Direction direction) const {
     if (abilities_.dissipation != nullptr) return abilities_.dissipation->dissipation(memory, now, direction);
     return force(memory, now, direction) * now.v;
@@ -128,7 +129,7 @@ class Law {
     if (abilities_.advance != nullptr) abilities_.advance->advance(memory, begin, end, duration, direction);
   }
 
-  /// s; infinite without a schedule.
+  /// Time of the next scheduled mode change [s]; infinite without a schedule.
   [[nodiscard]] double next_change(const Memory& memory) const {
     return abilities_.schedule != nullptr ? abilities_.schedule->next_change(memory)
                                           : std::numeric_limits<double>::infinity();

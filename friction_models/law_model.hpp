@@ -119,9 +119,9 @@ class LawModel {
   LawModel& operator=(const LawModel&) = delete;
   virtual ~LawModel() = default;
 
-  /// N
+  /// Friction force [N]; > 0 opposes v > 0.
   [[nodiscard]] virtual double force(const Memory& memory, const Instant& now, Direction direction) const = 0;
-  /// The same at every call.
+  /// What the law can do; every call returns the same.
   [[nodiscard]] virtual Abilities abilities() const { return {}; }
   /// Of a law from a plugin; else empty.
   [[nodiscard]] virtual std::string_view name() const { return {}; }

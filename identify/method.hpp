@@ -59,7 +59,7 @@ template <auto method>
 inline constexpr MethodCall call_of = CallOf<method>::value;
 
 struct MethodEntry {
-  std::string_view name;      ///< contract
+  std::string_view name;      ///< as users write it: files and scripts rely on it, so it never changes
   std::string_view summary;   ///< one line
   std::string_view assumes;   ///< what must hold, and how the method checks it
   std::string_view equation;  ///< plain text

@@ -99,7 +99,8 @@ struct CheckedValues {
   const sim::Model& model;
   std::optional<identify::MeasuredRecord> data;
   std::vector<DataFile> files;
-  bool initial_is_stated = false;  ///< the scenario has a section `initial`
+  bool initial_is_stated = false;    ///< the scenario has a section `initial`
+  bool tolerance_is_stated = false;  ///< the scenario has `numerics.tolerance`
   std::optional<identify::MeasuredSignal> compared = {};
   double drive_start = 0.0;       ///< time of the first sample of the excitation on the clock of its file [s]
   core::SettingWords words = {};  ///< how messages name what a user may state

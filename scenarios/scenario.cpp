@@ -170,10 +170,14 @@ sim::Solver solver(const Json& numerics) {
           number_or(numerics, "tolerance", sim::Solver{}.tolerance)};
 }
 
+bool states_tolerance(const Json& values) {
+  return values.contains("numerics") && values.at("numerics").contains("tolerance");
+}
+
 /// Closure error of steady states, from the accuracy of the engine.
 double tolerance_of(const Json& values, const sim::Model& model) {
-  const double usual = sim::is_exact(model) ? sim::SteadyStateOptions{}.tolerance : model.solver.tolerance;
-  return values.contains("numerics") ? number_or(values.at("numerics"), "tolerance", usual) : usual;
+  if (states_tolerance(values)) return number(values.at("numerics").at("tolerance"));
+  return sim::is_exact(model) ? sim::SteadyStateOptions{}.tolerance : model.solver.tolerance;
 }
 
 sim::Model model(const Json& values, bool with_laws) {
@@ -265,8 +269,8 @@ Scenario scenario_of(const Document& document, Reading reading, const std::strin
   }
   scenario.question = checked.analysis->ask(
       {section, values.value("system", Json()), values.value("excitation", Json()), scenario.model,
-       std::move(checked.data), std::move(checked.files), values.contains("initial"), std::move(checked.compared),
-       checked.drive_start, document.words()});
+       std::move(checked.data), std::move(checked.files), values.contains("initial"), states_tolerance(values),
+       std::move(checked.compared), checked.drive_start, document.words()});
   scenario.expect = expectations(values, document, reading);
   scenario.written_units = std::move(reading.written_units);
   return scenario;

@@ -74,7 +74,8 @@ struct LoadOptions {
 /// Reads a file. A file that cannot be read is an `InputError` too.
 [[nodiscard]] Scenario load_scenario(const std::string& path, const LoadOptions& options = {});
 
-/// The same from text; `name` stands for the file in messages, and data files are looked for in `name`'s directory.
+/// Reads a scenario from text; `name` stands for the file in messages, and data files are looked for in `name`'s
+/// directory.
 [[nodiscard]] Scenario parse_scenario(const std::string& text, const std::string& name,
                                       const LoadOptions& options = {});
 

@@ -62,7 +62,7 @@ class SampledSignal {
   /// than the others.
   [[nodiscard]] Overshoot largest_overshoot() const;
 
-  /// The same signal times a factor.
+  /// This signal times a factor.
   [[nodiscard]] SampledSignal scaled(double factor) const;
 
  private:

@@ -26,9 +26,9 @@ inline constexpr std::size_t max_laws = 256;
 const Model& valid(const Model& model);
 const Model& valid(const Model&& model) = delete;
 
-/// The same; the excitation must also be harmonic. `analysis`: the function that needs it, for the message.
+/// As valid(); the excitation must also be harmonic. `analysis`: the function that needs it, for the message.
 const Model& valid_harmonic(const Model& model, std::string_view analysis);
-/// The same; the excitation must be `none`.
+/// As valid(); the excitation must be `none`.
 const Model& valid_free(const Model& model, std::string_view analysis);
 
 /// Throws if a value is out of range or not finite. `path`: its name in a scenario file.

@@ -7,9 +7,9 @@
 #include <limits>
 #include <utility>
 
-#include "bench/crosscheck/motions.hpp"
 #include "bench/crosscheck/patience.hpp"
 #include "friction_models/state_sizes.hpp"
+#include "sim/engine/smooth_engine.hpp"
 #include "sim/orbits/transient.hpp"
 
 namespace dualdamp::crosscheck {
@@ -179,7 +179,7 @@ Finding compare_derivative(const std::string& name, const sim::Model& model, con
   const double length = quotients.period().size;
   if (monodromy.rows() != monodromy.cols() || length == 0.0) return {name, Verdict::not_compared, 0.0, "no motion"};
   if (!monodromy.allFinite()) return {name, Verdict::disagree, 0.0, "the monodromy matrix is not finite"};
-  if (is_below_steps(model, length, quotients.accuracy()))
+  if (sim::is_below_steps(model, length, quotients.accuracy()))
     return {name, Verdict::not_compared, 0.0, "the motion is smaller than steps resolve"};
   const Eigen::VectorXd size = sizes(model, state, length, omega);
   const bool moves = state.direction != friction::Direction::none;

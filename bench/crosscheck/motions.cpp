@@ -12,6 +12,7 @@
 #include "friction_models/registry.hpp"
 #include "scenarios/scenario.hpp"
 #include "sim/engine/engine.hpp"
+#include "sim/engine/smooth_engine.hpp"
 
 namespace dualdamp::crosscheck {
 
@@ -149,10 +150,11 @@ class Motions {
     findings_.push_back(std::move(finding));
   }
 
+  /// Whether steps do not resolve the motion: differences of such motions are errors of the steps.
   [[nodiscard]] bool is_unresolved() const {
     double length = 0.0;
     for (const sim::Sample& sample : first_.samples) length = std::max(length, std::abs(sample.x));
-    return !is_exact_ && is_below_steps(model_, length, sim::make_engine(model_)->accuracy());
+    return !is_exact_ && sim::is_below_steps(model_, length, sim::make_engine(model_)->accuracy());
   }
 
   /// Whether the motion grows without bound: x is still finite, its square is not.
@@ -343,13 +345,6 @@ double duration_of(const Json& scenario, const sim::Model& model) {
   const double natural = core::two_pi / sim::natural_frequency(model.oscillator);
   const double forcing = core::two_pi / model.excitation.frequency;
   return std::min(3.0 * forcing + 10.0 * natural, 60.0 * std::min(natural, forcing));
-}
-
-bool is_below_steps(const sim::Model& model, double length, double accuracy) {
-  constexpr double small_motion = 1e-3;  // the size that the engine takes for that of a motion that has none yet
-  const double amplitude = model.excitation.amplitude;
-  const double drive = model.excitation.moves_base() ? amplitude : amplitude / model.oscillator.stiffness;
-  return length < small_motion * accuracy * drive;
 }
 
 Findings compare_motions(const scenarios::Json& scenario, std::uint64_t draw) {

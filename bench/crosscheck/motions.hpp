@@ -13,10 +13,6 @@ namespace dualdamp::crosscheck {
 /// Duration of the motion of a drawn scenario [s].
 [[nodiscard]] double duration_of(const scenarios::Json& scenario, const sim::Model& model);
 
-/// Whether the mass creeps less far than steps of this accuracy resolve at the model's drive: differences of such
-/// motions are errors of the steps. `length`: its largest |x| [m]; `accuracy`: of Engine::accuracy().
-[[nodiscard]] bool is_below_steps(const sim::Model& model, double length, double accuracy);
-
 /// `draw`: seed of the changes of the data that measure how strongly the motion depends on them.
 [[nodiscard]] Findings compare_motions(const scenarios::Json& scenario, std::uint64_t draw);
 

@@ -8,7 +8,7 @@ namespace dualdamp::crosscheck {
 /// Work (`sim::Engine::work`) of a transient and of the search for its orbit: about a quarter of a second each. Few
 /// cases take more, and those took most of the time of a campaign.
 inline constexpr long most_work = 300'000;
-/// The same of the difference quotients of one state.
+/// Most work of the difference quotients of one state.
 inline constexpr long most_work_of_quotients = 150'000;
 
 /// A limit of processor time from its construction on; a comparison that takes longer is given up.

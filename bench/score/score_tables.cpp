@@ -64,7 +64,7 @@ Columns<CaseDeparture> departure_columns() {
           {"family", "", "what it changes, such as friction or the drive",
            [](const CaseDeparture& d, const Grid&) { return std::string(name_of(d.family())); }},
           {"severity", "", "what its severity means",
-           [](const CaseDeparture& d, const Grid&) { return d.severity(); }}};
+           [](const CaseDeparture& d, const Grid&) { return d.meaning_of_severity(); }}};
 }
 
 Columns<Difference> difference_columns() {

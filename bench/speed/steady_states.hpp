@@ -13,7 +13,8 @@ namespace dualdamp::bench::speed {
 /// F0/k, sticking ones included.
 [[nodiscard]] double seconds_for_curve(const StandardCase& work, int count);
 
-/// The same under lugre (smooth_cases(), the first), from 1.5 to 10 times F0/k, motions that creep included.
+/// Processor seconds on one core for an x-Y curve under lugre (smooth_cases(), the first): `count` amplitudes from
+/// 1.5 to 10 times F0/k, motions that creep included.
 [[nodiscard]] double seconds_for_smooth_curve(int count);
 
 /// Steady states a second, by the clock, of `count` oscillators that do not stick, in batches on all cores. They

@@ -58,6 +58,8 @@ class Parser {
     add_fit();
     add_predict();
     add_report();
+    add_new();
+    add_compare();
     add_lists();
     add_shell();
     refuse_empty_texts(app_);
@@ -80,10 +82,21 @@ class Parser {
   }
 
  private:
-  static auto quantities_of(CLI::App& command) {
-    return [&command](const char* name, std::string& value, const char* text) {
-      command.add_option(name, value, text)->type_name("QUANTITY");
-    };
+  static void add_quantity(CLI::App& command, const char* name, std::string& value, const char* text) {
+    command.add_option(name, value, text)->type_name("QUANTITY");
+  }
+
+  /// What is known of the errors of amplitudes. `sigma_x_text`: explains `--sigma-x`.
+  static void add_errors(CLI::App& command, MeasuredOptions& options, const char* sigma_x_text) {
+    add_quantity(command, "--sigma-x", options.sigma_x, sigma_x_text);
+    add_quantity(command, "--sigma-Y", options.sigma_Y, "Known standard deviation of a measured input amplitude");
+    add_gains(command, options.gain_uncertainties);
+  }
+
+  static void add_input_and_output(CLI::App& command, MeasuredOptions& options) {
+    add_file_options(command, options);
+    add_shown_units(command, options);
+    add_output_options(command, options);
   }
 
   void add_plugins(CLI::App& command) {
@@ -189,35 +202,33 @@ class Parser {
   void add_identify() {
     CLI::App& command =
         add_command(app_, "identify", "Identify friction from measured data, without a scenario", identify_);
-    const auto add = quantities_of(command);
     command
         .add_option("DATA", identify_.data, "Data file: CSV, MATLAB .mat or universal file (docs/data-files.md)")
         ->required()
         ->type_name("");
-    add("--mass", identify_.mass,
+    add_quantity(
+        command, "--mass", identify_.mass,
         "Mass, such as '1.042 kg' or '1.042 kg +- 5 g'; without it only methods that do not need it are used");
-    add("--stiffness", identify_.stiffness,
-        "Stiffness, such as '1568 N/m'; '0 N/m' for a mass on a rail without spring");
-    add("--gravity-stiffness", identify_.gravity_stiffness,
+    add_quantity(command, "--stiffness", identify_.stiffness,
+                 "Stiffness, such as '1568 N/m'; '0 N/m' for a mass on a rail without spring");
+    add_quantity(
+        command, "--gravity-stiffness", identify_.gravity_stiffness,
         "m g l of a pendulum, such as '2.9 N.m': the part of the stiffness, or the whole of it, whose torque "
         "is m g l sin(x)");
     command.add_option("--coordinate", identify_.coordinate, "Kind of the coordinate x (default: from the units)")
         ->type_name("displacement|angle");
-    add("--frequency", identify_.frequency, "Forcing frequency, such as '6.17 Hz'; a free decay has none");
+    add_quantity(command, "--frequency", identify_.frequency,
+                 "Forcing frequency, such as '6.17 Hz'; a free decay has none");
     command
         .add_option(
             "--method", identify_.methods,
             "A method to use; the option is repeated for further ones; default: all methods that can read the data")
         ->allow_extra_args(false)
         ->type_name("METHOD");
-    add("--sigma-x", identify_.sigma_x,
-        "Known standard deviation of a measured output amplitude or extreme, such as '0.02 mm'");
-    add("--sigma-Y", identify_.sigma_Y, "Known standard deviation of a measured input amplitude");
-    add_gains(command, identify_.gain_uncertainties);
+    add_errors(command, identify_,
+               "Known standard deviation of a measured output amplitude or extreme, such as '0.02 mm'");
     command.add_flag("--robust", identify_.robust, "Bound the influence of outliers (Huber), and replace spikes");
-    add_file_options(command, identify_);
-    add_shown_units(command, identify_);
-    add_output_options(command, identify_);
+    add_input_and_output(command, identify_);
   }
 
   void add_next() {
@@ -229,16 +240,12 @@ class Parser {
                     "design")
         ->required()
         ->type_name("");
-    const auto add = quantities_of(command);
-    add("--mass", next_.mass, "Mass, such as '1.042 kg'");
-    add("--stiffness", next_.stiffness, "Stiffness, such as '1568 N/m'");
-    add("--frequency", next_.frequency, "Forcing frequency, such as '6.17 Hz', where the data do not state it");
-    add("--sigma-x", next_.sigma_x, "Known standard deviation of a measured output amplitude, such as '0.02 mm'");
-    add("--sigma-Y", next_.sigma_Y, "Known standard deviation of a measured input amplitude");
-    add_gains(command, next_.gain_uncertainties);
-    add_file_options(command, next_);
-    add_shown_units(command, next_);
-    add_output_options(command, next_);
+    add_quantity(command, "--mass", next_.mass, "Mass, such as '1.042 kg'");
+    add_quantity(command, "--stiffness", next_.stiffness, "Stiffness, such as '1568 N/m'");
+    add_quantity(command, "--frequency", next_.frequency,
+                 "Forcing frequency, such as '6.17 Hz', where the data do not state it");
+    add_errors(command, next_, "Known standard deviation of a measured output amplitude, such as '0.02 mm'");
+    add_input_and_output(command, next_);
   }
 
   /// The options of `fit` and `predict` about their records.
@@ -277,10 +284,12 @@ class Parser {
         .add_option("--free", fit_.free,
                     "Parameters to fit although they are stated, separated by commas: --free mass,sigma2")
         ->type_name("NAMES");
-    const auto add = quantities_of(command);
-    add("--mass", fit_.mass, "Mass, such as '1.042 kg'; fitted if it is not stated, zero for loops alone");
-    add("--stiffness", fit_.stiffness, "Stiffness; fitted if it is not stated, zero for loops alone");
-    add("--damping", fit_.damping, "Viscous damping; fitted if it is not stated, zero for loops alone");
+    add_quantity(command, "--mass", fit_.mass,
+                 "Mass, such as '1.042 kg'; fitted if it is not stated, zero for loops alone");
+    add_quantity(command, "--stiffness", fit_.stiffness,
+                 "Stiffness; fitted if it is not stated, zero for loops alone");
+    add_quantity(command, "--damping", fit_.damping,
+                 "Viscous damping; fitted if it is not stated, zero for loops alone");
     command.add_option("--validate", fit_.validate, "A data file to predict with the fitted rig")
         ->allow_extra_args(false)
         ->type_name("DATA");
@@ -311,10 +320,16 @@ class Parser {
         ->type_name("");
     add_result_files(report_command, report_);
     add_shown_units(report_command, report_);
+  }
+
+  void add_new() {
     CLI::App& new_command = add_command(app_, "new", "Print a commented scenario as a first file", new_);
     new_command.add_option("ANALYSIS", new_.analysis, "Its analysis, such as xy_curve; see dualdamp analyses")
         ->required()
         ->type_name("");
+  }
+
+  void add_compare() {
     CLI::App& compare_command =
         add_command(app_, "compare", "Draw the curves of several results in one chart", compare_);
     compare_command.add_option("DIR", compare_.directories, "Two or more directories with a result.json")

@@ -23,7 +23,7 @@ struct Guard {
 
 /// Fills the derived members of `guard` from `value`.
 void prepare(const ExponentialBasis& basis, Guard& guard);
-/// The same if `slope` is already filled in.
+/// As `prepare`, if `slope` is already filled in too.
 void prepare_with_slope(const ExponentialBasis& basis, Guard& guard);
 
 /// Rounding of a guard's value, relative to the sum of its amplitudes.

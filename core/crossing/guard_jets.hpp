@@ -37,7 +37,7 @@ class GuardJets {
     if (!near_start(s)) basis_.evaluate(s, values);
     return at(s, values);
   }
-  /// The same, written in place: copying a jet that was just written stalls the processor.
+  /// The jet at s, written in place: copying a jet that was just written stalls the processor.
   void take(double s, const ExponentialBasis::Values& values, Jet& j);
   /// The jet at s = 0, with the known zeros.
   [[nodiscard]] Jet at_begin() const;
@@ -49,7 +49,8 @@ class GuardJets {
     for (int i = 0; i < guard_.known_zeros && angle < taylor_angle; ++i) allowance *= angle;
     return allowance;
   }
-  /// The same from the amplitudes at s. It decides what is a grazing. Costs an evaluation of the basis.
+  /// slack() for the sum of amplitudes at s: the rounding of the guard's value there. It decides what is a grazing.
+  /// Costs an evaluation of the basis.
   [[nodiscard]] double rounding(double s) const;
 
   /// Whether s is so near a known zero that the Taylor series is used.

@@ -154,7 +154,7 @@ Jet PanelSearch::polish(double s) {
   return j;
 }
 
-/// The same from a jet, for which root_values_ hold the elements.
+/// Halley's iteration from a jet near the root, for which root_values_ hold the elements.
 void PanelSearch::polish(Jet& j) {
   double s = j.s;
   for (int i = 0; i < 8; ++i) {

@@ -51,7 +51,7 @@ class PanelSearch {
   [[nodiscard]] bool is_too_long() const { return count_.splits > last_; }
   /// First root in (a, b), or a negative number.
   [[nodiscard]] double first_root(const Jet& a, const Jet& b, int depth = 0);
-  /// The same in (0, horizon), if the root lies near the one that the basis expects; else a negative number.
+  /// First root in (0, horizon), if it lies near the one that the basis expects; else a negative number.
   [[nodiscard]] double expected_root(double horizon);
   /// The elements at the root that was returned last.
   void values_at(double root, ExponentialBasis::Values& values) const {

@@ -37,6 +37,9 @@ struct SearchCount {
   long splits = 0;    ///< panels of one guard that had to be divided
   long grazings = 0;  ///< guards that touched zero without crossing
 
+  /// In units of `sim::Engine::work`, which may also count other work, such as steps.
+  [[nodiscard]] long work() const { return searches + panels + splits; }
+
   SearchCount& operator+=(const SearchCount& other) {
     searches += other.searches;
     panels += other.panels;

@@ -44,7 +44,7 @@ class StribeckCurve {
     const double kinetic = now.force_limit_now(kinetic_);
     return kinetic + (now.force_limit_now(static_) - kinetic) * share(speed / velocity_);
   }
-  /// The same to divide by, for kinetic > 0.
+  /// The level as a divisor, for kinetic > 0.
   [[nodiscard]] double divisor(const Instant& now, double speed) const {
     return friction::divisor(level(now, speed), kinetic_);
   }

@@ -43,7 +43,7 @@ class Parts {
   double power_ = 0.0;
 };
 
-/// The same parts for a change. The law inside does not keep the course.
+/// The parts of the memory of a modified law, to be changed. The law inside does not keep the course.
 struct OpenParts {
   Memory& inner;
   ModifierCourse course;

@@ -46,30 +46,25 @@ bool keeps_its_findings(const Estimate& estimate, const Ledger& ledger) {
   return (reads_histories(estimate) && !ledger.tests_histories) || rests_on_departure(estimate, ledger);
 }
 
-/// A range over laws of which none fits, any other estimate where the joint model misses the record, and one that
-/// the motion itself excludes are numbers that do not describe it.
-bool misses(Estimate& estimate, const Ledger& ledger) {
-  if (!estimate.sound) return false;
-  if (!ledger.gross_error.empty())
-    estimate.reason = ledger.gross_error;
-  else if (!ledger.other_geometry.empty())
-    estimate.reason = ledger.other_geometry;
-  else if (const std::string none = no_law_fits(estimate); !none.empty())
-    estimate.reason = none;
-  else if (!ledger.force_excess.empty())
-    estimate.reason = ledger.force_excess;
-  else if (!ledger.missed_motion.empty() && reads_histories(estimate))
-    estimate.reason = ledger.missed_motion;
-  else if (ledger.misfit && !estimate.laws)
-    estimate.reason = misfit_size(*ledger.misfit);
-  else if (const std::string fault = fault_of_joint(ledger); !fault.empty() && !estimate.laws)
-    estimate.reason = fault;
-  else if (const std::string beyond = beyond_motion(estimate, ledger.largest, ledger.coordinate); !beyond.empty())
-    estimate.reason = "its " + beyond;
-  else
-    return false;
+void withdraw(Estimate& estimate, std::string why) {
   estimate.usable = false;
-  return true;
+  estimate.reason = std::move(why);
+}
+
+/// Why the numbers of an estimate do not describe the record; empty if they may. A range over laws of which none
+/// fits does not, nor does any other estimate where the joint model misses the record, nor one that the motion
+/// itself excludes.
+std::string why_it_misses(const Estimate& estimate, const Ledger& ledger) {
+  if (!estimate.sound) return "";
+  if (!ledger.gross_error.empty()) return ledger.gross_error;
+  if (!ledger.other_geometry.empty()) return ledger.other_geometry;
+  if (std::string none = no_law_fits(estimate); !none.empty()) return none;
+  if (!ledger.force_excess.empty()) return ledger.force_excess;
+  if (!ledger.missed_motion.empty() && reads_histories(estimate)) return ledger.missed_motion;
+  if (ledger.misfit && !estimate.laws) return misfit_size(*ledger.misfit);
+  if (std::string fault = fault_of_joint(ledger); !fault.empty() && !estimate.laws) return fault;
+  const std::string beyond = beyond_motion(estimate, ledger.largest, ledger.coordinate);
+  return beyond.empty() ? "" : "its " + beyond;
 }
 
 /// Is it friction over speed or displacement that departs, or what may depart in its place: a drift that follows
@@ -86,7 +81,9 @@ bool stands_for_friction(const LedgerEntry& entry, const Ledger& ledger) {
 }
 
 void judge(Estimate& estimate, const Ledger& ledger) {
-  if (!estimate.outcome.ok() || misses(estimate, ledger) || ledger.data.empty() || !estimate.sound) return;
+  if (!estimate.outcome.ok()) return;
+  if (std::string why = why_it_misses(estimate, ledger); !why.empty()) return withdraw(estimate, std::move(why));
+  if (ledger.data.empty() || !estimate.sound) return;
   std::vector<Assumption> violated;
   for (const LedgerEntry& entry : ledger.entries) {
     // A range over laws is extended to the fit with what explains the departure as well as friction does.
@@ -174,14 +171,13 @@ std::vector<std::string> extend_to_relaxed(Estimate& estimate, const Ledger& led
   return tests;
 }
 
-/// An estimate cannot be used if the joint model excludes it, which has all of the same data and no known
-/// departure. Ranges over laws are wider than the joint model on purpose, and are never excluded.
-bool excluded(Estimate& estimate, const std::optional<Estimate>& joint) {
-  if (!joint || !joint->usable || estimate.laws || !disagree(*joint, estimate)) return false;
-  estimate.usable = false;
-  estimate.reason = "joint_fit, which has all data, excludes it: zeta = " + four_digits(joint->value.zeta) +
-                    ", F0 = " + four_digits(joint->value.F0);
-  return true;
+/// Why an estimate cannot be used beside that of the joint model, which has all of the same data and no known
+/// departure; empty if both agree. Ranges over laws are wider than the joint model on purpose, and are never
+/// excluded.
+std::string why_excluded(const Estimate& estimate, const std::optional<Estimate>& joint) {
+  if (!joint || !joint->usable || estimate.laws || !disagree(*joint, estimate)) return "";
+  return "joint_fit, which has all data, excludes it: zeta = " + four_digits(joint->value.zeta) +
+         ", F0 = " + four_digits(joint->value.F0);
 }
 
 /// Did the method find against the law of friction? A method that claims no interval says so among its findings,
@@ -199,9 +195,7 @@ void share_misfit_of_laws(std::vector<Estimate>& estimates) {
     const std::string none = no_law_fits(ranges);
     if (none.empty()) continue;
     for (Estimate& estimate : estimates) {
-      if (!estimate.usable || estimate.laws) continue;
-      estimate.usable = false;
-      estimate.reason = none;
+      if (estimate.usable && !estimate.laws) withdraw(estimate, none);
     }
   }
 }
@@ -213,9 +207,7 @@ void share_findings(std::vector<Estimate>& estimates) {
   const std::string reason =
       finder->method + " finds a departure from the law that both rest on: " + finder->findings.front();
   for (Estimate& estimate : estimates) {
-    if (!estimate.usable || estimate.laws) continue;
-    estimate.usable = false;
-    estimate.reason = reason;
+    if (estimate.usable && !estimate.laws) withdraw(estimate, reason);
   }
 }
 
@@ -250,7 +242,9 @@ Identification concluded(std::vector<Estimate> estimates, Ledger ledger) {
     judge(estimate, all.ledger);
     const bool borne_out =
         !estimate.usable && !estimate.findings.empty() && rests_on_departure(estimate, all.ledger);
-    beside = excluded(estimate, all.ledger.joint) || borne_out || beside;
+    const std::string why = why_excluded(estimate, all.ledger.joint);
+    if (!why.empty()) withdraw(estimate, why);
+    beside = beside || borne_out || !why.empty();
   }
   if (beside && all.ledger.joint) {
     all.estimates.push_back(*all.ledger.joint);

@@ -8,6 +8,7 @@
 #include "core/diagnostics.hpp"
 #include "core/numbers.hpp"
 #include "identify/experiments/experiment.hpp"
+#include "identify/experiments/velocity_parabola.hpp"
 #include "identify/records/held_path.hpp"
 #include "identify/records/rest_samples.hpp"
 #include "identify/records/swings.hpp"
@@ -187,46 +188,68 @@ class FrictionLoop final : public Experiment {
     return law.has_memory() || law.has_rates() || law.delay() > 0.0 || law.advances();
   }
 
-  /// Differentiates or integrates the signals that were not measured. If one is a derivative, all forces are
-  /// filtered. The acceleration is not counted as a derivative if no mass needs it.
+  /// Completes the signals. If one is a derivative, all forces are filtered. The acceleration is not counted as a
+  /// derivative if no mass needs it.
   void complete(const History& history, bool has_mass) {
+    const bool lacks_speed = history.v.empty();
+    derive_missing(has_mass);
+    law_x_ = x_;
+    law_v_ = v_;
+    std::optional<ZeroPhaseFilter> of_path;
+    if (!derived.empty()) of_path = choose_filters(history, lacks_speed);
+    find_rests(lacks_speed, of_path);
+    if (!filter_) return;
+    find_turns();
+    bridge_signals();
+  }
+
+  /// Differentiates or integrates the signals that were not measured.
+  void derive_missing(bool has_mass) {
     const bool lacks_speed = v_.empty();
     if (lacks_speed) derived.emplace_back("v");
     if (has_mass && a_.empty()) derived.emplace_back("a");
     if (x_.empty()) x_ = sharp_integral(v_, rate_);
     if (lacks_speed) v_ = sharp_difference(x_, rate_);
     if (a_.empty()) a_ = lacks_speed ? sharp_second_difference(x_, rate_) : sharp_difference(v_, rate_);
-    law_x_ = x_;
-    law_v_ = v_;
-    stuck_ = rest_samples(v_, lacks_speed ? noise_of_speed(x_, rate_, filter_) : noise_of_speed(v_), 0);
-    if (!lacks_speed && !(has_mass && history.a.empty())) return;
+  }
+
+  /// Sets the filter of the forces, unless the record allows none, and filters a position that the laws need
+  /// differentiated. Returns the filter of the position.
+  std::optional<ZeroPhaseFilter> choose_filters(const History& history, bool lacks_speed) {
     History whole = history;
     whole.x = x_;
-    const std::vector<double> cutoffs = cutoffs_for(whole, {});
-    if (!(cutoffs.front() > 0.0) || !fault_of_cutoff(whole, cutoffs.front()).empty()) return;
-    filter_.emplace(cutoffs.front(), rate_);
+    const double cutoff = cutoffs_for(whole, {}).front();
+    if (!(cutoff > 0.0) || !fault_of_cutoff(whole, cutoff).empty()) return std::nullopt;
+    filter_.emplace(cutoff, rate_);
     edge_ = filter_->edge();
-    std::optional<ZeroPhaseFilter> of_path = filter_;
-    if (lacks_speed) {
-      of_path = filter_of_path(cutoffs.front());
-      law_x_ = (*of_path)(x_);
-      law_v_ = sharp_difference(law_x_, rate_);
-    }
     // The smear of the filter is as long as the period of its cut-off over pi.
-    smear_ = static_cast<std::size_t>(std::ceil(rate_ / (std::numbers::pi * cutoffs.front())));
+    smear_ = static_cast<std::size_t>(std::ceil(rate_ / (std::numbers::pi * cutoff)));
+    if (!lacks_speed) return filter_;
+    std::optional<ZeroPhaseFilter> of_path = filter_of_path(cutoff);
+    law_x_ = (*of_path)(x_);
+    law_v_ = sharp_difference(law_x_, rate_);
+    return of_path;
+  }
+
+  void find_rests(bool lacks_speed, const std::optional<ZeroPhaseFilter>& of_path) {
     stuck_ = rest_samples(law_v_, lacks_speed ? noise_of_speed(x_, rate_, of_path) : noise_of_speed(v_), smear_);
-    if (lacks_speed) {
-      // Equal readings of the position, which the filter mixes with others.
-      const std::vector<bool> equal = rest_samples(v_, 0.0, smear_);
-      for (std::size_t i = 0; i < stuck_.size(); ++i) stuck_[i] = stuck_[i] || equal[i];
-    }
+    if (!lacks_speed || !filter_) return;
+    // Equal readings of the position, which the filter mixes with others.
+    const std::vector<bool> equal = rest_samples(v_, 0.0, smear_);
+    for (std::size_t i = 0; i < stuck_.size(); ++i) stuck_[i] = stuck_[i] || equal[i];
+  }
+
+  void find_turns() {
     for (std::size_t i = 1; i + 2 < law_v_.size(); ++i) {
       if (stuck_[i] && stuck_[i + 1]) continue;
       if (law_v_[i] != 0.0 && law_v_[i] * law_v_[i + 1] >= 0.0) continue;
       const std::size_t nearest = std::abs(law_v_[i]) <= std::abs(law_v_[i + 1]) ? i : i + 1;
       if (turns_.empty() || turns_.back() != nearest) turns_.push_back(nearest);
     }
-    // As `bridge`, but by the filtered signals: the mean of two derivatives has noise of all frequencies.
+  }
+
+  /// As `bridge`, but by the filtered signals: the mean of two derivatives has noise of all frequencies.
+  void bridge_signals() {
     for (std::vector<double>* signal : {&x_, &v_, &a_}) {
       const std::vector<double> smooth = (*filter_)(*signal);
       for (const std::size_t i : turns_) (*signal)[i] += 0.5 * (smooth[i - 1] + smooth[i + 1]) - smooth[i];
@@ -347,31 +370,6 @@ class FrictionLoop final : public Experiment {
     return least + of_sample * static_cast<long>(law_v_.size());
   }
 
-  /// Half the second derivative of the velocity between samples i - 1 and i, from two samples to each side. None
-  /// where the velocity would cross zero and come back: the samples show no reversal there, nor motion beside a
-  /// rest.
-  [[nodiscard]] double bend(std::size_t i) const {
-    if (i < 2 || i + 1 >= path_v_.size()) return 0.0;
-    const double from = path_v_[i - 1];
-    const double to = path_v_[i];
-    const double bend = 0.25 * rate_ * rate_ * (path_v_[i - 2] - from - to + path_v_[i + 1]);
-    const double rise = std::abs(bend) / (rate_ * rate_);
-    const bool turns = from * to > 0.0    ? 0.25 * rise >= std::min(std::abs(from), std::abs(to))
-                       : from * to == 0.0 ? rise > std::abs(from + to)
-                                          : false;
-    return turns ? 0.0 : bend;
-  }
-
-  /// The velocity between samples i - 1 and i: v + slope s + curve s^2 at the time s after the first.
-  struct Stretch {
-    double v = 0.0, slope = 0.0, curve = 0.0;
-    [[nodiscard]] double path(double s) const { return s * (v + s * (slope / 2.0 + s * curve / 3.0)); }
-  };
-  [[nodiscard]] Stretch stretch(std::size_t i) const {
-    const double curve = bend(i);
-    return {path_v_[i - 1], (path_v_[i] - path_v_[i - 1]) * rate_ - curve / rate_, curve};
-  }
-
   /// Lets the position go on as the velocity says. Measured positions would go against it by their noise, and a
   /// contact would slip backwards without end. The path follows the measured position by a tenth of the difference
   /// in each sample, as far as half of what the velocity says allows.
@@ -380,7 +378,7 @@ class FrictionLoop final : public Experiment {
     constexpr double most = 0.5;
     std::vector<double> x = path_x_;
     for (std::size_t i = 1; i < x.size(); ++i) {
-      const double step = stretch(i).path(1.0 / rate_);
+      const double step = velocity_before(path_v_, rate_, i).path(1.0 / rate_);
       const double allowed = path_v_[i - 1] * path_v_[i] < 0.0 ? 0.0 : most * std::abs(step);
       const double before = x[i - 1] + step;
       x[i] = before + std::clamp(share * (x[i] - before), -allowed, allowed);
@@ -393,7 +391,7 @@ class FrictionLoop final : public Experiment {
     const Instant from = on_path(way, i - 1, offset);
     const Instant to = on_path(way, i, offset);
     const double h = to.t - from.t;
-    const Stretch along = stretch(i);
+    const VelocityParabola along = velocity_before(path_v_, rate_, i);
     const double step = along.path(h);
     // The step of the position is that of the velocity, but for a factor if both agree, or for a constant speed.
     const bool has_factor = way.agrees && from.v * to.v >= 0.0 && step != 0.0;

@@ -6,8 +6,9 @@
 /// path into lists and records ("elements[1].stiffness", "warming.power"). If two parameters have the same name,
 /// "system." or "friction." ("friction[1]." for laws in parallel) is put before it. Each record adds its own
 /// parameters: position and velocity at its first sample, offset, offset_v and offset_a (the readings of x, v and a
-/// at rest), release (the time of the first extreme), travel (the path of the mass that has loaded the contacts
-/// before the first sample). A law's parameter with such a name also gets "friction." before it.
+/// at rest), offset_force (the reading of the force without one), release (the time of the first extreme), travel
+/// (the path of the mass that has loaded the contacts before the first sample). A law's parameter with such a name
+/// also gets "friction." before it.
 ///
 /// Ranges are those of the laws' tables. The last `share` of a list of elements is 1 minus the sum of the others.
 
@@ -34,7 +35,7 @@ struct RigLaw {
 
 /// The parameters of a single record.
 enum class RecordParameter { position, velocity, offset, release, offset_v, offset_a, travel, offset_force };
-inline constexpr std::size_t record_parameter_count = 8;
+inline constexpr auto record_parameter_count = static_cast<std::size_t>(RecordParameter::offset_force) + 1;
 [[nodiscard]] std::string name_of(RecordParameter which);
 [[nodiscard]] std::string unit_of(RecordParameter which);  ///< SI
 /// The parameter with this name; nothing if no record has such a parameter.

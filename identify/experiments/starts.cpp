@@ -7,6 +7,7 @@
 #include <map>
 #include <numbers>
 
+#include "identify/equal_work.hpp"
 #include "identify/records/swings.hpp"
 
 namespace dualdamp::identify {
@@ -148,7 +149,7 @@ void add_energy(const Experiment& experiment, DataScale& scale) {
   constexpr double alike = 1e-4;
   if (!(spread > alike * ones * square) || !(largest > 0.0)) return;
   const double damping = (ones * product - sum * of_pull) / spread;
-  const double friction = 0.25 * std::numbers::pi * (of_pull - damping * sum) / ones;
+  const double friction = coulomb_per_viscous * (of_pull - damping * sum) / ones;
   // A line that noise or a wrong constant has bent leaves at least sizes below which nothing would show.
   constexpr double least = 0.01;
   scale.friction = std::max(friction, least * largest);

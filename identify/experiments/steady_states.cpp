@@ -154,7 +154,7 @@ class SteadyStates final : public Experiment {
     std::size_t phases = 0;
     for (std::size_t i = 0; i < levels_.size(); ++i) {
       const sim::SteadyState state = find(i);
-      *work += state.certificate.searches + state.certificate.panels + state.certificate.splits;
+      *work += state.certificate.work();
       if (!state.outcome.ok()) return false;
       outputs[static_cast<Eigen::Index>(i)] = state.amplitude;
       if (phases == with_phase_.size() || with_phase_[phases] != i) continue;

@@ -173,7 +173,7 @@ class LoadSearch {
     return loaded;
   }
 
-  /// The same with a known travel, if a longer one changes nothing.
+  /// A fit with a known travel, in the direction that `loaded` found, if a longer one changes nothing.
   [[nodiscard]] std::optional<LoadedFit> once_yielded(const LoadedFit& loaded) const {
     const Eigen::VectorXd& q = loaded.found.coordinates;
     const Eigen::Index last = q.size() - 1;

@@ -129,7 +129,7 @@ struct RigToFit {
 /// rms of the residuals over the rms of the signal, all signals together.
 [[nodiscard]] double relative_error(const Fit& fit);
 
-/// The same for each of so many experiments.
+/// rms of the residuals over the rms of the signals, for each experiment; `experiments`: their number.
 [[nodiscard]] std::vector<double> relative_errors(const Fit& fit, std::size_t experiments);
 
 /// The uncertainty of the parameters that do not belong to a single record, in their order.

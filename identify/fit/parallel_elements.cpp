@@ -61,7 +61,8 @@ class BestColumns {
   /// Numbers and coefficients of the columns that were chosen, in ascending order.
   [[nodiscard]] Chosen chosen() const { return chosen(set_); }
 
-  /// The same with one column after the other replaced by two beside it, as far as their coefficients are positive.
+  /// The choices in which one column after the other is replaced by two beside it, as far as their coefficients are
+  /// positive.
   [[nodiscard]] std::vector<Chosen> split() const {
     constexpr Eigen::Index beside = 2;
     std::vector<Chosen> all;

@@ -45,7 +45,7 @@ class FitProblem {
 
   // `this` must outlive the problems returned by roughly(), first_part(), tied(), balanced() and holding().
 
-  /// The same with less accurate motions of fewer samples.
+  /// The problem with less accurate motions of fewer samples.
   [[nodiscard]] FitProblem roughly(const Accuracy& accuracy) const;
   /// With only the first share of each motion, 0 < share <= 1. Nothing if there is no motion.
   [[nodiscard]] std::optional<FitProblem> first_part(double share) const;
@@ -123,7 +123,7 @@ class FitProblem {
   void mend_jumps(const Eigen::VectorXd& below, const Eigen::VectorXd& above, Eigen::VectorXd& slope) const;
   [[nodiscard]] std::optional<sim::Model> model_at(const Eigen::VectorXd& values) const;
   FitProblem(const FitProblem& whole, Experiments parts);
-  /// The same with what `part_of` makes from the experiments; nothing if it makes nothing from any of them.
+  /// The problem with what `part_of` makes from its experiments; nothing if it makes nothing from any of them.
   using PartOf = std::function<std::unique_ptr<Experiment>(const Experiment&)>;
   [[nodiscard]] std::optional<FitProblem> with_parts(const PartOf& part_of) const;
   [[nodiscard]] long work() const;

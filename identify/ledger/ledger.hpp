@@ -5,9 +5,12 @@
 /// One joint model of the record (amplitude_model.hpp, decay_model.hpp, history_model.hpp) is relaxed in one way
 /// after another; all tests share one family level (relaxation_tests.hpp). A departure is charged to the assumption
 /// whose relaxation explains it best, and to those that explain it as well. It violates each of them whose
-/// relaxation changes zeta or F0 by `least_change` or more. A smaller change is reported and violates nothing. So
-/// does a test that still rejects when no further departure is looked for, and no joint estimate is left then.
-/// Beside a departure of friction that test leaves its assumption untested, unless it is of friction too.
+/// relaxation changes zeta or F0 by `least_change` or more. A smaller change is reported and violates nothing.
+///
+/// If a test still rejects after all departures are found, and its relaxation would change zeta or F0 by
+/// `least_change`, its assumption is violated too, and there is no joint estimate. Exception: if friction over
+/// speed or displacement is among the departures, the assumption of such a test becomes untested, unless it is
+/// about friction itself.
 ///
 /// Constants and gains with a stated uncertainty violate nothing as long as errors of at most 2.6 times the
 /// uncertainty (1 %) explain the departure. The departure is reported, and stays relaxed in the joint estimate.

@@ -11,6 +11,7 @@
 #include "identify/ledger/sensor_or_symmetry.hpp"
 #include "identify/statistics/decompositions.hpp"
 #include "identify/statistics/ties.hpp"
+#include "identify/statistics/unit_columns.hpp"
 
 namespace dualdamp::identify {
 
@@ -18,7 +19,8 @@ namespace {
 
 /// Least share of a column's length beside the base columns: below it the relaxation cannot be told from them.
 constexpr double told_apart = 1e-4;
-/// The same of what is left of it beside the base, beside the relaxations taken: below it they are one departure.
+/// Once relaxations are taken: least part of a column's length beside the base that must remain beside the taken
+/// ones too. Below it, the relaxation and those taken count as one departure.
 constexpr double told_from_taken = 5e-3;
 /// Standard errors at which a departure is found in four records of five.
 constexpr double found_at = 2.8;
@@ -54,23 +56,20 @@ Eigen::MatrixXd finite_columns(Eigen::MatrixXd columns) {
 
 /// Lengths of columns beside a base.
 Eigen::VectorXd lengths_beside(const Eigen::MatrixXd& base, const Eigen::MatrixXd& columns) {
-  const Eigen::VectorXd scale = base.colwise().norm().cwiseMax(1e-300);
-  const DependentColumns qr(base * scale.cwiseInverse().asDiagonal());
-  return (columns - base * (scale.cwiseInverse().asDiagonal() * qr.solve_each(columns))).colwise().norm();
+  return (columns - base * UnitColumns(base).solve_each(columns)).colwise().norm();
 }
 
 Projection project(const JointModel& model, const Taken& taken) {
   const Eigen::Index own = model.base.cols();
   const Eigen::MatrixXd base = free_columns(model.base, model.relaxed, taken);
-  const Eigen::VectorXd scale = base.colwise().norm().cwiseMax(1e-300);
-  const DependentColumns qr(base * scale.cwiseInverse().asDiagonal());
+  const UnitColumns unit(base);
   const Eigen::MatrixXd columns = finite_columns(model.relaxed);
-  const Eigen::MatrixXd solved = scale.cwiseInverse().asDiagonal() * qr.solve_each(columns);
+  const Eigen::MatrixXd solved = unit.solve_each(columns);
   const Eigen::MatrixXd beside = columns - product(base, solved);
 
   Projection result;
-  result.residuals = model.residuals - base * (scale.cwiseInverse().asDiagonal() * qr.solve(model.residuals));
-  result.freedom = static_cast<double>(base.rows() - qr.rank()) - model.spent;
+  result.residuals = model.residuals - base * unit.solve(model.residuals);
+  result.freedom = static_cast<double>(base.rows() - unit.rank()) - model.spent;
   // A statistic may depend on one channel, or on all: the mean of both degrees of freedom.
   result.scale_freedom = 0.5 * (result.freedom + std::min(result.freedom, std::max(2.0, model.scale_freedom)));
   if (model.is_stated) result.scale_freedom = std::max(2.0, std::min(model.scale_freedom, model.other_freedom));
@@ -100,7 +99,7 @@ Projection project(const JointModel& model, const Taken& taken) {
   const Eigen::MatrixXd moved =
       relaxed - free_columns(model.shaken.middleCols(1, own) - model.base, relaxed, taken) * solved;
   const Eigen::VectorXd pushed = model.shaken.col(0) - model.residuals;
-  const Eigen::VectorXd left = pushed - base * (scale.cwiseInverse().asDiagonal() * qr.solve(pushed));
+  const Eigen::VectorXd left = pushed - base * unit.solve(pushed);
   for (Eigen::Index j = 0; j < count; ++j)
     result.shared[j] = moved.col(static_cast<Eigen::Index>(result.indices[static_cast<std::size_t>(j)])).dot(left) /
                        result.lengths[j];

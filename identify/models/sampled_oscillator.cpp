@@ -15,7 +15,7 @@ namespace dualdamp::identify {
 
 namespace {
 
-constexpr int nodes = 8;
+constexpr int nodes = SampledOscillator::nodes;
 
 /// The same polynomial in powers of u - by.
 std::array<double, nodes> shifted(std::array<double, nodes> p, double by) {

@@ -32,6 +32,7 @@ namespace dualdamp::identify {
 
 class SampledOscillator {
  public:
+  static constexpr int nodes = 8;  ///< coefficients of a polynomial of y or f
   struct Parameters {
     double m = 1.0;   ///< kg, > 0
     double c = 0.0;   ///< N.s/m
@@ -82,7 +83,6 @@ class SampledOscillator {
            Eigen::VectorXd* v = nullptr, const std::vector<Force>& forces = {});
 
  private:
-  static constexpr int nodes = 8;
   static constexpr int side_by_side = 4;  ///< derivatives that are computed together
   static constexpr int most_terms = 28;
   using Drive = std::array<double, nodes>;

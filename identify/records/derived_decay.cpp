@@ -37,7 +37,8 @@ class DecayReader {
     result.last = x_.size();
     constexpr std::size_t fewest = 16;
     result.fault = shape_fault(history_);
-    if (result.fault.empty() && x_.size() < fewest) result.fault = "x has fewer than 16 samples";
+    if (result.fault.empty() && x_.size() < fewest)
+      result.fault = "x has fewer than " + std::to_string(fewest) + " samples";
     if (!result.fault.empty()) return result;
     std::vector<std::size_t> turns = read_turns(noise_level(x_, 2));
     // If a period has few samples, differences of second order take the motion for noise.

@@ -28,8 +28,8 @@ double product_at(const Eigen::VectorXd& r, const Ranges& blocks, Eigen::Index l
   return sum;
 }
 
-/// The same at lags 0 ... most, by the Fourier transform. Residuals may be correlated over thousands of samples,
-/// and sums lag by lag would take the square of the number of samples.
+/// Sums of products of residuals at lags 0 ... most, by the Fourier transform. Residuals may be correlated over
+/// thousands of samples, and sums lag by lag would take the square of the number of samples.
 std::vector<double> products_up_to(const Eigen::VectorXd& r, const Ranges& blocks, Eigen::Index most) {
   std::vector<double> products(static_cast<std::size_t>(most) + 1, 0.0);
   Eigen::FFT<double> transform;

@@ -17,11 +17,11 @@ struct LinearFit {
   Eigen::VectorXd deviations;  ///< of the coefficients, for values with independent errors of deviation 1
 };
 
-/// The same with the standard deviations of the coefficients.
+/// Linear least squares with the standard deviations of the coefficients.
 [[nodiscard]] LinearFit linear_fit(const Eigen::MatrixXd& columns, const Eigen::VectorXd& values);
 
-/// The same for columns that may be nearly dependent, by column pivoting: dependent columns get 0. There
-/// may be no column.
+/// The x that minimises |columns x - values| for columns that may be nearly dependent, by column pivoting:
+/// dependent columns get 0. There may be no column.
 [[nodiscard]] Eigen::VectorXd pivoted_least_squares(const Eigen::MatrixXd& columns, const Eigen::VectorXd& values);
 
 /// What columns, which may be nearly dependent, leave of values: values - columns x with the x of least squares.
@@ -38,7 +38,7 @@ class DependentColumns {
   /// The x that minimises |columns x - values|; dependent columns get 0.
   [[nodiscard]] Eigen::VectorXd solve(const Eigen::VectorXd& values) const;
 
-  /// The same for each column of `values`.
+  /// Such an x for each column of `values`.
   [[nodiscard]] Eigen::MatrixXd solve_each(const Eigen::MatrixXd& values) const;
 
  private:
@@ -68,7 +68,7 @@ class DefiniteMatrix {
   /// The x of matrix x = right.
   [[nodiscard]] Eigen::VectorXd solve(const Eigen::VectorXd& right) const;
 
-  /// The same for each column of `right`.
+  /// The x of matrix x = right for each column of `right`.
   [[nodiscard]] Eigen::MatrixXd solve_each(const Eigen::MatrixXd& right) const;
 
   [[nodiscard]] Eigen::MatrixXd inverse() const;

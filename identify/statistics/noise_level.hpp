@@ -30,7 +30,7 @@ class RobustNoiseLevel {
   std::vector<double> differences_;  ///< magnitudes, each in units of the noise
 };
 
-/// The same of one signal. Cost: linear.
+/// `RobustNoiseLevel` of one signal. Cost: linear.
 [[nodiscard]] double robust_noise_level(std::span<const double> signal);
 
 }  // namespace dualdamp::identify

@@ -39,7 +39,7 @@ namespace dualdamp::identify {
 void set_uncertainty(Estimate& estimate, const Eigen::Matrix2d& covariance, double half_width,
                      const KnownConstants& constants);
 
-/// The same with a half width for each, in standard errors: of zeta and c, and of x_f and F0.
+/// As above, with two half widths in standard errors: that of zeta and c, and that of x_f and F0.
 void set_uncertainty(Estimate& estimate, const Eigen::Matrix2d& covariance, const Eigen::Vector2d& half_widths,
                      const KnownConstants& constants);
 

@@ -165,7 +165,7 @@ double difference(const Bracket& bracket, const ReportedParameter& member) {
   return change / bracket.step;
 }
 
-/// The same for a further parameter of this name; nothing if one of the estimates lacks it.
+/// Half the change of a further parameter of this name; nothing if one of the estimates lacks it.
 std::optional<double> difference(const Bracket& bracket, const std::string& name) {
   const auto find = [&name](const Estimate& estimate) {
     return std::ranges::find(estimate.others, name, &FurtherParameter::name);

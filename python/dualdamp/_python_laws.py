@@ -162,7 +162,7 @@ def friction_law(kind):
     table = _LawTable(kind)
     core.add_law(c.addressof(table.table), table.origin, table.source)
     _keep(table)
-    _tables.tables.cache_clear()
+    _tables.forget()
     vars(_tables.laws).pop(kind.__name__, None)
     return kind
 
@@ -197,7 +197,7 @@ def compile_law(source, *, compiler=None):
         shutil.rmtree(directory, ignore_errors=True)
         raise
     # Otherwise the directory stays: the library is loaded, and provenance names its file.
-    _tables.tables.cache_clear()
+    _tables.forget()
 
 
 def include_directory():

@@ -15,6 +15,8 @@ from ._library import core
 from ._results import Result
 from ._scenario import flow, plain, refuse_surrogates, text_of
 
+_CHECK_FAILED = 1  # exit status of the program after a check that was asked for
+
 
 def run(scenario, changes=None, *, out=None, threads=0, resume=False, overwrite=False, verify=False, progress=None):
     """Run a scenario.
@@ -115,7 +117,7 @@ def load_plugin(path):
         The file is no such library.
     """
     core.load_plugin(fsencode(path_text(path)))
-    _tables.tables.cache_clear()
+    _tables.forget()
 
 
 def source_of(scenario, changes=None, data=None):
@@ -155,7 +157,7 @@ def run_source(source, *, out=None, threads=0, resume=False, overwrite=False, pr
             warnings.warn(message, stacklevel=3)
     if done.numbers == "null":
         raise NumericalFailure(done.failure, result) from (watch and watch.error)
-    if result.status == 1:
+    if result.status == _CHECK_FAILED:
         raise CheckFailed(_failed_checks(result), result)
     if result.status != 0:
         warnings.warn(IncompleteResult(done.failure or "some cases failed; their rows have a reason"), stacklevel=3)

@@ -19,6 +19,11 @@ def tables():
     return json.loads(core.tables())
 
 
+def forget():
+    """To be called after a law was loaded: the tables are then read again."""
+    tables.cache_clear()
+
+
 def entry(kind, name):
     """The entry of that name in a list of the tables.
 

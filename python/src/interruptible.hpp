@@ -32,8 +32,8 @@ class InterruptWatch {
 
   /// Throws the exception of Python that belongs to the cancellation.
   [[noreturn]] void raise() const;
-  /// The same, if Ctrl-C was pressed. A function of the user may have ended the computation with an error of its
-  /// own.
+  /// Throws that exception if Ctrl-C was pressed. A function of the user may have ended the computation with an
+  /// error of its own.
   void raise_if_pressed() const;
 
  private:

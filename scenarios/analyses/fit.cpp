@@ -137,7 +137,7 @@ void check_fit(CheckedFile& file) {
 
 std::unique_ptr<const Question> ask_fit(CheckedValues&& values) {
   std::vector<SetupFault> faults;
-  FitQuestion::Setup setup = setup_of(values.analysis, values.system, values.excitation, values.model,
+  FitQuestion::Setup setup = setup_of(values.analysis, values.system, values.excitation, model_for_fit(values),
                                       values.initial_is_stated, values.files, faults);
   std::vector<DataItem> all;
   for (const std::string key : {"data", "validate"}) {

@@ -191,7 +191,7 @@ std::string undriven_text(const identify::Rig& rig, const identify::Fit& held, c
          ", or state its drive (beside other records 'drive: none')";
 }
 
-/// The same for a record that moves on where the rig without a drive comes to rest.
+/// Why a record is not judged that moves on where the rig without a drive comes to rest; empty if there is none.
 std::string driven_text(const identify::Fit& held, const identify::Experiments& data,
                         const core::SettingWords& words) {
   const std::optional<std::size_t> found = identify::record_with_unknown_drive(held, data);
@@ -217,7 +217,7 @@ identify::Experiments undriven_data(std::vector<DataItem> items, const CheckedVa
 
 std::unique_ptr<const Question> ask_predict(CheckedValues&& values) {
   std::vector<SetupFault> faults;
-  identify::Rig rig = rig_of(values.system, values.model);
+  identify::Rig rig = rig_of(values.system, model_for_fit(values));
   std::vector<identify::FitParameter> parameters = fitted_parameters(rig, values.analysis, faults);
   const std::vector<identify::FitParameter> zeros = fitted_zeros(values.analysis, faults);
   std::vector<DataItem> items = items_of(values.analysis, values.files, "data");

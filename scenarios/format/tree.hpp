@@ -79,7 +79,7 @@ class Document {
   /// Whether an option or a sweep names exactly this path, and not a section that contains it.
   [[nodiscard]] bool is_chosen(std::string_view path) const;
 
-  /// The same with a value that is already a node; `place` is that of PATH, for messages.
+  /// Sets the value at PATH to a node; `place` is that of PATH, for messages.
   void put(std::string_view path, Place place, Node value);
   /// Removes a key of the root, or of one of its sections (`analysis.methods`), and returns its value; nothing when
   /// there is no such key.

@@ -177,7 +177,7 @@ Table estimate_table(const std::vector<identify::Estimate>& estimates) {
 
 constexpr int few = 5;  ///< digits in a terminal
 
-/// The same for a terminal: a number with its interval is one cell.
+/// The table of estimates for a terminal: a number with its interval is one cell.
 Table readable_estimates(const std::vector<identify::Estimate>& estimates,
                          const identify::KnownConstants& constants) {
   using identify::Estimate;

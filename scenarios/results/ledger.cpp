@@ -70,7 +70,7 @@ Table assumption_table(const std::vector<LedgerEntry>& entries) {
           true};
 }
 
-/// The same for a terminal.
+/// The table of assumptions for a terminal.
 Table readable_assumptions(const std::vector<LedgerEntry>& entries) {
   const auto text = [&](const std::string& name, auto get) { return text_column(name, entries, get); };
   Table table{

@@ -80,7 +80,8 @@ struct NonStickingState {
 
 /// The steady state that never sticks; nothing if there is none. Y > 0, x_f >= 0 [m].
 [[nodiscard]] std::optional<NonStickingState> non_sticking_state(const DenHartog& functions, double Y, double x_f);
-/// The same with a known `limit` = `non_sticking_limit(functions)`, which is most of the cost: for many inputs.
+/// That steady state with a known `limit` = `non_sticking_limit(functions)`, which is most of the cost: for many
+/// inputs.
 [[nodiscard]] std::optional<NonStickingState> non_sticking_state(const DenHartog& functions, double limit, double Y,
                                                                  double x_f);
 

@@ -109,7 +109,7 @@ struct Interval {
       : side(direction), middle(-direction * o.slip), driven(o.gain), angle(start_angle), forced(o.gain * turned) {
     start(o, x, v);
   }
-  /// The same if the drive's angle is known only by its phasor.
+  /// Starts at position x and velocity v, where the drive's angle is known only by its phasor `turned`.
   Interval(const Oscillation<P>& o, Vector x, Vector v, Vector direction, const Complex& turned)
       : side(direction),
         middle(-direction * o.slip),

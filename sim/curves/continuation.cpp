@@ -44,7 +44,7 @@ bool is_held(const SteadyState& state) { return state.never_moves() && !state.st
 BranchPoint Continuation::describe(const Node& node) {
   const Model model = at(node.parameter);
   CountedMap map(model, ratio_, effort_);
-  BranchPoint point{node.parameter, outline_of_orbit(model, map, node.period.begin, ratio_)};
+  BranchPoint point{node.parameter, outline_of_orbit(model, map.unlimited(), node.period.begin, ratio_)};
   point.state.multipliers = node.period.multipliers();
   // The derivative costs more than the motion, and a motion beside the orbit may cost more than the orbit.
   constexpr long times = 40;

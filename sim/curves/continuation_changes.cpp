@@ -128,7 +128,7 @@ bool Continuation::are_apart(const BranchPoint& a, const BranchPoint& b) {
   constexpr double steepest = 100.0;  // distance within the period over that at its start
   const auto node_of = [&](const BranchPoint& point, Course* course) {
     CountedMap map(at(point.parameter), ratio_, effort_);
-    return Node{point.parameter, map.PeriodMap::from(point.state.start, Monodromy::without, course), {}, {}, {}};
+    return Node{point.parameter, map.unlimited().from(point.state.start, Monodromy::without, course), {}, {}, {}};
   };
   Course course_of_a(a.state.period);
   Course course_of_b(b.state.period);

@@ -125,7 +125,9 @@ Model Continuation::at(double parameter) const {
   return model;
 }
 
-double Continuation::omega(double parameter) const { return at(parameter).excitation.frequency; }
+double Continuation::omega(double parameter) const {
+  return quantity_ == &Excitation::frequency ? parameter : model_.excitation.frequency;
+}
 
 /// The period from `start`; none if the motion was not followed over the whole of it.
 std::optional<Node> Continuation::node_at(double parameter, const State& start) {
@@ -197,7 +199,7 @@ std::optional<VectorXd> Continuation::tangent(const Node& node, const VectorXd& 
   return direction;
 }
 
-/// The same; `guess`: a direction near the tangent.
+/// Unit tangent in scaled coordinates, in the direction of `along`; `guess`: a direction near the tangent.
 std::optional<VectorXd> Continuation::tangent_near(const Node& node, const VectorXd& along, const VectorXd& guess) {
   const std::optional<VectorXd> slope = by_parameter(node, guess);
   const Index n = node.period.monodromy.cols();
@@ -286,8 +288,8 @@ std::optional<Node> Continuation::correct(const Node& from, double step) {
   return std::nullopt;
 }
 
-/// The same if the predicted state is in another mode than the orbit: a few periods of the motion find the mode.
-/// They must be few, because the motion leaves an orbit that does not attract.
+/// The next orbit if the predicted state is in another mode than that orbit: a few periods of the motion find the
+/// mode. They must be few, because the motion leaves an orbit that does not attract.
 std::optional<Node> Continuation::cross_modes(const Node& from, double step) {
   const VectorXd change = predicted(from, step);
   const Index n = change.size() - 1;

@@ -1,6 +1,7 @@
 #pragma once
-/// Steps of a continuation along its branch (`continuation.hpp`): from one orbit to the next, also into another
-/// mode.
+/// The continuation of a branch (`continuation.hpp`) as a class. Its steps from one orbit to the next, also into
+/// another mode, are in continuation_steps.cpp; the branch and its ends in continuation.cpp; changes of stability
+/// and folds in continuation_changes.cpp.
 
 #include <Eigen/Core>
 #include <limits>
@@ -31,32 +32,40 @@ struct Effort {
   long of_period = std::numeric_limits<long>::max();  ///< an attempt that exceeds it has run away from every orbit
 };
 
-/// A period map that adds its cost to that of a branch.
-class CountedMap : public PeriodMap {
+/// A period map that adds its cost to that of a branch and limits the work of each of its periods.
+class CountedMap {
  public:
-  CountedMap(const Model& model, int periods, Effort& total) : PeriodMap(model, periods), total_(total) {}
+  CountedMap(const Model& model, int periods, Effort& total) : map_(model, periods), total_(total) {}
   ~CountedMap() {
-    total_.count += engine().count();
-    total_.work += engine().work();
+    total_.count += map_.engine().count();
+    total_.work += map_.engine().work();
   }
   CountedMap(const CountedMap&) = delete;
   CountedMap& operator=(const CountedMap&) = delete;
 
   [[nodiscard]] ForcingPeriod from(const State& state, Monodromy monodromy, PeriodObserver* observer = nullptr) {
     renew_limit();
-    return PeriodMap::from(state, monodromy, observer);
+    return map_.from(state, monodromy, observer);
   }
   [[nodiscard]] ForcingPeriod next(Monodromy monodromy) {
     renew_limit();
-    return PeriodMap::next(monodromy);
+    return map_.next(monodromy);
   }
+  /// The map itself, without a limit: for an orbit that was found.
+  [[nodiscard]] PeriodMap& unlimited() {
+    map_.limit(std::numeric_limits<long>::max());
+    return map_;
+  }
+  [[nodiscard]] const core::Outcome& outcome() const { return map_.outcome(); }
+  [[nodiscard]] Engine& engine() { return map_.engine(); }
 
  private:
   void renew_limit() {
     const long most = std::numeric_limits<long>::max();
-    limit(total_.of_period < most ? engine().work() + total_.of_period : most);
+    map_.limit(total_.of_period < most ? map_.engine().work() + total_.of_period : most);
   }
 
+  PeriodMap map_;
   Effort& total_;
 };
 

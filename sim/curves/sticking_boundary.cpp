@@ -77,7 +77,8 @@ std::optional<double> den_hartogs(const Model& model, const ForceLimits& limits)
   return is_force ? force : force / o.stiffness;
 }
 
-/// Steady states of one model by amplitude, up to a limit of work.
+/// Steady states of one model by amplitude, up to a limit of their total work. Only the searches for events count,
+/// not the steps of the smooth engine.
 class States {
  public:
   States(Model model, long most_work) : model_(std::move(model)), most_work_(most_work) {}
@@ -93,8 +94,7 @@ class States {
                                               .most_work = most_work_ - work_,
                                               .detail = OrbitDetail::extremes,
                                               .others = false});
-    const core::SearchCount& count = state.certificate;
-    work_ += count.searches + count.panels + count.splits;
+    work_ += state.certificate.work();
     return state;
   }
 

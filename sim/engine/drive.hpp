@@ -30,7 +30,7 @@ class Drive {
 
   /// Sets the drive to time t [s] after the start of a period; a drive with pieces is set to its start.
   void reset(double t);
-  /// The same at the end of a period; a drive with pieces stays at the end of the present piece.
+  /// Sets the drive to time t [s], the end of a period; a drive with pieces stays at the end of the present piece.
   void end_period(double t);
   /// The present piece, counted from 0.
   [[nodiscard]] long piece() const { return piece_; }

@@ -62,7 +62,7 @@ class Engine {
   /// Work of all motions so far, in units of 0.3 to 2 us; the number is the same on every machine. It counts
   /// searches for events, their panels and splits, under the exact engine in proportion to the terms of their
   /// guards where these are many; under the smooth engine also steps, accepted or not.
-  [[nodiscard]] virtual long work() const { return count_.searches + count_.panels + count_.splits; }
+  [[nodiscard]] virtual long work() const { return count_.work(); }
   /// Words for a vibration that swings very often in a forcing period, hardly damped, so that following it costs
   /// most of the work; empty: there is none.
   [[nodiscard]] virtual std::string fast_vibration() const { return {}; }

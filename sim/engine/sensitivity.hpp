@@ -53,7 +53,7 @@ class Sensitivity {
   /// `duration`: of the interval [s]. Call it before the memories are advanced.
   void perturb_guard(Laws laws, const Memories& memories, const friction::Instant& begin,
                      friction::Direction direction, std::size_t law, std::size_t guard, double duration);
-  /// The same for the guard of the pull: `factor` times the perturbed force.
+  /// Computes the change of the guard of the pull: `factor` times the perturbed force.
   void perturb_limit(double factor, const std::vector<double>& decays, double duration);
 
   /// Carries the states of law `law` over the interval, for a law that advances. `before`: its memory at the start.

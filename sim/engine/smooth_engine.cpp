@@ -14,9 +14,6 @@ using friction::Direction;
 
 namespace {
 
-/// Part of force/stiffness that counts as the size of a motion that has none yet.
-constexpr double small_motion = 1e-3;
-
 /// Steps to a crossing, and the last correction of their length, as a part of it, where Newton's method converges.
 constexpr int most_corrections = 5;
 constexpr double settled = 1e-6;
@@ -24,6 +21,12 @@ constexpr double settled = 1e-6;
 constexpr const char* ran_away = "the mass is far beyond the place from which a softening spring pushes outward";
 
 }  // namespace
+
+bool is_below_steps(const Model& model, double length, double accuracy) {
+  const double amplitude = std::abs(model.excitation.amplitude);
+  const double drive = model.excitation.moves_base() ? amplitude : amplitude / model.oscillator.stiffness;
+  return length < small_motion * accuracy * drive;
+}
 
 /// One step as an interval: the dense output of the stepper.
 class SmoothEngine::StepInterval final : public Interval {
@@ -186,7 +189,8 @@ void SmoothEngine::stop_at_short_steps() {
 }
 
 bool SmoothEngine::advance(double left) {
-  // Of a creep explicit steps know neither the sign of the speed nor, at a speed of zero, that it is one.
+  // Explicit steps cannot resolve the speed of a creep: they get its sign wrong, and at v = 0 they do not recognise
+  // the creep.
   if (!steps_.are_implicit() && search_.guards().would_creep(steps_.begin(), local_time_) && steps_.make_implicit())
     steps_.propose(0.0);
   const Steps::Result result = steps_.advance(local_time_, time(), left);
@@ -222,8 +226,8 @@ bool SmoothEngine::land(const Hit& hit) {
     const double correction = -value / search_.guards().rate(hit.guard, steps_.end(), local_time_ + h, h);
     const bool is_within_reach = std::abs(correction) < 0.1 * h;
     if (std::abs(correction) < 1e-16 * whole || (i == 0 && !is_within_reach)) return true;
-    // Of a state that has died out, explicit steps at the limit of stability leave only their own swinging: its
-    // zero recedes from each correction, past the crossings of other guards.
+    // Once a law's state has decayed, explicit steps at their limit of stability only oscillate about it. The zero
+    // of a guard on such a state moves away at each correction, past the crossings of other guards.
     if (i == most_corrections - 1 || !is_within_reach) return std::abs(correction) < settled * h;
     h += correction;
   }
@@ -380,7 +384,7 @@ Engine::Balance SmoothEngine::balance() {
     }
     return direction_after_slip(pull_then, limit_then, tolerance, [&] {
       if (can_stick_) return Direction::none;
-      // Without a law that holds it a mass that nothing moves slips, at no speed.
+      // No law can hold the mass, so it counts as slipping, at v = 0, until something moves it.
       return pull_then < 0.0 ? Direction::backward : Direction::forward;
     });
   };

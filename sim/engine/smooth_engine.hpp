@@ -26,6 +26,13 @@
 
 namespace dualdamp::sim {
 
+/// Part of force/stiffness that counts as the size of a motion that has none yet.
+inline constexpr double small_motion = 1e-3;
+
+/// Whether a motion of this length [m] is shorter than the error of one step: steps of this accuracy
+/// (`Engine::accuracy`) do not resolve it beside the displacement that the drive can cause.
+[[nodiscard]] bool is_below_steps(const Model& model, double length, double accuracy);
+
 class SmoothEngine final : public Engine {
  public:
   explicit SmoothEngine(const Model& model);

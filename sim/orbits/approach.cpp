@@ -195,6 +195,10 @@ bool Approach::needs_divergence() const {
   return passed_ >= patience_.periods || is_followed_enough();
 }
 
+/// The number of periods after which a costly examination is due again, at least `least` from now. Waits grow with
+/// the motion, so that even a long one is examined only some tens of times.
+long Approach::next_after(long least) const { return passed_ + least + passed_ / 8; }
+
 /// The orbit, if the motion has come back within rounding. After one forcing period it need not attract.
 std::optional<Orbit> Approach::closed(const State& state) {
   int periods = recurrence_.shortest((has_past_ ? 1.0 : 10.0) * options_.tolerance);
@@ -210,7 +214,7 @@ std::optional<Orbit> Approach::closed(const State& state) {
   if (periods > 1 && !has_past_ && !(orbit.period.free_radius() < 1.0 - neutral_margin)) {
     // A motion that winds towards its orbit comes back like this in every period: so it is not examined again at
     // once.
-    next_closing_ = passed_ + 1 + passed_ / 8;
+    next_closing_ = next_after(1);
     return std::nullopt;
   }
   return orbit;
@@ -223,7 +227,7 @@ std::optional<Orbit> Approach::closed(const State& state) {
 bool Approach::is_closed_within_rounding(const State& state) {
   const double closure = recurrence_.closure(1);
   if (has_past_ || !(closure <= near_rounding) || passed_ < next_rounding_) return false;
-  next_rounding_ = passed_ + 1 + passed_ / 8;
+  next_rounding_ = next_after(1);
   constexpr double errors = 8.0;  // of one event each
   constexpr double eps = std::numeric_limits<double>::epsilon();
   Rounding rounding;
@@ -251,7 +255,7 @@ bool Approach::holds_ahead(const Candidate& candidate) {
   const bool is_cheap = map_.engine().accuracy() == 0.0;  // a period of the exact engine
   if (passed_ < next_look_ahead_ || (is_cheap && candidate.attraction.arrives_soon())) return false;
   if (candidate.attraction.holds_ahead(solver_.patient_map_over(candidate.orbit.period_ratio))) return true;
-  next_look_ahead_ = passed_ + 8 + passed_ / 8;
+  next_look_ahead_ = next_after(8);
   return false;
 }
 

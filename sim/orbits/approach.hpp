@@ -55,6 +55,7 @@ class Approach {
   [[nodiscard]] bool is_followed_enough() const;
   [[nodiscard]] bool creeps() const;
   [[nodiscard]] bool needs_divergence() const;
+  [[nodiscard]] long next_after(long least) const;
   [[nodiscard]] long longer_period();
   [[nodiscard]] core::Outcome failure();
 

@@ -53,11 +53,12 @@ NewtonResult close_orbit(PeriodMap& map, const NewtonOptions& options, ForcingPe
         return map.outcome().ok() && trial.closure(options.omega) < 0.5 * closure;
       };
       ForcingPeriod trial = map.from(displaced(period.begin, step), Monodromy::with);
-      // After a stick the states that motions reach lie on a curve. A start beside it closes badly, although the
-      // period itself leads back to them; then the next one tells, unless the mass has come to rest.
-      const bool is_first = !map.outcome().ok() || closes_better(trial);
-      if (!is_first) trial = map.next(Monodromy::with);
-      if (closes_better(trial) && (is_first || trial.moves)) {
+      // After a stick, all reachable states lie on a curve. Newton's step may leave that curve. The first period
+      // from there then closes badly only because it leads back to the curve, so the second period is judged
+      // instead, if the mass still moves in it.
+      const bool first_decides = !map.outcome().ok() || closes_better(trial);
+      if (!first_decides) trial = map.next(Monodromy::with);
+      if (closes_better(trial) && (first_decides || trial.moves)) {
         period = std::move(trial);
         continue;
       }

@@ -34,7 +34,8 @@ struct Closure {
 
 /// Largest error of an orbit that closes within `closure`, relative to the motion: `closure` times the norm of
 /// (I - M)^-1. An orbit that attracts slowly closes nearly as well at some distance from it. At most 1e-2, because
-/// a monodromy matrix says nothing of states far away.
+/// a monodromy matrix says nothing of states far away. 0 if the matrix cannot tell the error, as where the period
+/// ends in another mode: such an orbit is allowed no error beyond its closure.
 [[nodiscard]] double error_of_orbit(const ForcingPeriod& period, double omega, double closure);
 
 /// Changes `period`, which needs its monodromy matrix, to an orbit. A period of transient replaces a step that does

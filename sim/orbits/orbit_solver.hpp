@@ -49,7 +49,7 @@ class OrbitSolver {
   [[nodiscard]] bool coincide(const Orbit& a, const Orbit& b);
   /// A map over this number of forcing periods; valid until the next call of a member function.
   [[nodiscard]] PeriodMap& map_over(int periods);
-  /// The same without a limit of its work, for a known orbit.
+  /// Such a map without a limit of its work, for a known orbit.
   [[nodiscard]] PeriodMap& patient_map_over(int periods);
 
   [[nodiscard]] int newton_steps() const { return newton_steps_; }

@@ -43,7 +43,7 @@ struct ForcingPeriod {
   /// The largest modulus of a Floquet multiplier. Infinite if there is none or the monodromy matrix is not finite:
   /// an unknown orbit must not count as attracting.
   [[nodiscard]] double radius() const;
-  /// The same without coordinates that a period never changes, such as sliders that never slip. The Floquet
+  /// radius() without coordinates that a period never changes, such as sliders that never slip. The Floquet
   /// multiplier of such a coordinate is 1.
   [[nodiscard]] double free_radius() const;
   /// All coordinates except those that a period never changes.

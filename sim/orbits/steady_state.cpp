@@ -12,6 +12,7 @@
 #include "sim/batch/batch.hpp"
 #include "sim/engine/drive.hpp"
 #include "sim/engine/engine.hpp"
+#include "sim/engine/smooth_engine.hpp"
 #include "sim/motion/observers.hpp"
 #include "sim/neutral_margin.hpp"
 #include "sim/orbits/approach.hpp"
@@ -195,8 +196,7 @@ void OrbitFinder::describe(SteadyState& result) {
     PeriodMap map(model_, result.period_ratio);
     account_for_orbit(model_, map, parts, result);
     searched_ += map.engine().count();
-    if (result.period_ratio > 1)
-      result.warnings.emplace_back("subharmonic: the motion repeats itself after several forcing periods only");
+    result.warnings.emplace_back("subharmonic: the motion repeats itself after several forcing periods only");
   }
   if (options_.others) add_mirror_images(result);
   // If the mass never moves, other rest positions are not listed.
@@ -213,15 +213,11 @@ SteadyState OrbitFinder::outlined(const Orbit& orbit) {
   return state;
 }
 
-/// Whether the mass moves by less than the error of one step, a part of the displacement that the drive can cause,
-/// although nothing holds it.
-bool is_below_steps(const Model& model, const ForcingPeriod& period, double accuracy) {
-  constexpr double small_motion = 1e-3;  // what the engine takes for the size of a motion that has none yet
-  const double amplitude = std::abs(model.excitation.amplitude);
-  const double drive = model.excitation.moves_base() ? amplitude : amplitude / model.oscillator.stiffness;
+/// Whether the mass moves by less than steps of this accuracy resolve, although nothing holds it.
+bool creeps_below_steps(const Model& model, const ForcingPeriod& period, double accuracy) {
   const auto holds = [](const friction::Law& law) { return law.holds_mass(); };
   return period.moves && std::ranges::none_of(model.friction, holds) &&
-         period.peak - period.trough < small_motion * accuracy * drive;
+         is_below_steps(model, period.peak - period.trough, accuracy);
 }
 
 OtherState other_state(const SteadyState& state) { return {state.peak, state.trough, state.period_ratio}; }
@@ -325,8 +321,9 @@ std::optional<double> OrbitFinder::error_of_steps(const Orbit& orbit) {
 
 void OrbitFinder::warn_of_steps(const Orbit& orbit, SteadyState& result) {
   const bool is_exact = map_.engine().accuracy() == 0.0;
-  if (is_exact || !orbit.period.moves || !(options_.detail != OrbitDetail::extremes || orbit.period_ratio > 1))
-    return;
+  // One of many points of a curve: a second period for each would double its cost.
+  const bool is_outline = options_.detail == OrbitDetail::extremes && orbit.period_ratio == 1;
+  if (is_exact || !orbit.period.moves || is_outline) return;
   const std::optional<double> error = error_of_steps(orbit);
   if (error && !(*error > least_warned)) return;
   if (!error)
@@ -364,7 +361,7 @@ void OrbitFinder::find(SteadyState& result) {
     searched_ += solver.count();
   }
   if (!orbit) return;
-  if (is_below_steps(model_, orbit->period, map_.engine().accuracy())) {
+  if (creeps_below_steps(model_, orbit->period, map_.engine().accuracy())) {
     result.outcome = {core::OutcomeKind::no_steady_state,
                       "no steady state found: the mass moves by less than steps resolve"};
     return;

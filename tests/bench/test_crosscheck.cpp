@@ -12,11 +12,11 @@
 #include "bench/crosscheck/campaign.hpp"
 #include "bench/crosscheck/case.hpp"
 #include "bench/crosscheck/differences.hpp"
-#include "bench/crosscheck/motions.hpp"
 #include "bench/crosscheck/random_scenario.hpp"
 #include "bench/crosscheck/variants.hpp"
 #include "bench/crosscheck/walk.hpp"
 #include "scenarios/scenario.hpp"
+#include "sim/engine/smooth_engine.hpp"
 
 using namespace dualdamp;
 using crosscheck::Verdict;
@@ -312,8 +312,8 @@ TEST_CASE("crosscheck: a creep that steps do not resolve is named, and not compa
   sim::Model model;
   model.oscillator = {.mass = 1.0, .stiffness = 100.0};
   model.excitation = {.type = sim::ExcitationType::force_harmonic, .amplitude = 1.0, .frequency = 1.0};
-  CHECK(crosscheck::is_below_steps(model, 0.9e-16, 1e-11));
-  CHECK_FALSE(crosscheck::is_below_steps(model, 1.1e-16, 1e-11));
+  CHECK(sim::is_below_steps(model, 0.9e-16, 1e-11));
+  CHECK_FALSE(sim::is_below_steps(model, 1.1e-16, 1e-11));
 }
 
 TEST_CASE("crosscheck: a turn of a ringing that positions do not resolve is named, one that they resolve is not",

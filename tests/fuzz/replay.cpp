@@ -46,7 +46,7 @@ extern "C" void keep_input(int number) {
 
 std::set<std::string> escaped;  // NOLINT(*-avoid-non-const-global-variables)
 
-/// The same fault names other numbers and lines.
+/// A message without its digits: one fault may name other numbers and lines each time.
 std::string without_digits(std::string text) {
   std::erase_if(text, [](char c) { return c >= '0' && c <= '9'; });
   return text.substr(0, 120);

@@ -29,7 +29,7 @@ def no_law_stays():
     for name in set(dd.laws) - before:
         _tables.core.remove_law(name)
         vars(dd.laws).pop(name, None)
-    _tables.tables.cache_clear()
+    _tables.forget()
 
 
 @pytest.fixture

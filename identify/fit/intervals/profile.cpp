@@ -17,13 +17,14 @@ namespace {
 /// Beyond this multiple of the limit, the growth may come from steps that led nowhere.
 constexpr double doubtful = 2.0;
 
-/// Of a distance, and of a growth over its limit: near enough.
+/// Relative accuracy of an end: of the width of its bracket, and of the growth to its limit.
 constexpr double close = 0.02;
 
-/// Of a distance: from no farther off, the others are followed to a value as far as they go.
+/// A value is first only glanced at if its distance from the inner end of the bracket is more than this part of its
+/// distance from the estimate.
 constexpr double nearby = 0.3;
 
-/// Of the steps that lead out of a place where the others went nowhere.
+/// Damping with which a search starts if undamped steps led nowhere.
 constexpr double least_damping = 0.01;
 
 /// One side of a profile: distances from the estimate, in the unit of the parameter. Those of a parameter that is
@@ -185,7 +186,7 @@ double Profiler::growth_of(const Eigen::VectorXd& residuals) const {
   return std::sqrt(std::max(residuals.squaredNorm() - squares_, 0.0));
 }
 
-std::optional<double> Profiler::alone(Eigen::Index i, double value, ProfilePath& path) const {
+std::optional<double> Profiler::growth_with_others_fixed(Eigen::Index i, double value, ProfilePath& path) const {
   Eigen::VectorXd q = placed(i, value, path.q);
   Eigen::VectorXd outputs;
   if (!problem_.outputs(q, outputs, &path.motions)) return std::nullopt;
@@ -198,17 +199,18 @@ std::optional<double> Profiler::growth(Eigen::Index i, double value, double limi
                                        ProfilePath& path) const {
   const ProfilePath before = path;
   const double astray = glances ? doubtful * limit : core::infinity;
-  std::optional<double> best = followed(i, value, core::infinity, 0.0, astray, path);
+  std::optional<double> best = growth_by_steps(i, value, core::infinity, 0.0, astray, path);
   if (best && *best <= limit) return best;
   if (glances && !(best && *best <= astray)) return best;
   // The others may have moved across a jump of the sum of squares, such as that of one stick more.
   ProfilePath beside = before;
-  const std::optional<double> unfollowed = alone(i, value, beside);
+  const std::optional<double> unfollowed = growth_with_others_fixed(i, value, beside);
   const bool led_nowhere = unfollowed && (!best || *unfollowed < *best);
   if (led_nowhere) path = beside, best = unfollowed;
   if (!unfollowed || *best <= limit || (!led_nowhere && *best <= doubtful * limit)) return best;
   // One of the others may have nearly no effect: a small error of its derivative moves it to the end of its range.
-  const std::optional<double> damped = followed(i, value, *unfollowed, least_damping, core::infinity, beside);
+  const std::optional<double> damped =
+      growth_by_steps(i, value, *unfollowed, least_damping, core::infinity, beside);
   if (damped && *damped < *best) path = std::move(beside), best = damped;
   return best;
 }
@@ -253,8 +255,8 @@ std::optional<Eigen::VectorXd> Profiler::lower() const {
   return best != nullptr ? std::optional(best->q) : std::nullopt;
 }
 
-std::optional<double> Profiler::followed(Eigen::Index i, double value, double best, double damping, double astray,
-                                         ProfilePath& path) const {
+std::optional<double> Profiler::growth_by_steps(Eigen::Index i, double value, double best, double damping,
+                                                double astray, ProfilePath& path) const {
   const auto result = [&] { return std::isfinite(best) ? std::optional<double>(best) : std::nullopt; };
   // A bent valley needs many sets of derivatives; elsewhere, the first set suffices.
   constexpr int most_derivatives = 12;
@@ -306,8 +308,8 @@ double Profiler::first_distance(Eigen::Index i, const FittedParameter& fitted, d
                     : near * std::abs(problem_.space().slope(q_)(i, i));
 }
 
-std::optional<double> Profiler::grown_from(Eigen::Index i, double value, double limit, const ProfilePath* within,
-                                           bool glances, ProfilePath& others) const {
+std::optional<double> Profiler::best_growth(Eigen::Index i, double value, double limit, const ProfilePath* within,
+                                            bool glances, ProfilePath& others) const {
   std::optional<double> best = growth(i, value, limit, glances, others);
   if (within == nullptr || (best && *best <= limit)) return best;
   ProfilePath again = *within;
@@ -341,7 +343,7 @@ double Profiler::end(Eigen::Index i, const FittedParameter& fitted, double limit
     // Far off, the derivatives may lead out of a bent valley. Such a value is searched from nearer ones only.
     const bool glances = glances_left > 0 && distance - bracket.inner > nearby * distance;
     const bool has_two = last > 1.0 && !bracket.is_glance;
-    const std::optional<double> grown = grown_from(i, value, limit, has_two ? &within : nullptr, glances, others);
+    const std::optional<double> grown = best_growth(i, value, limit, has_two ? &within : nullptr, glances, others);
     const bool is_astray = glances && (!grown || *grown > doubtful * limit);
     if (!grown && !is_astray) return unknown;
     last = grown ? *grown / limit : core::infinity;

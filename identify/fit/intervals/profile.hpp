@@ -70,20 +70,24 @@ class Profiler {
   [[nodiscard]] Eigen::Index other_of(Eigen::Index i, const Eigen::VectorXd& q) const;
   /// `q` with parameter `i` at `value`. The parameter that it must not be below gives way.
   [[nodiscard]] Eigen::VectorXd placed(Eigen::Index i, double value, const Eigen::VectorXd& q) const;
-  /// The square root of the growth of the sum of squares with parameter `i` at `value`. Nothing: no motion.
-  /// `glances`: the search ends if the first derivatives lead far beyond the limit.
+  /// Square root of the growth of the sum of squares with parameter `i` at `value`, the least that is found from
+  /// `path`, which moves there. Nothing: no motion. `glances`: the search ends if the first derivatives lead far
+  /// beyond the limit.
   [[nodiscard]] std::optional<double> growth(Eigen::Index i, double value, double limit, bool glances,
                                              ProfilePath& path) const;
-  /// The same from `others`, which may lie beyond the limit, or from `within` it, if that is better.
-  [[nodiscard]] std::optional<double> grown_from(Eigen::Index i, double value, double limit,
-                                                 const ProfilePath* within, bool glances,
-                                                 ProfilePath& others) const;
-  /// The same by Gauss-Newton steps from `path`, whose growth is `best`; infinite: parameter `i` is elsewhere. They
-  /// end if the first derivatives lead to more than `astray`.
-  [[nodiscard]] std::optional<double> followed(Eigen::Index i, double value, double best, double damping,
-                                               double astray, ProfilePath& path) const;
-  /// The same with the other parameters unchanged.
-  [[nodiscard]] std::optional<double> alone(Eigen::Index i, double value, ProfilePath& path) const;
+  /// Square root of the growth with parameter `i` at `value`, the better of two searches: from `others`, which may
+  /// lie beyond the limit, and, if that ends beyond it, from `within` the limit.
+  [[nodiscard]] std::optional<double> best_growth(Eigen::Index i, double value, double limit,
+                                                  const ProfilePath* within, bool glances,
+                                                  ProfilePath& others) const;
+  /// Square root of the growth with parameter `i` at `value`, by Gauss-Newton steps from `path`, whose growth is
+  /// `best`; infinite: parameter `i` is elsewhere. The steps end if the first derivatives lead to more than
+  /// `astray`.
+  [[nodiscard]] std::optional<double> growth_by_steps(Eigen::Index i, double value, double best, double damping,
+                                                      double astray, ProfilePath& path) const;
+  /// Square root of the growth with parameter `i` at `value` and all other parameters as they are in `path`.
+  [[nodiscard]] std::optional<double> growth_with_others_fixed(Eigen::Index i, double value,
+                                                               ProfilePath& path) const;
   /// Moves `path` of parameter `i` to `q` if the sum of squares is smaller there. False: no motion.
   [[nodiscard]] bool take(Eigen::Index i, const Eigen::VectorXd& q, ProfilePath& path, double& best) const;
   void note(Eigen::Index i, const ProfilePath& path, double growth) const;

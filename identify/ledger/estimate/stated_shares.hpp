@@ -46,7 +46,7 @@ class StatedShares {
   double mass_ = 0.0, stiffness_ = 0.0, inertia_ = 0.0, allowed_ = 0.0;
 };
 
-/// The same fit of a record that tells k/m alone, for another mass and stiffness with this ratio.
+/// A fit of a record that tells k/m alone, carried over to another mass and stiffness with this ratio.
 [[nodiscard]] JointModel with_constants(JointModel model, const KnownConstants& constants);
 
 /// Moves the relaxed model, and the change of F0 by the departure, to the shared constants.

@@ -7,6 +7,7 @@
 
 #include "core/numbers.hpp"
 #include "identify/conclusion.hpp"
+#include "identify/equal_work.hpp"
 #include "identify/methods/amplitudes/steady_states.hpp"
 #include "identify/models/force_parameters.hpp"
 #include "identify/statistics/decompositions.hpp"
@@ -67,7 +68,7 @@ double error_gain(const Pair& state, double c, double stiffness) {
   return std::hypot(real, c * state.omega) / fundamental(state);
 }
 
-/// The same fit with the states weighted by their errors, so that the residuals have equal variances.
+/// The imaginary part with the states weighted by their errors, so that the residuals have equal variances.
 PartFit weighted_part(const std::vector<Pair>& states, const std::vector<Pair>& weights, double c,
                       double stiffness) {
   std::size_t i = 0;
@@ -162,9 +163,10 @@ std::optional<Limacon> limacon_of(const std::vector<Pair>& states, const KnownCo
   const double omega_n = constants.natural_frequency();
   const double c = 1.0 / (line->line.slope * omega_n);
   const double variance = line->residuals.squaredNorm() / line->freedom() / line->moments.S_YY;
-  return Limacon{parameters(ForceParameters{constants.mass, c, constants.stiffness,
-                                            -0.25 * pi * force * line->line.intercept / line->line.slope}),
-                 c * std::sqrt(variance) / line->line.slope};
+  return Limacon{
+      parameters(ForceParameters{constants.mass, c, constants.stiffness,
+                                 -coulomb_per_viscous * force * line->line.intercept / line->line.slope}),
+      c * std::sqrt(variance) / line->line.slope};
 }
 
 /// The limacon of one input amplitude. Its bias is large if phases vary little, so it is compared with the limacon

@@ -55,7 +55,7 @@ struct LineFriction {
 [[nodiscard]] std::optional<ResonanceData> take_pairs(const Record& record, const KnownConstants& constants,
                                                       Estimate& estimate);
 
-/// The same for pairs at one frequency near resonance. Refused beyond that: another record, a frequency far from
+/// The usable pairs of a record at one frequency near resonance. Refused too: another record, a frequency far from
 /// resonance, fewer than two pairs with positive finite amplitudes.
 [[nodiscard]] std::optional<ResonanceData> prepare(const Record& record, const KnownConstants& constants,
                                                    const ResonanceOptions& options, Estimate& estimate);

@@ -60,7 +60,7 @@ struct LawIntervals {
 /// Why these intervals are not to be used: even the best law misses the readings by more than three times their
 /// noise. Empty if some law fits better.
 [[nodiscard]] std::string no_law_fits(const LawIntervals& laws);
-/// The same of an estimate; empty as well if it is no range over laws.
+/// Why the range over laws of an estimate is not to be used; empty as well if it has none.
 [[nodiscard]] std::string no_law_fits(const Estimate& estimate);
 
 /// The fits behind the intervals.

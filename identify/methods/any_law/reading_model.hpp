@@ -8,13 +8,13 @@
 #include <algorithm>
 #include <limits>
 #include <memory>
-#include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "core/constants.hpp"
 #include "identify/departures/departures.hpp"
+#include "identify/equal_work.hpp"
 #include "identify/estimate.hpp"
 #include "identify/record.hpp"
 
@@ -117,12 +117,11 @@ class ReadingModel {
   /// If one of the two is next to nothing, its unit is a share of the other's force and the search begins with a
   /// little of it.
   void begin_with(const ParameterSet& plain, double speed) {
-    constexpr double quarter_turn = 0.25 * std::numbers::pi;  // Coulomb force over the viscous force of equal work
     constexpr double least_unit = 0.05;
     constexpr double little = 0.1;
-    const double forces = std::max(plain.F0, 0.0) + quarter_turn * std::max(plain.c, 0.0) * speed;
+    const double forces = std::max(plain.F0, 0.0) + coulomb_per_viscous * std::max(plain.c, 0.0) * speed;
     F0_unit_ = std::max(plain.F0, least_unit * forces);
-    c_unit_ = std::max(plain.c, least_unit * forces / (quarter_turn * speed));
+    c_unit_ = std::max(plain.c, least_unit * forces / (coulomb_per_viscous * speed));
     start_ = Eigen::VectorXd::Zero(unknowns());
     start_[0] = std::max(plain.F0 / F0_unit_, little);
     start_[1] = std::max(plain.c / c_unit_, little);

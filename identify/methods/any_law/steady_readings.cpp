@@ -124,7 +124,7 @@ class SteadyReadings final : public ReadingModel {
         const sim::Model model = model_of(law, p, states_[i], accuracy);
         if (!sim::validate(model).empty()) return std::nullopt;  // a search may try a negative stiffness
         const sim::SteadyState state = found(model, orbits[i]);
-        near.work += state.certificate.searches + state.certificate.panels + state.certificate.splits;
+        near.work += state.certificate.work();
         if (!state.outcome.ok()) return std::nullopt;
         remember(model, state, orbits[i]);
         amplitude[i] = state.amplitude;

@@ -141,13 +141,18 @@ Sought sought_of(const Json& analysis, bool initial_is_known) {
   return sought;
 }
 
+sim::Model model_for_fit(const CheckedValues& values) {
+  sim::Model model = values.model;
+  // The derivatives are differences of motions: a smaller tolerance does not improve them.
+  constexpr double accurate = 1e-9;
+  if (!values.tolerance_is_stated) model.solver.tolerance = accurate;
+  return model;
+}
+
 identify::Rig rig_of(const Json& system, const sim::Model& model, const std::string& law) {
   identify::Rig rig{.known = model};
   rig.known.friction.clear();
   if (!system.contains("damping")) rig.known.oscillator.damping = identify::unknown;
-  // The derivatives are differences of motions: a smaller tolerance does not improve them.
-  constexpr double accurate = 1e-9;
-  if (rig.known.solver.tolerance == sim::Solver{}.tolerance) rig.known.solver.tolerance = accurate;
   const core::Coordinate coordinate = model.oscillator.coordinate;
   if (!law.empty()) {
     rig.laws.push_back({friction::find_law(law), {}});

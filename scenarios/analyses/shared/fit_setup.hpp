@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "identify/fit/fit.hpp"
+#include "scenarios/analysis.hpp"
 #include "scenarios/format/checked_file.hpp"
 #include "scenarios/format/json.hpp"
 #include "sim/model.hpp"
@@ -49,7 +50,12 @@ struct Sought {
 
 [[nodiscard]] Sought sought_of(const Json& analysis, bool initial_is_known);
 
-/// The laws of `system`, or the law `law` alone. `model`: its oscillator and excitation.
+/// The model of a scenario as fits compute its motions: with a tolerance that is enough for them, unless the
+/// scenario states one.
+[[nodiscard]] sim::Model model_for_fit(const CheckedValues& values);
+
+/// The laws of `system`, or the law `law` alone. `model`: its oscillator and excitation, and the numerical
+/// settings.
 [[nodiscard]] identify::Rig rig_of(const Json& system, const sim::Model& model, const std::string& law = {});
 
 /// "coulomb + viscous_power"

@@ -150,6 +150,24 @@ TEST_CASE("fit: a stated initial state is known", "[scenarios][fit]") {
   CHECK(result.at("parameters").size() == 2);
 }
 
+TEST_CASE("fit: a stated tolerance counts, that of a simulation too", "[scenarios][fit]") {
+  // A fit has a looser tolerance of its own where none is stated, and both give residuals that differ in late
+  // digits.
+  const std::string dahl = ", friction: {law: dahl, kinetic: 1 N, sigma0: 5000 N/m}";
+  const File data("fit_tolerance.csv",
+                  history_text(std::string(rig) + ", damping: 1 N.s/m" + dahl, released, 1e-5, 5));
+  const auto rms_with = [&](const std::string& numerics) {
+    return result_of_text(fit_scenario(rig + dahl, "data: fit_tolerance.csv, profile: false, starts: 1",
+                                       released + "\n" + numerics))
+        .at("residual")
+        .at("rms")
+        .get<double>();
+  };
+  const double usual = rms_with("");
+  CHECK(rms_with("numerics: {tolerance: 1e-9}\n") == usual);
+  CHECK(rms_with("numerics: {tolerance: 1e-11}\n") != usual);
+}
+
 TEST_CASE("fit: what cannot be fitted is refused with its place", "[scenarios][fit]") {
   const File data("fit_faults.csv", "t [s],x [m]\n0,0.03\n0.1,-0.02\n0.2,0.015\n0.3,-0.01\n0.4,0.006\n");
   const std::string known = std::string(rig) + ", friction: {law: coulomb}";

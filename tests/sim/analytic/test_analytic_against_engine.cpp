@@ -6,27 +6,21 @@
 #include <numbers>
 #include <random>
 
-#include "friction_models/laws/coulomb.hpp"
 #include "sim/analytic/den_hartog.hpp"
 #include "sim/analytic/free_decay.hpp"
 #include "sim/curves/curves.hpp"
 #include "sim/motion/free_decay.hpp"
 #include "sim/orbits/steady_state.hpp"
+#include "tests/support/base_driven.hpp"
 
 using namespace dualdamp;
 using namespace dualdamp::sim;
 
 namespace {
 
-/// m = 1, k = 1: wn = 1, lengths in metres, F0 = x_f, base amplitude 1.
-Model base_driven(double zeta, double r, double x_f) {
-  Model model;
-  model.oscillator = {1.0, 1.0, 2.0 * zeta, DamperTo::ground};
-  model.excitation.type = ExcitationType::base_harmonic;
-  model.excitation.amplitude = 1.0;
-  model.excitation.frequency = r;
-  model.friction.emplace_back(friction::Coulomb(x_f, x_f));
-  return model;
+/// wn = 1, lengths in metres, F0 = x_f.
+Model unit_system(double zeta, double r, double x_f) {
+  return test::base_driven({.c = 2.0 * zeta, .w = r}, test::coulomb(x_f));
 }
 
 }  // namespace
@@ -46,7 +40,7 @@ TEST_CASE("Den Hartog's steady state is the engine's, amplitude, phase and stick
     const double x_f = boundary * (0.4 + 0.9 * uniform(random));
     if (std::abs(x_f / boundary - 1.0) < 1e-3) continue;
     CAPTURE(zeta, r, x_f, boundary);
-    const SteadyState engine = steady_state(base_driven(zeta, r, x_f));
+    const SteadyState engine = steady_state(unit_system(zeta, r, x_f));
     REQUIRE(engine.outcome.ok());
     const auto exact = analytic::non_sticking_state(d, 1.0, x_f);
     CHECK(exact.has_value() == (x_f < boundary));
@@ -66,7 +60,7 @@ TEST_CASE("Den Hartog's steady state is the engine's, amplitude, phase and stick
 TEST_CASE("The engine's free decay is the decrement law, to the last extreme") {
   for (const double zeta : {0.0, 0.03, 0.0819, 0.4}) {
     for (const double x_f : {0.0, 0.012, 0.3}) {
-      Model model = base_driven(zeta, 1.0, x_f);
+      Model model = unit_system(zeta, 1.0, x_f);
       model.excitation = {};
       model.initial.position = -1.0;
       const FreeDecay decay = free_decay(model, 12);

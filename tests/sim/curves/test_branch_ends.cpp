@@ -10,19 +10,14 @@
 #include "friction_models/laws/contact_compliance.hpp"
 #include "friction_models/laws/coulomb.hpp"
 #include "sim/curves/continuation.hpp"
+#include "tests/support/base_driven.hpp"
 
 using namespace dualdamp;
 using sim::BranchParameter;
 using sim::ChangeKind;
+using test::base_driven;
 
 namespace {
-
-sim::Model base_driven(double stiffness, double damping, double amplitude, double frequency) {
-  sim::Model model;
-  model.oscillator = {.mass = 1.0, .stiffness = stiffness, .damping = damping};
-  model.excitation = {.type = sim::ExcitationType::base_harmonic, .amplitude = amplitude, .frequency = frequency};
-  return model;
-}
 
 long changes_of(const sim::Branch& branch, ChangeKind kind) {
   return std::ranges::count(branch.changes, kind, &sim::BranchChange::kind);
@@ -74,14 +69,14 @@ double next_rest(const sim::Model& model, double kinetic, double x) {
 }  // namespace
 
 TEST_CASE("a branch that runs down to break-away ends there, and says where the mass ceases to move") {
-  sim::Model base = base_driven(100.0, 1.0, 0.05, 2.0);
+  sim::Model base = base_driven({.k = 100.0, .c = 1.0, .Y = 0.05, .w = 2.0});
   base.friction.emplace_back(friction::Coulomb(2.0, 2.0));
   // The base pulls with k Y.
   check_break_away(continue_branch(base, BranchParameter::amplitude, 0.05, 0.01), 0.02,
                    "does not move below 0.02 m");
   base.friction = {friction::Law(friction::Coulomb(2.0, 2.0001))};
   check_break_away(continue_branch(base, BranchParameter::amplitude, 0.05, 0.01), 0.020001, "below 0.020001 m");
-  sim::Model force = base_driven(100.0, 1.0, 5.0, 7.0);
+  sim::Model force = base_driven({.k = 100.0, .c = 1.0, .Y = 5.0, .w = 7.0});
   force.excitation.type = sim::ExcitationType::force_harmonic;
   force.friction.emplace_back(friction::Coulomb(2.0, 2.0));
   check_break_away(continue_branch(force, BranchParameter::amplitude, 5.0, 0.5), 2.0, "does not move below 2 N");
@@ -89,7 +84,7 @@ TEST_CASE("a branch that runs down to break-away ends there, and says where the 
   check_break_away(continue_branch(base, BranchParameter::amplitude, 0.05, 0.01), 0.020001, "below 0.020001 rad");
   check_break_away(continue_branch(force, BranchParameter::amplitude, 5.0, 0.5), 2.0, "does not move below 2 N.m");
   // With the damper to the base it pulls with k Y |1 + i c w/k|.
-  sim::Model damped = base_driven(100.0, 4.0, 0.019, 12.0);
+  sim::Model damped = base_driven({.k = 100.0, .c = 4.0, .Y = 0.019, .w = 12.0});
   damped.oscillator.damper_to = sim::DamperTo::base;
   damped.friction.emplace_back(friction::Coulomb(2.0, 2.0));
   const double slowest = 25.0 * std::sqrt(std::pow(2.0 / 1.9, 2) - 1.0);
@@ -97,7 +92,7 @@ TEST_CASE("a branch that runs down to break-away ends there, and says where the 
 }
 
 TEST_CASE("a branch that runs close to break-away, but not beyond, is complete") {
-  sim::Model model = base_driven(100.0, 4.0, 0.05, 10.0);
+  sim::Model model = base_driven({.k = 100.0, .c = 4.0, .Y = 0.05, .w = 10.0});
   model.friction.emplace_back(friction::Coulomb(2.0, 2.0));
   const sim::Branch branch = continue_branch(model, BranchParameter::amplitude, 0.05, 0.0200001);
   REQUIRE(branch.outcome.ok());
@@ -108,7 +103,7 @@ TEST_CASE("a branch that runs close to break-away, but not beyond, is complete")
 TEST_CASE("a branch does not fold at its end, where a release jumps") {
   // A difference quotient across the jump turned the tangent. Transients: at 0.7111 N the motion repeats itself
   // with the amplitude of the branch, at 0.7110 N it leaves it.
-  sim::Model model = base_driven(1.0, 0.075044541, 1.0, 0.49771328);
+  sim::Model model = base_driven({.c = 0.075044541, .w = 0.49771328});
   model.excitation.type = sim::ExcitationType::force_harmonic;
   model.friction.emplace_back(friction::ContactCompliance(0.31368364, 0.60916682, 42.948855, 0.0));
   const sim::Branch branch = continue_branch(model, BranchParameter::amplitude, 1.0, 0.15684182);
@@ -123,7 +118,7 @@ TEST_CASE("a branch does not fold at its end, where a release jumps") {
 TEST_CASE("a branch does not pass to another one that is close at the start of the period only") {
   // Behind its fold the orbit does not attract, and its Floquet multiplier grows until a release jumps. Beyond lies
   // the motion with two stops, which attracts, on both sides of the fold too: another branch.
-  sim::Model model = base_driven(1.0, 0.099156161, 1.0, 0.1303711);
+  sim::Model model = base_driven({.c = 0.099156161, .w = 0.1303711});
   model.friction.emplace_back(friction::Coulomb(0.069762387, 0.073399176));
   const sim::Branch branch = continue_branch(model, BranchParameter::amplitude, 0.25, 0.034881194);
   REQUIRE(branch.outcome.ok());
@@ -140,7 +135,7 @@ TEST_CASE("a branch does not pass to another one that is close at the start of t
 
 TEST_CASE("a jump from one orbit that attracts to another is no mere change of the sequence") {
   // Where the slowest point of a slip touches v = 0, static friction holds the mass for a while.
-  sim::Model model = base_driven(1.0, 0.12234632, 1.0, 0.34560027);
+  sim::Model model = base_driven({.c = 0.12234632, .w = 0.34560027});
   model.friction.emplace_back(friction::Coulomb(0.089831725, 0.13277403));
   const sim::Branch branch = continue_branch(model, BranchParameter::frequency, 0.34560027, 1.0368008);
   REQUIRE(branch.outcome.ok());
@@ -161,7 +156,7 @@ TEST_CASE("a jump from one orbit that attracts to another is no mere change of t
 TEST_CASE("a branch ends where a release becomes a grazing, however fast neighbouring motions part there") {
   // Behind the fold the mass sticks at -X and X. The release comes ever later and ceases at k(Y + X) = static, the
   // peak of the pull. The steps became ever shorter, and 561 points ended with `step`.
-  sim::Model model = base_driven(100.0, 1.0, 0.03, 2.0);
+  sim::Model model = base_driven({.k = 100.0, .c = 1.0, .Y = 0.03, .w = 2.0});
   model.friction.emplace_back(friction::Coulomb(2.0, 3.0));
   const sim::Branch branch = continue_branch(model, BranchParameter::amplitude, 0.055, 0.01);
   REQUIRE(branch.outcome.ok());
@@ -183,7 +178,7 @@ TEST_CASE("a branch ends where a release becomes a grazing, however fast neighbo
 
 TEST_CASE("a branch that stops because neighbouring motions part too fast says how fast") {
   // With this tolerance orbits are lost long before the end of the branch can be foreseen.
-  sim::Model model = base_driven(1.0, 0.1, 1.0, 0.2);
+  sim::Model model = base_driven({.c = 0.1, .w = 0.2});
   model.friction.emplace_back(friction::Coulomb(0.2, 0.5));
   model.solver = {sim::SolverKind::explicit_steps, 1e-7};
   const sim::Branch branch = continue_branch(model, BranchParameter::frequency, 0.2, 1.5);

@@ -6,16 +6,12 @@
 #include <cstddef>
 #include <vector>
 
-#include "friction_models/laws/coulomb.hpp"
 #include "sim/engine/exact_engine.hpp"
+#include "tests/support/base_driven.hpp"
 #include "tests/support/numbers.hpp"
 #include "tests/support/oracle.hpp"
 
 namespace dualdamp::test {
-
-inline friction::Law coulomb(double kinetic, double static_level) {
-  return friction::Law(friction::Coulomb(kinetic, static_level));
-}
 
 struct EngineEvent {
   double t = 0.0;
@@ -40,14 +36,6 @@ inline std::vector<EngineEvent> events_of(const sim::Model& model, double durati
   return events_of(engine, duration, count);
 }
 
-inline sim::Model base_driven(double m, double k, double c, double amplitude, double w, double phase = 0.0) {
-  sim::Model model;
-  model.oscillator = {m, k, c, sim::DamperTo::ground};
-  model.excitation = {
-      .type = sim::ExcitationType::base_harmonic, .amplitude = amplitude, .frequency = w, .phase = phase};
-  return model;
-}
-
 inline sim::Model ramped(double m, double k, double c, sim::ExcitationType type, double slope) {
   sim::Model model;
   model.oscillator = {m, k, c, sim::DamperTo::ground};
@@ -57,7 +45,7 @@ inline sim::Model ramped(double m, double k, double c, sim::ExcitationType type,
 
 /// The seed system of the paper: m = 1 kg, k = 100 N/m, c = 4 N.s/m, w = 10 rad/s, Y = 0.1 m, F = 2 N.
 inline sim::Model standard(double kinetic = 2.0, double static_level = 2.0) {
-  sim::Model model = base_driven(1.0, 100.0, 4.0, 0.1, 10.0);
+  sim::Model model = base_driven({.k = 100.0, .c = 4.0, .Y = 0.1, .w = 10.0});
   model.friction.push_back(coulomb(kinetic, static_level));
   return model;
 }

@@ -27,7 +27,7 @@ History stepped(Model model, double duration) {
 TEST_CASE("Any number of damped contacts, beside an own exponent and with eight harmonics", "[exact]") {
   // Own exponents -5 and -20; the contacts' rates kt/ct lie around 5.
   for (const int contacts : {4, 12, 16}) {
-    Model model = base_driven(1.0, 100.0, 25.0, 0.5, 10.0);
+    Model model = base_driven({.k = 100.0, .c = 25.0, .Y = 0.5, .w = 10.0});
     for (int i = 0; i < contacts; ++i) {
       model.friction.push_back(friction::Law(
           friction::ContactCompliance(1.6 / contacts, 1.6 / contacts, 500.0, 100.0 * (1.0 - 2e-4 * i))));
@@ -52,7 +52,7 @@ TEST_CASE("Searches take few panels however heavy the damping or light the mass"
   std::vector<Case> cases = {{1e-9, 4.0, 100.0}, {3e-9, 4.0, 100.0}, {1e-6, 4.0, 100.0}, {1e-9, 1e5, 1e-3}};
   for (const double damping : {1.0, 20.0, 1e2, 1e3, 1e4, 1e5, 1e6, 1e8}) cases.push_back({1.0, damping, 100.0});
   for (const Case& c : cases) {
-    Model model = base_driven(c.mass, c.stiffness, c.damping, 0.1, 10.0);
+    Model model = base_driven({.m = c.mass, .k = c.stiffness, .c = c.damping, .Y = 0.1, .w = 10.0});
     model.friction.push_back(coulomb(0.02 * c.stiffness, 0.02 * c.stiffness));
     ExactEngine engine(model);
     const double duration = 50.0 * 2.0 * pi / model.excitation.frequency;
@@ -67,7 +67,7 @@ TEST_CASE("Searches take few panels however heavy the damping or light the mass"
 TEST_CASE("Under heavy damping the motion is that of the smooth engine, and its energy is accounted for",
           "[exact]") {
   for (const double damping : {50.0, 300.0, 2000.0}) {
-    Model model = base_driven(1.0, 100.0, damping, 0.1, 10.0);
+    Model model = base_driven({.k = 100.0, .c = damping, .Y = 0.1, .w = 10.0});
     model.friction.push_back(coulomb(2.0, 2.5));
     model.initial.velocity = 0.3;
     CAPTURE(damping);
@@ -82,7 +82,7 @@ TEST_CASE("Under heavy damping the motion is that of the smooth engine, and its 
     CHECK(std::abs(exact.energy.defect) < 1e-12 * scale);
   }
   for (const double damping : {1e4, 1e6, 1e8}) {
-    Model model = base_driven(1.0, 100.0, damping, 0.1, 10.0);
+    Model model = base_driven({.k = 100.0, .c = damping, .Y = 0.1, .w = 10.0});
     model.friction.push_back(coulomb(2.0, 2.5));
     const History exact = simulate(model, {.duration = 2.0});
     CAPTURE(damping);
@@ -93,7 +93,7 @@ TEST_CASE("Under heavy damping the motion is that of the smooth engine, and its 
 TEST_CASE("Amplitudes of 1e-200 move like those of 1", "[exact]") {
   for (const double static_level : {2.0, 6.5}) {
     const auto events = [&](double unit) {
-      Model model = base_driven(1.0, 100.0, 4.0, 0.1 * unit, 4.0);
+      Model model = base_driven({.k = 100.0, .c = 4.0, .Y = 0.1 * unit, .w = 4.0});
       model.friction.push_back(coulomb(2.0 * unit, static_level * unit));
       return events_of(model, 5.0);
     };
@@ -114,7 +114,7 @@ TEST_CASE("Amplitudes of 1e-200 move like those of 1", "[exact]") {
 TEST_CASE("Floquet multipliers and the largest speed do not depend on the unit of length", "[exact]") {
   for (const bool with_contact : {false, true}) {
     const auto state = [&](double unit) {
-      Model model = base_driven(1.0, 100.0, 4.0, 0.1 * unit, 7.0);
+      Model model = base_driven({.k = 100.0, .c = 4.0, .Y = 0.1 * unit, .w = 7.0});
       if (with_contact) {
         model.friction.emplace_back(friction::ContactCompliance(2.0 * unit, 2.0 * unit, 1000.0, 0.0));
       } else {

@@ -24,24 +24,25 @@ TEST_CASE("The engine follows brute-force integration event by event", "[exact]"
     double periods;
   };
   std::vector<Case> cases;
-  cases.push_back({"standard", base_driven(1.0, 100.0, 4.0, 0.1, 10.0), 2.0, 2.0, 8.0});
-  cases.push_back({"sticking", base_driven(1.0, 100.0, 4.0, 0.1, 10.0), 7.0, 7.0, 8.0});
-  cases.push_back({"static > kinetic", base_driven(1.0, 100.0, 4.0, 0.1, 4.0), 4.0, 6.5, 8.0});
-  cases.push_back({"slow drive, many stops", base_driven(1.0, 100.0, 0.5, 0.1, 1.0), 1.5, 2.5, 4.0});
-  cases.push_back({"fast drive", base_driven(1.0, 100.0, 1.0, 0.1, 35.0), 2.0, 3.0, 20.0});
-  Case to_base{"damper to base", base_driven(1.0, 100.0, 6.0, 0.1, 12.0), 3.0, 4.5, 8.0};
+  cases.push_back({"standard", base_driven({.k = 100.0, .c = 4.0, .Y = 0.1, .w = 10.0}), 2.0, 2.0, 8.0});
+  cases.push_back({"sticking", base_driven({.k = 100.0, .c = 4.0, .Y = 0.1, .w = 10.0}), 7.0, 7.0, 8.0});
+  cases.push_back({"static > kinetic", base_driven({.k = 100.0, .c = 4.0, .Y = 0.1, .w = 4.0}), 4.0, 6.5, 8.0});
+  cases.push_back({"slow drive, many stops", base_driven({.k = 100.0, .c = 0.5, .Y = 0.1}), 1.5, 2.5, 4.0});
+  cases.push_back({"fast drive", base_driven({.k = 100.0, .c = 1.0, .Y = 0.1, .w = 35.0}), 2.0, 3.0, 20.0});
+  Case to_base{"damper to base", base_driven({.k = 100.0, .c = 6.0, .Y = 0.1, .w = 12.0}), 3.0, 4.5, 8.0};
   to_base.model.oscillator.damper_to = DamperTo::base;
   cases.push_back(to_base);
-  Case distorted{"distorted drive", base_driven(2.0, 100.0, 3.0, 0.1, 5.0, 0.3), 3.0, 4.0, 8.0};
+  Case distorted{"distorted drive", base_driven({.m = 2.0, .k = 100.0, .c = 3.0, .Y = 0.1, .w = 5.0, .phase = 0.3}),
+                 3.0, 4.0, 8.0};
   distorted.model.excitation.harmonics = {{.order = 2, .amplitude = 0.03, .phase = 1.0},
                                           {.order = 3, .amplitude = 0.02, .phase = -2.0},
                                           {.order = 7, .amplitude = 0.005, .phase = 0.5}};
   cases.push_back(distorted);
-  Case force{"force with offset", base_driven(1.0, 100.0, 2.0, 10.0, 8.0), 2.0, 3.0, 8.0};
+  Case force{"force with offset", base_driven({.k = 100.0, .c = 2.0, .Y = 10.0, .w = 8.0}), 2.0, 3.0, 8.0};
   force.model.excitation.type = ExcitationType::force_harmonic;
   force.model.excitation.offset = 3.0;
   cases.push_back(force);
-  Case heavy{"overdamped", base_driven(1.0, 100.0, 60.0, 0.1, 6.0), 2.0, 2.5, 8.0};
+  Case heavy{"overdamped", base_driven({.k = 100.0, .c = 60.0, .Y = 0.1, .w = 6.0}), 2.0, 2.5, 8.0};
   cases.push_back(heavy);
   for (Case& c : cases) {
     c.model.initial = {0.03, 0.2};
@@ -77,7 +78,8 @@ TEST_CASE("Random oscillators follow brute-force integration event by event", "[
   for (long i = 0; i < cases; ++i) {
     const double wn = random.logarithmic(1.0, 30.0);
     const double w = wn * random.logarithmic(0.15, 4.0);
-    Model model = base_driven(random.logarithmic(0.2, 5.0), 100.0, 0.0, 0.1, w, random.angle());
+    Model model =
+        base_driven({.m = random.logarithmic(0.2, 5.0), .k = 100.0, .Y = 0.1, .w = w, .phase = random.angle()});
     model.oscillator.stiffness = model.oscillator.mass * wn * wn;
     const double k = model.oscillator.stiffness;
     if (random.chance(0.8))
@@ -244,7 +246,7 @@ TEST_CASE("Walking by periods gives the events of walking by time", "[exact]") {
 }
 
 TEST_CASE("A friction of zero and a drive of zero are no friction and no drive", "[exact]") {
-  Model none = base_driven(1.0, 100.0, 1.0, 0.1, 7.0);
+  Model none = base_driven({.k = 100.0, .c = 1.0, .Y = 0.1, .w = 7.0});
   none.initial = {0.1, 0.5};
   Model zero = none;
   zero.friction.push_back(coulomb(0.0, 0.0));
@@ -257,7 +259,7 @@ TEST_CASE("A friction of zero and a drive of zero are no friction and no drive",
   Model still = ramped(1.0, 100.0, 1.0, ExcitationType::none, 0.0);
   still.friction.push_back(coulomb(0.5, 0.7));
   still.initial = {0.1, 0.5};
-  Model undriven = base_driven(1.0, 100.0, 1.0, 0.0, 7.0);
+  Model undriven = base_driven({.k = 100.0, .c = 1.0, .Y = 0.0, .w = 7.0});
   undriven.friction = still.friction;
   undriven.initial = still.initial;
   const auto free = events_of(still, 20.0);
@@ -279,7 +281,7 @@ TEST_CASE("Without friction a mass in equilibrium stays until the drive moves it
   ExactEngine moving(model);
   CHECK(moving.direction() == Direction::backward);
   // y = sin(w t): force zero and growing at the start.
-  Model driven = base_driven(1.0, 100.0, 1.0, 0.1, 7.0, -pi / 2.0);
+  Model driven = base_driven({.k = 100.0, .c = 1.0, .Y = 0.1, .w = 7.0, .phase = -pi / 2.0});
   CHECK(ExactEngine(driven).direction() == Direction::forward);
 }
 
@@ -290,7 +292,7 @@ TEST_CASE("The sensitivity is the derivative of the end state by the start", "[e
   Random random(26);
   int stopped = 0;
   for (int i = 0; i < 60; ++i) {
-    Model model = base_driven(1.0, 100.0, 4.0, 0.1, random.uniform(4.0, 20.0));
+    Model model = base_driven({.k = 100.0, .c = 4.0, .Y = 0.1, .w = random.uniform(4.0, 20.0)});
     const double kinetic = random.uniform(0.5, 8.0);
     model.friction.push_back(coulomb(kinetic, kinetic * random.uniform(1.0, 1.5)));
     model.initial = {random.uniform(-0.1, 0.1), random.sign() * random.uniform(0.2, 1.0)};
@@ -335,8 +337,12 @@ TEST_CASE("Intervals join: position and velocity are continuous, acceleration ob
           "[exact]") {
   Random random(23);
   for (int i = 0; i < 30; ++i) {
-    Model model = base_driven(random.logarithmic(0.1, 10.0), 100.0, random.uniform(0.0, 30.0), 0.1,
-                              random.logarithmic(1.0, 40.0), random.angle());
+    Model model = base_driven({.m = random.logarithmic(0.1, 10.0),
+                               .k = 100.0,
+                               .c = random.uniform(0.0, 30.0),
+                               .Y = 0.1,
+                               .w = random.logarithmic(1.0, 40.0),
+                               .phase = random.angle()});
     const double kinetic = random.uniform(0.0, 8.0);
     model.friction.push_back(coulomb(kinetic, kinetic * random.uniform(1.0, 1.5)));
     if (random.chance(0.5)) model.oscillator.damper_to = DamperTo::base;

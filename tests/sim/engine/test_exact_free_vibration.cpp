@@ -51,7 +51,7 @@ TEST_CASE("Without friction the engine is the linear oscillator", "[exact]") {
   Random random(22);
   for (const double zeta : {0.0, 0.02, 0.7, 1.0, 3.0}) {
     for (const DamperTo damper : {DamperTo::ground, DamperTo::base}) {
-      Model model = base_driven(2.0, 50.0, 2.0 * zeta * 10.0, 0.1, 3.7, 0.4);
+      Model model = base_driven({.m = 2.0, .k = 50.0, .c = 2.0 * zeta * 10.0, .Y = 0.1, .w = 3.7, .phase = 0.4});
       model.oscillator.damper_to = damper;
       model.excitation.harmonics = {{.order = 2, .amplitude = 0.02, .phase = 1.0}};
       model.initial = {0.2, -0.3};

@@ -36,7 +36,12 @@ std::optional<Candidate> random_candidate(Random& random) {
   if (std::abs(zeta - 1.0) < 1e-3 || (zeta < 1e-2 && std::abs(r - 1.0) < 1e-2)) return std::nullopt;
   const double k = m * wn * wn;
   Candidate candidate;
-  candidate.model = base_driven(m, k, 2.0 * zeta * m * wn, random.logarithmic(1e-3, 1.0), r * wn, random.angle());
+  candidate.model = base_driven({.m = m,
+                                 .k = k,
+                                 .c = 2.0 * zeta * m * wn,
+                                 .Y = random.logarithmic(1e-3, 1.0),
+                                 .w = r * wn,
+                                 .phase = random.angle()});
   const double drive = candidate.model.excitation.amplitude;
   const bool equal = random.chance(0.5);
   candidate.kinetic = k * drive * random.logarithmic(1e-3, 0.99);

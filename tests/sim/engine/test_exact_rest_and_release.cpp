@@ -77,7 +77,11 @@ TEST_CASE("A release is not taken back by the rounding of a contact that lets go
   Random random(28);
   int together = 0;
   for (int i = 0; i < 300; ++i) {
-    Model model = base_driven(1.0, 100.0, random.uniform(0.0, 5.0), 0.1, random.uniform(1.0, 8.0), random.angle());
+    Model model = base_driven({.k = 100.0,
+                               .c = random.uniform(0.0, 5.0),
+                               .Y = 0.1,
+                               .w = random.uniform(1.0, 8.0),
+                               .phase = random.angle()});
     const double level = random.uniform(1.0, 5.0);
     const double limit = random.uniform(0.01, 2.0);
     model.friction = {coulomb(level, level),
@@ -101,7 +105,7 @@ TEST_CASE("A pull at the limit within the rounding of a contact's force begins o
   // rounding than the sum of forces. Stick and slip must decide with the same rounding.
   for (int i = -60; i <= 60; ++i) {
     const double amplitude = 0.010106018463893635 * (1.0 + i * 2e-15);
-    Model model = base_driven(1.0, 100.0, 0.5, amplitude, 11.888513683613446, 0.0);
+    Model model = base_driven({.k = 100.0, .c = 0.5, .Y = amplitude, .w = 11.888513683613446});
     model.oscillator.damper_to = DamperTo::base;
     model.friction = {coulomb(0.5, 0.5), friction::Law(friction::ContactCompliance(0.5, 0.5, 300.0, 0.0))};
     ExactEngine engine(model);
@@ -126,14 +130,14 @@ TEST_CASE("A harmonic pull at the limit at the start: growing, falling and at it
   // pull = 10 cos(w t + phi) + 5 N with phi = -+90 degrees: 5 N with the rate +-100 N/s; cos(pi/2) = 6e-17 in
   // double.
   for (const double rate : {1.0, -1.0}) {
-    Model model = base_driven(1.0, 100.0, 4.0, 0.1, 10.0, -rate * pi / 2.0);
+    Model model = base_driven({.k = 100.0, .c = 4.0, .Y = 0.1, .w = 10.0, .phase = -rate * pi / 2.0});
     model.friction.push_back(coulomb(5.0, 5.0));
     model.initial.position = -0.05;
     const ExactEngine engine(model);
     CHECK(engine.direction() == (rate > 0.0 ? Direction::forward : Direction::none));
   }
   // At the crest, pull = static = 10 N: equality holds the mass, and the pull falls on both sides.
-  Model crest = base_driven(1.0, 100.0, 4.0, 0.1, 10.0);
+  Model crest = base_driven({.k = 100.0, .c = 4.0, .Y = 0.1, .w = 10.0});
   crest.friction.push_back(coulomb(10.0, 10.0));
   ExactEngine engine(crest);
   CHECK(engine.direction() == Direction::none);
@@ -146,8 +150,12 @@ TEST_CASE("Release is where the pull reaches the limit: one arc cosine", "[exact
   for (int i = 0; i < 200; ++i) {
     const double static_level = random.uniform(0.5, 9.5);
     const double phase = random.angle();
-    Model model = base_driven(random.logarithmic(0.1, 10.0), 100.0, random.uniform(0.0, 20.0), 0.1,
-                              random.logarithmic(0.1, 100.0), phase);
+    Model model = base_driven({.m = random.logarithmic(0.1, 10.0),
+                               .k = 100.0,
+                               .c = random.uniform(0.0, 20.0),
+                               .Y = 0.1,
+                               .w = random.logarithmic(0.1, 100.0),
+                               .phase = phase});
     model.friction.push_back(coulomb(static_level * random.uniform(0.2, 1.0), static_level));
     model.initial.position = random.uniform(-1.0, 1.0) * static_level / 100.0 + 0.1 * std::cos(phase);
     // cos(w t + phi) = (x0 +- static/k)/Y: the earliest of up to four candidates.
@@ -258,7 +266,7 @@ TEST_CASE("A mass that no law holds moves on where a slow drive turns beside a f
   // There the Taylor coefficients of the pull, in units of the fastest decay, are within rounding of kt x; the mass
   // must not stick for ever.
   for (const double damping : {24.0, 240.0, 2400.0}) {
-    Model model = base_driven(0.18, 0.009, damping, 2.8e-3, 1.2);
+    Model model = base_driven({.m = 0.18, .k = 0.009, .c = damping, .Y = 2.8e-3, .w = 1.2});
     model.friction.push_back(friction::Law(friction::ContactCompliance(1e-3, 1e-3, 5.5e5, 0.0)));
     model.initial.position = -0.013;
     CAPTURE(damping);

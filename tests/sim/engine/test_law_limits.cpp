@@ -45,7 +45,7 @@ double order(const std::function<double(double parameter)>& error, double first,
   return std::log(std::abs(error(second) / error(first))) / std::log(second / first);
 }
 
-/// The same for the amplitude of a law that tends to one of this amplitude.
+/// The order of the error of the amplitude of a law that tends to one with the amplitude `limit`.
 double order(const std::function<Law(double parameter)>& law, double limit, double first, double second) {
   return order([&](double parameter) { return amplitude(law(parameter)) - limit; }, first, second);
 }

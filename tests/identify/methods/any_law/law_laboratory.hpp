@@ -45,7 +45,7 @@ struct LawRig {
 [[nodiscard]] Record law_record(LawRecord kind, const LawRig& rig, const identify::departures::Departure* departure,
                                 double severity, std::uint64_t seed);
 
-/// The same for given states.
+/// A record of given states.
 [[nodiscard]] Record states_record(const LawRig& rig, const identify::departures::Departure* departure,
                                    double severity, const std::vector<PlannedState>& states, bool phases,
                                    std::uint64_t seed);
