@@ -4,12 +4,13 @@
 #include <filesystem>
 #include <ostream>
 #include <system_error>
+#include <utility>
+#include <vector>
 
 #include "cli/guarded.hpp"
 #include "cli/report/asked_units.hpp"
 #include "cli/report/comparison.hpp"
 #include "cli/report/main_chart.hpp"
-#include "cli/report/mat_export.hpp"
 #include "cli/report/report.hpp"
 #include "cli/report/result_directory.hpp"
 #include "cli/report/stored_run.hpp"
@@ -17,6 +18,8 @@
 #include "core/diagnostics.hpp"
 #include "core/input_file.hpp"
 #include "scenarios/results/files.hpp"
+#include "scenarios/results/mat_file.hpp"
+#include "scenarios/results/table.hpp"
 
 namespace dualdamp::cli {
 
@@ -34,6 +37,20 @@ std::string write_file(const std::string& file, const scenarios::Writer& writer)
   return messages + "wrote " + file + "\n";
 }
 
+/// A stored table as a run had it.
+scenarios::Table table_of(const StoredRun& run, const std::string& name) {
+  scenarios::Table table{.name = name};
+  for (StoredColumn& column : run.table(name).columns) {
+    scenarios::Column& added = table.columns.emplace_back();
+    added.kind = column.is_text ? scenarios::CellKind::text : scenarios::CellKind::number;
+    added.name = std::move(column.name);
+    added.unit = std::move(column.unit);
+    added.numbers = std::move(column.numbers);
+    added.texts = std::move(column.texts);
+  }
+  return table;
+}
+
 }  // namespace
 
 std::string plot_result(const std::string& directory, const std::string& file, const std::string& units) {
@@ -45,7 +62,10 @@ std::string plot_result(const std::string& directory, const std::string& file, c
 
 std::string export_result(const std::string& directory, const std::string& file) {
   const StoredRun run(directory);
-  return write_file(file, mat_writer(run));
+  std::vector<scenarios::Table> tables;
+  for (const fs::path& path : run.tables()) tables.push_back(table_of(run, path.stem().string()));
+  return write_file(
+      file, [&](std::ostream& out) { scenarios::write_mat(out, tables, run.document().at("provenance").dump()); });
 }
 
 void add_files(CommandOutput& output, const std::string& directory, const ResultFiles& files) {

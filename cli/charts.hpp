@@ -14,8 +14,8 @@ namespace dualdamp::cli {
 [[nodiscard]] std::string plot_result(const std::string& directory, const std::string& file,
                                       const std::string& units = {});
 
-/// Writes the tables of a result directory into a MATLAB file (`cli/report/mat_export.hpp`). Returns a message.
-/// Errors: `core::InputError` if there is no result or a table was changed, `scenarios::OutputError`.
+/// Writes the tables of a result directory into a MATLAB file (`scenarios/results/mat_file.hpp`). Returns a
+/// message. Errors: `core::InputError` if there is no result or a table was changed, `scenarios::OutputError`.
 [[nodiscard]] std::string export_result(const std::string& directory, const std::string& file);
 
 /// Both after a run, if they are asked for. If the result has no chart, a message is added to the output.

@@ -7,9 +7,9 @@
 #include <optional>
 #include <system_error>
 
-#include "cli/report/mat_export.hpp"
 #include "cli/report/report.hpp"
 #include "cli/report/stored_run.hpp"
+#include "scenarios/results/mat_file.hpp"
 
 namespace dualdamp::cli {
 
@@ -31,7 +31,7 @@ std::string_view mark_of(const fs::path& path) {
   if (path.extension() == ".html")
     return "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta "
            "http-equiv=\"Content-Security-Policy\" ";
-  if (path.extension() == ".mat") return mat_heading;
+  if (path.extension() == ".mat") return scenarios::mat_heading;
   return "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 ";
 }
 

@@ -1,4 +1,4 @@
-#include "cli/report/mat_export.hpp"
+#include "scenarios/results/mat_file.hpp"
 
 #include <matio.h>
 #include <sys/mman.h>
@@ -16,15 +16,15 @@
 #include <utility>
 #include <vector>
 
-namespace dualdamp::cli {
+#include "scenarios/results/files.hpp"
+
+namespace dualdamp::scenarios {
 
 namespace {
 
 using Variable = std::unique_ptr<matvar_t, decltype(&Mat_VarFree)>;
 
-[[noreturn]] void fail(const std::string& what) {
-  throw scenarios::OutputError("a MATLAB file cannot hold " + what);
-}
+[[noreturn]] void fail(const std::string& what) { throw OutputError("a MATLAB file cannot hold " + what); }
 
 Variable owned(matvar_t* variable, const std::string& what) {
   if (variable == nullptr) fail(what);
@@ -54,19 +54,19 @@ Variable text(const char* name, std::string value) {
   return owned(Mat_VarCreate(name, MAT_C_CHAR, MAT_T_UTF8, 2, size.data(), value.data(), 0), "a text");
 }
 
-Variable numbers(StoredColumn& column) {
+Variable numbers(const Column& column) {
   std::array<std::size_t, 2> size = {column.numbers.size(), 1};
   constexpr std::size_t most = std::numeric_limits<std::int32_t>::max();
   if (sizeof(double) * column.numbers.size() > most)
     fail("the " + std::to_string(size[0]) + " rows of " + column.name);
-  return owned(Mat_VarCreate(nullptr, MAT_C_DOUBLE, MAT_T_DOUBLE, 2, size.data(), column.numbers.data(), 0),
-               column.name);
+  std::vector<double> values = column.numbers;  // matio takes no constants
+  return owned(Mat_VarCreate(nullptr, MAT_C_DOUBLE, MAT_T_DOUBLE, 2, size.data(), values.data(), 0), column.name);
 }
 
-Variable texts(const StoredColumn& column) {
-  std::array<std::size_t, 2> size = {column.texts.size(), 1};
+Variable texts(const Column& column) {
+  std::array<std::size_t, 2> size = {column.size(), 1};
   std::vector<matvar_t*> cells;
-  for (const std::string& value : column.texts) cells.push_back(text(nullptr, value).release());
+  for (std::size_t row = 0; row < column.size(); ++row) cells.push_back(text(nullptr, column.text(row)).release());
   return owned(Mat_VarCreate(nullptr, MAT_C_CELL, MAT_T_CELL, 2, size.data(), cells.data(), 0), column.name);
 }
 
@@ -112,22 +112,22 @@ class MemoryFile {
 };
 
 /// The table and its units.
-std::pair<Variable, Variable> structs_of(StoredTable table, const std::string& name) {
+std::pair<Variable, Variable> structs_of(const Table& table, const std::string& name) {
   Struct columns(name);
   Struct units(name);
   Names names;
-  for (StoredColumn& column : table.columns) {
+  for (const Column& column : table.columns) {
     const std::string field = names.valid(column.name);
-    columns.add(field, column.is_text ? texts(column) : numbers(column));
+    columns.add(field, column.kind == CellKind::text ? texts(column) : numbers(column));
     units.add(field, text(nullptr, column.unit));
   }
   return {columns.take(), units.take()};
 }
 
 /// The file is whole when this returns.
-void write_to(const std::string& file_name, const StoredRun& run) {
-  const std::unique_ptr<mat_t, decltype(&Mat_Close)> file(
-      Mat_CreateVer(file_name.c_str(), mat_heading, MAT_FT_MAT5), Mat_Close);
+void write_to(const std::string& path, const std::vector<Table>& tables, const std::string& provenance) {
+  const std::unique_ptr<mat_t, decltype(&Mat_Close)> file(Mat_CreateVer(path.c_str(), mat_heading, MAT_FT_MAT5),
+                                                          Mat_Close);
   if (!file) fail("anything: there is no memory for it");
   const auto write = [&](const Variable& variable) {
     if (Mat_VarWrite(file.get(), variable.get(), MAT_COMPRESSION_ZLIB) != 0) fail(variable->name);
@@ -135,24 +135,22 @@ void write_to(const std::string& file_name, const StoredRun& run) {
   Struct units("units");
   Names names;
   for (const char* const taken : {"units", "provenance"}) names.valid(taken);
-  for (const std::filesystem::path& path : run.tables()) {
-    const std::string name = names.valid(path.stem().string());
-    auto [table, table_units] = structs_of(run.table(path.stem().string()), name);
-    write(table);
-    units.add(name, std::move(table_units));
+  for (const Table& table : tables) {
+    const std::string name = names.valid(table.name);
+    auto [columns, their_units] = structs_of(table, name);
+    write(columns);
+    units.add(name, std::move(their_units));
   }
   write(units.take());
-  write(text("provenance", run.document().at("provenance").dump()));
+  write(text("provenance", provenance));
 }
 
 }  // namespace
 
-scenarios::Writer mat_writer(const StoredRun& run) {
-  return [&run](std::ostream& out) {
-    const MemoryFile memory;
-    write_to(memory.path(), run);
-    memory.copy_to(out);
-  };
+void write_mat(std::ostream& out, const std::vector<Table>& tables, const std::string& provenance) {
+  const MemoryFile memory;
+  write_to(memory.path(), tables, provenance);
+  memory.copy_to(out);
 }
 
-}  // namespace dualdamp::cli
+}  // namespace dualdamp::scenarios
