@@ -67,7 +67,8 @@ Variable texts(const Column& column) {
   std::array<std::size_t, 2> size = {column.size(), 1};
   std::vector<matvar_t*> cells;
   for (std::size_t row = 0; row < column.size(); ++row) cells.push_back(text(nullptr, column.text(row)).release());
-  return owned(Mat_VarCreate(nullptr, MAT_C_CELL, MAT_T_CELL, 2, size.data(), cells.data(), 0), column.name);
+  return owned(Mat_VarCreate(nullptr, MAT_C_CELL, MAT_T_CELL, 2, size.data(), static_cast<void*>(cells.data()), 0),
+               column.name);
 }
 
 /// A struct to which fields are added.
