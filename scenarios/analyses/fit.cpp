@@ -251,6 +251,7 @@ const Analysis& fit_analysis() {
       .needs = {{"", excitations().names(), {}, false, ""}},
       .results = joined(joined(fit_fields(), validation_fields("validation.")),
                         {{"verdict", "", "verdict of the validation"}}),
+      .chart = {.overlay = "fit"},
       .seeks_laws = true,
       .check = check_fit,
       .ask = ask_fit};
