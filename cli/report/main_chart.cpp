@@ -7,7 +7,6 @@
 #include <numeric>
 #include <ranges>
 #include <set>
-#include <tuple>
 
 #include "bench/analyses.hpp"
 #include "cli/report/overlay.hpp"
@@ -83,11 +82,10 @@ std::vector<Group> groups_of(const StoredTable& table, std::string_view by) {
   return groups;
 }
 
-/// All rows of a column, as one line.
-std::vector<Rows> rows_of(const StoredColumn& column) {
+Rows rows_of(const StoredColumn& column) {
   Rows rows(column.numbers.size());
   std::iota(rows.begin(), rows.end(), std::size_t{0});
-  return {std::move(rows)};
+  return rows;
 }
 
 /// The lines of rows that follow each other.
@@ -225,14 +223,14 @@ class ChartMaker {
     chart_.x.is_whole = is_otherwise;
     chart_.y.label = std::string(spec.y_label);
     const std::vector<Group> groups = groups_of(table, spec.by);
+    const bool is_line = spec.kind == MainChart::Kind::line;
     for (const Group& group : groups)
       add(group.label, *x, *y, kind_of(spec.kind),
-          spec.kind == MainChart::Kind::line ? runs_of(group.rows) : std::vector<Rows>{group.rows});
-    if (groups.empty()) add(y->name, *x, *y, kind_of(spec.kind), rows_of(*x));
+          is_line ? lines_of(*x, group.rows) : std::vector<Rows>{group.rows});
+    if (groups.empty()) add(y->name, *x, *y, kind_of(spec.kind), {ordered(*x, rows_of(*x))});
     if (const StoredColumn* further = spec.further.empty() ? nullptr : table.find(spec.further))
       add(further->name, *x, *further, spec.kind == MainChart::Kind::points ? SeriesKind::line : SeriesKind::dashed,
-          rows_of(*x));
-    if (spec.kind == MainChart::Kind::points) sort_lines();
+          {ordered(*x, rows_of(*x))});
     finish(*x, *y);
     return true;
   }
@@ -259,15 +257,14 @@ class ChartMaker {
     return true;
   }
 
-  /// Sorts the points, because data may be in any order and a line needs them in order.
-  void sort_lines() {
-    for (ChartSeries& series : chart_.series) {
-      if (series.kind == SeriesKind::points) continue;
-      std::vector<std::pair<double, double>> points;
-      for (std::size_t i = 0; i < series.x.size(); ++i) points.emplace_back(series.x[i], series.y[i]);
-      std::ranges::sort(points);
-      for (std::size_t i = 0; i < points.size(); ++i) std::tie(series.x[i], series.y[i]) = points[i];
-    }
+  /// Rows as a line joins them.
+  [[nodiscard]] Rows ordered(const StoredColumn& x, Rows rows) const {
+    return analysis_->chart.is_by_x ? in_order_of(x, std::move(rows)) : std::move(rows);
+  }
+
+  /// The lines of a group: one in the order of x, or those of rows that follow each other.
+  [[nodiscard]] std::vector<Rows> lines_of(const StoredColumn& x, const Rows& rows) const {
+    return analysis_->chart.is_by_x ? std::vector<Rows>{in_order_of(x, rows)} : runs_of(rows);
   }
 
   void finish(const StoredColumn& x, const StoredColumn& y) {
@@ -288,7 +285,7 @@ class ChartMaker {
       if (numbers.size() < 2) continue;
       chart_.x.label = numbers[0]->name;
       chart_.y.label = numbers[1]->name;
-      add(numbers[1]->name, *numbers[0], *numbers[1], SeriesKind::line, rows_of(*numbers[0]));
+      add(numbers[1]->name, *numbers[0], *numbers[1], SeriesKind::line, {rows_of(*numbers[0])});
       finish(*numbers[0], *numbers[1]);
       return true;
     }
@@ -329,7 +326,7 @@ class ChartMaker {
     for (const Group& group : all) {
       std::string label = label_of(points, group.label);
       if (drawn.contains(static_cast<std::size_t>(*core::parse_number(group.label).value)))
-        add(std::move(label), x, y, SeriesKind::line, {group.rows});
+        add(std::move(label), x, y, SeriesKind::line, {ordered(x, group.rows)});
     }
     if (const std::size_t shown = chart_.series.size(); shown < all.size())
       chart_.note = std::to_string(shown) + " of " + std::to_string(all.size()) + " curves";
@@ -354,9 +351,9 @@ class ChartMaker {
       add(keys.back().substr(keys.back().rfind('.') + 1) + " = " +
               core::format_number(other.numbers[group.rows.front()], 6) +
               (other.unit.empty() ? "" : " " + other.unit),
-          x, *y, SeriesKind::line, {group.rows});
+          x, *y, SeriesKind::line, {in_order_of(x, group.rows)});
     }
-    if (chart_.series.empty()) add(y->name, x, *y, SeriesKind::line, rows_of(x));
+    if (chart_.series.empty()) add(y->name, x, *y, SeriesKind::line, {in_order_of(x, rows_of(x))});
     chart_.x.is_log = is_geometric(x.numbers);
     chart_.x.unit = x.unit;
     chart_.x.written_for = {x.unit, 1.0};
@@ -379,6 +376,7 @@ std::optional<SweptCurves> swept_curves(const StoredRun& run) {
   return SweptCurves{.table = "sweep_" + std::string(analysis->chart.list),
                      .x = std::string(analysis->chart.x),
                      .y = std::string(analysis->chart.y),
+                     .is_by_x = analysis->chart.is_by_x,
                      .points = points_drawn(run)};
 }
 
