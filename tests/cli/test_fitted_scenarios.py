@@ -48,6 +48,44 @@ class FittedScenarios(case.Case):
         largest = max(abs(x) for x in fitted)
         self.assertLess(max(abs(a - b) for a, b in zip(fitted, motion)), 1e-11 * largest)
 
+    def states(self, name, levels, frequencies, pairs=None):
+        """Pairs at several amplitudes and frequencies, in any order; `pairs`: numbers of those that are measured."""
+        listed = ", ".join(f"{omega} rad/s" for omega in frequencies)
+        self.write("made/states.yaml", "schema: dualdamp/1\nsystem: {mass: 1 kg, stiffness: 1000 N/m, damping: 2 N.s/m, friction: {law: coulomb, kinetic: 0.5 N}}\n"
+                   f"excitation: {{type: base_harmonic}}\nanalysis: {{type: frequency_response, frequencies: [{listed}]}}\nsweep: {{excitation.amplitude: {levels}}}\n")
+        self.run_program("run", "made/states.yaml", "--out", "made/states", "--overwrite")
+        made = self.table("made/states/sweep_points.csv")
+        rows = [f"{omega!r},{level!r},{x * (1 + 1e-4 * math.sin(613.0 * i * i))!r}" for i, (omega, level, x) in enumerate(zip(made["omega"], made["excitation.amplitude"], made["x"]))]
+        chosen = [rows[i] for i in pairs or range(len(rows))]
+        self.write(name, "\n".join(["omega [rad/s],Y [m],x [m]", *chosen[1::2], *chosen[::2]]) + "\n")
+
+    def test_of_steady_states_at_several_frequencies_and_amplitudes(self):
+        """All of them, by curves over the quantity with more values: the scenario had given those at the first frequency alone."""
+        for levels, frequencies, over, swept in ((3, 5, "omega", "excitation.amplitude"), (5, 3, "Y", "excitation.frequency")):
+            self.states("grid.csv", [0.003 + 0.002 * i for i in range(levels)], [24.0 + 2.5 * i for i in range(frequencies)])
+            result = self.run_program("fit", "coulomb", "grid.csv", *CONSTANTS, "--no-profile", "--out", "fit")
+            self.assertNotIn("does not give", result.stderr)
+            self.assertNotIn("Of the fitted states", (self.folder / "fit/fitted.yaml").read_text())
+            self.run_program("run", "fit/fitted.yaml", "--out", "again", "--overwrite")
+            again, fit = self.table("again/sweep_points.csv"), self.table("fit/fit_0_x.csv")
+            beside = "Y" if over == "omega" else "omega"
+            states = {(a, b): x for a, b, x in zip(again[over], again[swept], again["x"])}
+            self.assertEqual(len(states), 15)
+            for a, b, fitted in zip(fit[over], fit[beside], fit["fitted"]):
+                self.assertAlmostEqual(states[a, b] / fitted, 1.0, delta=1e-6)
+
+    def test_of_scattered_steady_states(self):
+        """What the scenario gives beyond the states, or leaves out, is said."""
+        self.states("few.csv", [0.003, 0.005, 0.007], [24.0, 27.0, 30.0, 33.0], [0, 1, 2, 3, 5, 6, 10, 11])
+        self.run_program("fit", "coulomb", "few.csv", *CONSTANTS, "--no-profile", "--out", "fit")
+        self.assertIn("# Of the fitted states: it also gives states that were not measured", (self.folder / "fit/fitted.yaml").read_text())
+        count = 12  # each amplitude at a frequency of its own
+        self.states("own.csv", [0.003 + 4e-4 * i for i in range(count)], [24.0 + i for i in range(count)], [i * count + i for i in range(count)])
+        said = self.run_program("fit", "coulomb", "own.csv", *CONSTANTS, "--no-profile", "--out", "fit").stderr
+        told = "it gives the states at 25 rad/s alone: each amplitude was measured at few of the 12 frequencies"
+        self.assertIn("fitted.yaml does not give the whole fitted curve: " + told, " ".join(said.split()))
+        self.assertIn(told, (self.folder / "fit/fitted.yaml").read_text())
+
     def test_of_a_record_elsewhere_with_its_drive(self):
         path = self.record("data/far/run.csv", 4.0)
         self.run_program("fit", "coulomb", path, *CONSTANTS, "--no-profile", "--out", "fit")
