@@ -162,12 +162,34 @@ class FittedScenarios(case.Case):
             self.assertLessEqual({"mass", "damping", "kinetic"}, set(parameters[-1]))
         self.assertEqual(parameters[0], parameters[1])
 
-    def test_laws_that_are_compared_have_no_stated_parameter(self):
-        """One error, with the reason."""
+    def test_a_parameter_of_one_of_several_laws_can_be_stated_and_freed(self):
+        """By the name of the law, or by its own name if one law has it. Each fit is then that of the law alone."""
         path = self.record("run.csv", 4.0)
-        refused = self.run_program("fit", "coulomb,stribeck", path, *CONSTANTS, "--set", "system.friction.exponent=1", status=3).stderr
-        self.assertIn("of laws that are compared, every parameter is sought, and none is stated", refused)
-        self.assertNotIn("system.friction.law", refused)
+
+        def fitted(laws, *more, status=0):
+            said = self.run_program("fit", laws, path, *CONSTANTS, *more, "--no-profile", "--json", "--out", "fit", status=status)
+            if status:
+                return said.stderr
+            return {row["law"]: row for row in json.loads(said.stdout)["result"]["laws"]}
+
+        alone = fitted("stribeck", "--set", "system.friction.exponent=1.5", "--set", "stribeck.stribeck_velocity=20 mm/s", "--free", "exponent")
+        for settings in (("stribeck.exponent=1.5", "stribeck.stribeck_velocity=20 mm/s"), ("system.friction.exponent=1.5", "system.friction.stribeck_velocity=20 mm/s")):
+            both = fitted("coulomb,stribeck", *(word for one in settings for word in ("--set", one)), "--free", "stribeck.exponent")
+            self.assertEqual(both["stribeck"]["parameters"], alone["stribeck"]["parameters"])
+            self.assertAlmostEqual(both["stribeck"]["rms"] / alone["stribeck"]["rms"], 1.0, delta=1e-6)
+            self.assertEqual(both["coulomb"]["parameters"], 4)  # damping, kinetic, position, velocity
+
+        for setting, told in (("system.friction.kinetic=1 N", "'kinetic' is a parameter of several laws: write coulomb.kinetic or stribeck.kinetic"),
+                              ("system.friction.sigma0=1 N/m", "no law of this fit has a parameter 'sigma0'"),
+                              ("stribeck.sigma0=1 N/m", "no law of this fit has a parameter 'stribeck.sigma0'"),
+                              ("stribeck.kinetic=-1 N", "'-1 N' of stribeck.kinetic: allowed is >= 0 N"),
+                              ("stribeck.kinetic=1 kg", "'1 kg' of stribeck.kinetic: ")):
+            self.assertIn(told, fitted("coulomb,stribeck", "--set", setting, status=3))
+        self.assertIn("'friction.kinetic' has bounds and is not sought", fitted("coulomb,stribeck", "--set", "stribeck.kinetic=1 N", "--set", "analysis.bounds=[{name: stribeck.kinetic, low: 0.1 N}]", status=3))
+        self.assertIn("unless 'analysis.stated' states it", fitted("coulomb,stribeck", "--set", "system.friction={law: dahl}", status=3))
+        self.write("fit.yaml", "schema: dualdamp/1\nsystem: {mass: 1 kg, stiffness: 1000 N/m, damping: 2 N.s/m, friction: {law: coulomb}}\n"
+                   f"analysis: {{type: fit, data: {path.name}, stated: [{{name: kinetic, value: 1 N}}]}}\n")
+        self.assertIn("'stated' is for laws that are compared", self.run_program("run", "fit.yaml", status=3).stderr)
 
     def test_a_zero_within_the_friction_is_named_as_a_cause(self):
         """The mean of the residuals says nothing of it: they are those of a slow motion, and few of them are independent."""
