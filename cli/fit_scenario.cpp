@@ -71,7 +71,28 @@ void add_drive(const RecordOptions& command, bool replaces, scenarios::LoadOptio
     if (!command.frequency.empty()) say(".frequency=" + command.frequency, "--frequency");
     if (!command.amplitude.empty()) say(".amplitude=" + command.amplitude, "--amplitude");
   }
-  for (const std::string& assignment : command.set) options.set.push_back({assignment, "--set"});
+}
+
+void add_settings(const std::vector<std::string>& settings, scenarios::LoadOptions& options) {
+  for (const std::string& assignment : settings) options.set.push_back({assignment, "--set"});
+}
+
+/// Takes `--set LAW.NAME=VALUE` for one of the laws out of the settings. Of several laws, those of the friction
+/// without a law too: `analysis.stated` finds the law that has such a parameter.
+void add_stated(const std::string& laws, std::vector<std::string>& settings, scenarios::LoadOptions& options) {
+  const bool are_several = laws.find(',') != std::string::npos;
+  const std::string friction = "system.friction.";
+  std::string stated;
+  std::erase_if(settings, [&](std::string& setting) {
+    const std::string law = setting.substr(0, setting.find('.'));
+    const bool names_law = ("," + laws + ",").find("," + law + ",") != std::string::npos;
+    if (names_law && !are_several) setting = friction + setting.substr(law.size() + 1);
+    if (!are_several || !(names_law || setting.starts_with(friction))) return false;
+    const auto [name, value] = split_at_equals(names_law ? setting : setting.substr(friction.size()));
+    stated += (stated.empty() ? "" : ", ") + ("{name: " + in_quotes(name)) + ", value: " + in_quotes(value) + "}";
+    return true;
+  });
+  if (!stated.empty()) options.set.push_back({"analysis.stated=[" + stated + "]", "--set"});
 }
 
 [[noreturn]] void refuse_result(const std::string& file, std::string message) {
@@ -129,6 +150,9 @@ scenarios::Scenario scenario_of(const FitCommand& command) {
   if (command.robust) options.set.push_back({"analysis.robust=true", "--robust"});
   if (command.no_profile) options.set.push_back({"analysis.profile=false", "--no-profile"});
   add_drive(command, false, options);
+  std::vector<std::string> settings = command.set;
+  add_stated(command.law, settings, options);
+  add_settings(settings, options);
   return scenario_about(command.data.front(), "fit", options);
 }
 
@@ -142,6 +166,7 @@ scenarios::Scenario prediction_by(const Json& document, const PredictCommand& co
   options.set = {{"analysis=" + prediction_of(result, command), "DATA"}};
   const auto rig = result.at("rig").get<std::string>();
   add_drive(command, !has_harmonic_base(rig, command.result), options);
+  add_settings(command.set, options);
   scenarios::Scenario prediction = scenarios::parse_scenario(rig, command.result, options);
   prediction.file = command.data.front();
   return prediction;

@@ -106,7 +106,7 @@ struct CheckedValues {
   core::SettingWords words = {};  ///< how messages name what a user may state
 };
 
-/// The main chart of a result: columns of one of its lists.
+/// The main chart of a result: columns of one of its lists, or measured and computed curves over each other.
 struct MainChart {
   std::string_view table;  ///< name of the list as a CSV file; empty: the list is only in the result
   std::string_view list;   ///< its path in the result; empty: it is only a file
@@ -118,7 +118,9 @@ struct MainChart {
   std::string_view by = {};       ///< rows that differ in this column are separate series
   enum class Kind { line, points, cells } kind = Kind::line;
   std::string_view x_otherwise = {};  ///< column, where there is no column x
+  bool is_by_x = false;               ///< the rows are in any order, and a line joins them in that of x
   std::string_view key = {};          ///< the key without which a run does not write the table
+  std::string_view overlay = {};      ///< instead of a list: begin of the names of the tables of such curves
 };
 
 struct Analysis {

@@ -25,12 +25,16 @@ enum class SeriesKind {
   cells,  ///< cells of a grid; the grid has the distinct x and y of all series
 };
 
+/// Number of the colour of measured points: grey.
+inline constexpr int colour_of_data = 6;
+
 struct ChartSeries {
   std::string label;
   std::vector<double> x;
   std::vector<double> y;  ///< of the length of x; NaN: no value
   SeriesKind kind = SeriesKind::line;
-  int colour = 0;  ///< number of its colour; related series have the same one
+  int colour = 0;            ///< number of its colour; related series have the same one
+  bool is_measured = false;  ///< data, which several results may share
 };
 
 struct Chart {

@@ -1,6 +1,7 @@
 #include "cli/report/comparison.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <memory>
 #include <optional>
@@ -273,10 +274,15 @@ class Comparison {
     int colour = 0;
     for (const Compared& one : compared_)
       if (!one.chart.note.empty()) chart_.title += "; " + one.label + ": " + one.chart.note;
+    const bool share_data = have_the_same_data();
     for (Compared& one : compared_) {
       const bool has_several = one.chart.series.size() > 1;
       bool is_first = true;
       for (ChartSeries& series : one.chart.series) {
+        if (series.is_measured && share_data) {
+          if (colour == 0) chart_.series.push_back(std::move(series));
+          continue;
+        }
         series.label = has_several ? one.label + ", " + series.label : one.label;
         series.colour = colour;
         if (!is_first && series.kind == SeriesKind::line) series.kind = SeriesKind::dashed;
@@ -287,6 +293,21 @@ class Comparison {
     }
     numbers_ = chart_;
     make_readable(chart_);
+  }
+
+  /// Whether all results have the same measured points, as fits of several laws to one record.
+  [[nodiscard]] bool have_the_same_data() const {
+    const auto data_of = [](const Compared& one) {
+      const auto found = std::ranges::find(one.chart.series, true, &ChartSeries::is_measured);
+      return found == one.chart.series.end() ? nullptr : &*found;
+    };
+    const ChartSeries* first = data_of(compared_.front());
+    const auto are_equal = [](double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); };
+    return first != nullptr && std::ranges::all_of(compared_, [&](const Compared& one) {
+             const ChartSeries* data = data_of(one);
+             return data != nullptr && std::ranges::equal(data->x, first->x, are_equal) &&
+                    std::ranges::equal(data->y, first->y, are_equal);
+           });
   }
 
   Json analysis_;  ///< its name

@@ -7,9 +7,9 @@
 #include <numeric>
 #include <ranges>
 #include <set>
-#include <tuple>
 
 #include "bench/analyses.hpp"
+#include "cli/report/overlay.hpp"
 #include "core/diagnostics.hpp"
 #include "core/numbers.hpp"
 #include "scenarios/format/excitations.hpp"
@@ -62,7 +62,7 @@ const StoredColumn& needed(const StoredTable& table, const std::string& name) {
 /// The rows with one value of a column, in order.
 struct Group {
   std::string label;
-  std::vector<std::size_t> rows;
+  Rows rows;
 };
 
 std::vector<Group> groups_of(const StoredTable& table, std::string_view by) {
@@ -82,11 +82,28 @@ std::vector<Group> groups_of(const StoredTable& table, std::string_view by) {
   return groups;
 }
 
-/// All rows of a column.
-std::vector<std::size_t> rows_of(const StoredColumn& column) {
-  std::vector<std::size_t> rows(column.numbers.size());
+Rows rows_of(const StoredColumn& column) {
+  Rows rows(column.numbers.size());
   std::iota(rows.begin(), rows.end(), std::size_t{0});
   return rows;
+}
+
+/// The lines of rows that follow each other.
+std::vector<Rows> runs_of(const Rows& rows) {
+  std::vector<Rows> lines;
+  for (const std::size_t row : rows) {
+    if (lines.empty() || row != lines.back().back() + 1) lines.emplace_back();
+    lines.back().push_back(row);
+  }
+  return lines;
+}
+
+/// What the axis of a column of measured and computed curves shows.
+std::string label_of_axis(const std::string& column) {
+  static const std::map<std::string, std::string> labels = {
+      {"t", "time t"}, {"Y", "input amplitude Y"}, {"omega", "frequency"}, {"x", "displacement x"}};
+  const auto found = labels.find(column);
+  return found == labels.end() ? column : found->second;
 }
 
 /// Empty if the document is that of a scenario that was refused.
@@ -169,17 +186,19 @@ class ChartMaker {
       for (double& value : series.*list) value *= shown->second.factor;
   }
 
-  /// `breaks`: the line gets a gap where rows of another series lie between.
+  /// Adds a series with a gap between its lines.
   void add(std::string label, const StoredColumn& x, const StoredColumn& y, SeriesKind kind,
-           const std::vector<std::size_t>& rows, bool breaks) {
+           const std::vector<Rows>& lines) {
     ChartSeries series{.label = std::move(label), .kind = kind, .colour = static_cast<int>(chart_.series.size())};
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-      if (breaks && i > 0 && rows[i] != rows[i - 1] + 1) {
+    for (const Rows& line : lines) {
+      if (!series.x.empty()) {
         series.x.push_back(scenarios::none);
         series.y.push_back(scenarios::none);
       }
-      series.x.push_back(x.numbers[rows[i]]);
-      series.y.push_back(y.numbers[rows[i]]);
+      for (const std::size_t row : line) {
+        series.x.push_back(x.numbers[row]);
+        series.y.push_back(y.numbers[row]);
+      }
     }
     chart_.series.push_back(std::move(series));
   }
@@ -192,6 +211,7 @@ class ChartMaker {
 
   bool ordinary() {
     const MainChart& spec = analysis_->chart;
+    if (!spec.overlay.empty()) return overlay();
     const StoredTable table = spec.table.empty() ? run_.list(spec.list) : run_.table(spec.table);
     if (spec.x.empty()) return first_columns();
     const StoredColumn* x = table.find(spec.x);
@@ -203,26 +223,48 @@ class ChartMaker {
     chart_.x.is_whole = is_otherwise;
     chart_.y.label = std::string(spec.y_label);
     const std::vector<Group> groups = groups_of(table, spec.by);
+    const bool is_line = spec.kind == MainChart::Kind::line;
     for (const Group& group : groups)
-      add(group.label, *x, *y, kind_of(spec.kind), group.rows, spec.kind == MainChart::Kind::line);
-    if (groups.empty()) add(y->name, *x, *y, kind_of(spec.kind), rows_of(*x), false);
+      add(group.label, *x, *y, kind_of(spec.kind),
+          is_line ? lines_of(*x, group.rows) : std::vector<Rows>{group.rows});
+    if (groups.empty()) add(y->name, *x, *y, kind_of(spec.kind), {ordered(*x, rows_of(*x))});
     if (const StoredColumn* further = spec.further.empty() ? nullptr : table.find(spec.further))
       add(further->name, *x, *further, spec.kind == MainChart::Kind::points ? SeriesKind::line : SeriesKind::dashed,
-          rows_of(*x), false);
-    if (spec.kind == MainChart::Kind::points) sort_lines();
+          {ordered(*x, rows_of(*x))});
     finish(*x, *y);
     return true;
   }
 
-  /// Sorts the points, because data may be in any order and a line needs them in order.
-  void sort_lines() {
-    for (ChartSeries& series : chart_.series) {
-      if (series.kind == SeriesKind::points) continue;
-      std::vector<std::pair<double, double>> points;
-      for (std::size_t i = 0; i < series.x.size(); ++i) points.emplace_back(series.x[i], series.y[i]);
-      std::ranges::sort(points);
-      for (std::size_t i = 0; i < points.size(); ++i) std::tie(series.x[i], series.y[i]) = points[i];
-    }
+  /// The measured points of the first record, and the curve that was computed for them.
+  bool overlay() {
+    const std::optional<Overlay> found = overlay_of(run_, analysis_->chart.overlay);
+    if (!found) return false;
+    const StoredColumn& x = needed(found->table, found->x);
+    StoredColumn measured = needed(found->table, "measured");
+    measured.name = found->signal;  // it says what a unit is of
+    add("measured", x, measured, found->is_dense ? SeriesKind::line : SeriesKind::points, found->lines);
+    chart_.series.back().colour = colour_of_data;
+    chart_.series.back().is_measured = true;
+    add(found->computed, x, needed(found->table, found->computed),
+        found->is_dense ? SeriesKind::dashed : SeriesKind::line, found->lines);
+    chart_.series.back().colour = 0;
+    if (found->records > 1) chart_.note = "the first of " + std::to_string(found->records) + " records";
+    chart_.x.label = label_of_axis(found->x);
+    chart_.x.is_whole = found->x == "number";
+    const bool is_amplitude = found->x == "Y" || found->x == "omega";
+    chart_.y.label = is_amplitude ? "output amplitude x" : label_of_axis(found->signal);
+    finish(x, measured);
+    return true;
+  }
+
+  /// Rows as a line joins them.
+  [[nodiscard]] Rows ordered(const StoredColumn& x, Rows rows) const {
+    return analysis_->chart.is_by_x ? in_order_of(x, std::move(rows)) : std::move(rows);
+  }
+
+  /// The lines of a group: one in the order of x, or those of rows that follow each other.
+  [[nodiscard]] std::vector<Rows> lines_of(const StoredColumn& x, const Rows& rows) const {
+    return analysis_->chart.is_by_x ? std::vector<Rows>{in_order_of(x, rows)} : runs_of(rows);
   }
 
   void finish(const StoredColumn& x, const StoredColumn& y) {
@@ -243,7 +285,7 @@ class ChartMaker {
       if (numbers.size() < 2) continue;
       chart_.x.label = numbers[0]->name;
       chart_.y.label = numbers[1]->name;
-      add(numbers[1]->name, *numbers[0], *numbers[1], SeriesKind::line, rows_of(*numbers[0]), false);
+      add(numbers[1]->name, *numbers[0], *numbers[1], SeriesKind::line, {rows_of(*numbers[0])});
       finish(*numbers[0], *numbers[1]);
       return true;
     }
@@ -284,7 +326,7 @@ class ChartMaker {
     for (const Group& group : all) {
       std::string label = label_of(points, group.label);
       if (drawn.contains(static_cast<std::size_t>(*core::parse_number(group.label).value)))
-        add(std::move(label), x, y, SeriesKind::line, group.rows, false);
+        add(std::move(label), x, y, SeriesKind::line, {ordered(x, group.rows)});
     }
     if (const std::size_t shown = chart_.series.size(); shown < all.size())
       chart_.note = std::to_string(shown) + " of " + std::to_string(all.size()) + " curves";
@@ -309,9 +351,9 @@ class ChartMaker {
       add(keys.back().substr(keys.back().rfind('.') + 1) + " = " +
               core::format_number(other.numbers[group.rows.front()], 6) +
               (other.unit.empty() ? "" : " " + other.unit),
-          x, *y, SeriesKind::line, group.rows, false);
+          x, *y, SeriesKind::line, {in_order_of(x, group.rows)});
     }
-    if (chart_.series.empty()) add(y->name, x, *y, SeriesKind::line, rows_of(x), false);
+    if (chart_.series.empty()) add(y->name, x, *y, SeriesKind::line, {in_order_of(x, rows_of(x))});
     chart_.x.is_log = is_geometric(x.numbers);
     chart_.x.unit = x.unit;
     chart_.x.written_for = {x.unit, 1.0};
@@ -334,6 +376,7 @@ std::optional<SweptCurves> swept_curves(const StoredRun& run) {
   return SweptCurves{.table = "sweep_" + std::string(analysis->chart.list),
                      .x = std::string(analysis->chart.x),
                      .y = std::string(analysis->chart.y),
+                     .is_by_x = analysis->chart.is_by_x,
                      .points = points_drawn(run)};
 }
 

@@ -19,8 +19,9 @@ namespace dualdamp::cli {
 /// The table of a sweep whose rows are a curve for each point, and what of it is drawn.
 struct SweptCurves {
   std::string table;
-  std::string x;  ///< column
-  std::string y;  ///< column
+  std::string x;         ///< column
+  std::string y;         ///< column
+  bool is_by_x = false;  ///< a curve joins its points in the order of x, else in that of the rows
   std::set<std::size_t> points;
 };
 /// Nothing if the analysis that is swept draws no list of its result as a line.

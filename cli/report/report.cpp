@@ -48,8 +48,11 @@ Json document(const StoredRun& run) {
       json["shown_units"][si] = {{"unit", shown.unit}, {"factor", shown.factor}, {"asked", shown.is_asked}};
     const auto curves = json.at("result").contains("sweep") ? swept_curves(run) : std::nullopt;
     if (curves)
-      json["swept_curves"] = {
-          {"name", curves->table}, {"x", curves->x}, {"y", curves->y}, {"points", curves->points}};
+      json["swept_curves"] = {{"name", curves->table},
+                              {"x", curves->x},
+                              {"y", curves->y},
+                              {"by_x", curves->is_by_x},
+                              {"points", curves->points}};
   });
   return json;
 }

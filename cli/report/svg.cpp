@@ -235,7 +235,9 @@ class Drawing {
   [[nodiscard]] static std::string stroke(const ChartSeries& series) {
     const auto index = static_cast<std::size_t>(series.colour);
     const std::size_t paint = index % paints.size();
-    const std::string_view dash = series.kind == SeriesKind::dashed ? "6 4" : dashes[index % dashes.size()];
+    const std::string_view dash = series.kind == SeriesKind::dashed ? "6 4"
+                                  : series.is_measured              ? ""
+                                                                    : dashes[index % dashes.size()];
     return fmt::format("class=\"s{}\" stroke=\"{}\" fill=\"none\" stroke-width=\"1.6\" stroke-linejoin=\"round\"{}",
                        paint, paints[paint].light,
                        dash.empty() ? "" : fmt::format(" stroke-dasharray=\"{}\"", dash));

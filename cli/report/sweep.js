@@ -17,7 +17,7 @@ function sweptNumbers() {
 function overOneKey(key) {
   return sweptNumbers().map(({ name }, i) => chart({
     title: name, wide: i === 0, x: sweptAxis(key), y: axis("sweep", name),
-    series: [series("sweep", key, name, { label: name, width: 1, colour: 6 }), series("sweep", key, name, { label: name, kind: "points" })],
+    series: [inOrder(series("sweep", key, name, { label: name, width: 1, colour: 6 })), series("sweep", key, name, { label: name, kind: "points" })],
   }));
 }
 
@@ -26,8 +26,8 @@ function curvesOverKeys([key, other]) {
   const few = distinct(values("sweep", other));
   return sweptNumbers().map(({ name }, i) => chart({
     title: name, wide: i === 0, x: sweptAxis(key), y: axis("sweep", name),
-    series: few.flatMap((value, n) => ["line", "points"].map((kind) => part("sweep", key, name, (get) => get(other) === value,
-      { label: `${other.split(".").pop()} = ${short(value)} ${unitOf("sweep", other)}`.trim(), colour: n, kind, width: 1 }))),
+    series: few.flatMap((value, n) => ["line", "points"].map((kind) => inOrder(part("sweep", key, name, (get) => get(other) === value,
+      { label: `${other.split(".").pop()} = ${short(value)} ${unitOf("sweep", other)}`.trim(), colour: n, kind, width: 1 })))),
   }));
 }
 
@@ -61,7 +61,7 @@ function mapOf({ name, unit, values: list }, keys) {
 }
 
 /** A selection of the curves, if there are many. */
-function curvesOf({ name, x, y, points }) {
+function curvesOf({ name, x, y, by_x: isByX, points }) {
   const swept = Object.keys(run.scenario.sweep);
   const all = distinct(values(name, "point"));
   const shown = all.filter((point) => points.includes(point));
@@ -69,7 +69,7 @@ function curvesOf({ name, x, y, points }) {
   return chart({
     title: `${y} over ${x}`, wide: true, note: shown.length < all.length ? `${shown.length} of ${all.length} curves; all are in ${name}.csv` : null,
     x: axis(name, x), y: axis(name, y),
-    series: shown.map((point, i) => part(name, x, y, (get) => get("point") === point, { label: label(point), colour: shown.length <= 7 ? i : ramp(i / (shown.length - 1)) })),
+    series: shown.map((point, i) => part(name, x, y, (get) => get("point") === point, { label: label(point), colour: shown.length <= 7 ? i : ramp(i / (shown.length - 1)) })).map((one) => (isByX ? inOrder(one) : one)),
   });
 }
 

@@ -18,6 +18,12 @@ function part(name, x, y, keep, more) {
   return { x: rows.map((i) => xs[i]), y: rows.map((i) => ys[i]), ...more };
 }
 
+/** A series in the order of x: steady states stand in their table in any order. */
+function inOrder({ x, y, ...more }) {
+  const rows = x.map((_, i) => i).sort((a, b) => x[a] - x[b]);
+  return { x: rows.map((i) => x[i]), y: rows.map((i) => y[i]), ...more };
+}
+
 /** A line with a gap where it jumps from one row to the next, since the motion between two samples is not known. */
 function broken({ x, y, ...more }) {
   const [low, high] = y.reduce(([a, b], v) => (v === null ? [a, b] : [Math.min(a, v), Math.max(b, v)]), [Infinity, -Infinity]);
@@ -38,7 +44,7 @@ function steppedView(name, over, label) {
   const ways = [["up", 0, "line"], ["down", 1, "dashed"]].filter(([way]) => tables[name].get("direction").texts.includes(way));
   const ofBoth = (column) => ways.flatMap(([way, colour, kind]) => {
     const here = (get) => get("direction") === way;
-    const shown = part(name, over, column, here, { label: way, colour, kind });
+    const shown = inOrder(part(name, over, column, here, { label: way, colour, kind }));
     return [shown, { ...shown, kind: "points", size: shown.x.length > 200 ? 1 : 2.5 }];
   });
   return [["x", "Output amplitude", "output amplitude x"], ["phase", "Phase", "phase"], ["stops", "Stops in a period", "stops"]]
@@ -48,8 +54,9 @@ function steppedView(name, over, label) {
     }));
 }
 
-/** Output amplitude over a column. Points with sticks are a series of their own; unstable parts are dashed. */
+/** Output amplitude over a column. Points with sticks are a series of their own; unstable parts are dashed. A branch joins its points in the order of its rows. */
 function curveView(name, over, label) {
+  const line = name === "branch" ? (one) => one : inOrder;
   const directions = tables[name]?.get("direction")?.texts;
   if (directions) return steppedView(name, over, label);
   const kinds = [
@@ -60,11 +67,11 @@ function curveView(name, over, label) {
   const size = (values(name, over)?.length ?? 0) > 200 ? 1.5 : 3;
   const amplitude = chart({
     title: "Output amplitude", wide: true, x: axis(name, over, label), y: axis(name, "x", "output amplitude x"),
-    series: [series(name, over, "x", { label: "steady state", width: 1, colour: 6 }),
+    series: [line(series(name, over, "x", { label: "steady state", width: 1, colour: 6 })),
       ...kinds.map(({ keep, ...more }) => part(name, over, "x", keep, { size, ...more }))],
   });
   const phase = values(name, "phase") && chart({
-    title: "Phase", note: "lag of the fundamental behind the excitation", x: axis(name, over, label), y: axis(name, "phase", "phase"), series: [series(name, over, "phase")] });
+    title: "Phase", note: "lag of the fundamental behind the excitation", x: axis(name, over, label), y: axis(name, "phase", "phase"), series: [line(series(name, over, "phase"))] });
   const stops = values(name, "stops") && chart({
     title: "Stops in a period", x: axis(name, over, label), y: { label: "stops", unit: "", whole: true }, series: [series(name, over, "stops", { kind: "points", size })] });
   return [amplitude, phase, stops];

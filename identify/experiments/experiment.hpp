@@ -26,6 +26,13 @@
 
 namespace dualdamp::identify {
 
+/// A second quantity at each reading of a signal, for tables and charts.
+struct Companion {
+  std::string name;
+  std::string unit;
+  std::vector<double> values;
+};
+
 /// One measured quantity of a record.
 struct Signal {
   std::string name;  ///< x, v, a, phase, t, force
@@ -34,6 +41,8 @@ struct Signal {
   std::vector<double> at;  ///< abscissa of each reading
   std::string at_name;     ///< t, Y, omega, number
   std::string at_unit;
+  /// Y of steady states over several frequencies, if it varies too; x of a loop, if it was measured; else empty.
+  Companion companion;
   /// Standard deviation of the noise: stated, or estimated from the roughness of the signal; 0: not known.
   double noise = 0.0;
   bool is_stated = false;

@@ -70,7 +70,9 @@ class FrictionLoop final : public Experiment {
     for (std::size_t i = edge_; i + edge_ < force.size(); ++i) {
       signal.at.push_back(start_ + static_cast<double>(i) / rate_);
       if (stuck_[i]) signal.stuck.push_back(i - edge_);
+      if (!history.x.empty()) signal.companion.values.push_back(history.x[i]);
     }
+    if (!history.x.empty()) signal.companion = {"x", "m", std::move(signal.companion.values)};
     signals.push_back(std::move(signal));
     record_others = {RecordParameter::offset, RecordParameter::travel, RecordParameter::offset_force};
     if (history.x.empty()) record_of_place = {RecordParameter::offset};

@@ -36,19 +36,27 @@ class SteadyStates final : public Experiment {
         .name = "phase", .unit = "rad", .noise = options.sigma_phase, .is_stated = options.sigma_phase > 0.0};
     for (const Pair& pair : record.pairs)
       levels_.push_back({pair.Y, std::isnan(pair.omega) ? options.frequency : pair.omega});
-    const bool over_frequency = levels_.back().omega != levels_.front().omega;
+    const auto varies = [this](double Level::* of) {
+      return std::ranges::any_of(levels_, [&](const Level& level) { return level.*of != levels_.front().*of; });
+    };
+    const bool over_frequency = varies(&Level::omega);
+    const bool over_both = over_frequency && varies(&Level::Y);
     for (std::size_t i = 0; i < levels_.size(); ++i) {
       const double at = over_frequency ? levels_[i].omega : levels_[i].Y;
       x.measured.push_back(record.pairs[i].x);
       x.at.push_back(at);
+      if (over_both) x.companion.values.push_back(levels_[i].Y);
       if (std::isnan(record.pairs[i].phase)) continue;
       phase.measured.push_back(record.pairs[i].phase);
       phase.at.push_back(at);
+      if (over_both) phase.companion.values.push_back(levels_[i].Y);
       with_phase_.push_back(i);
     }
     for (Signal* signal : {&x, &phase}) {
       signal->at_name = over_frequency ? "omega" : "Y";
-      signal->at_unit = over_frequency ? "rad/s" : by_force_ ? "N" : "m";
+      const char* const unit_of_Y = by_force_ ? "N" : "m";
+      signal->at_unit = over_frequency ? "rad/s" : unit_of_Y;
+      if (over_both) signal->companion = {"Y", unit_of_Y, std::move(signal->companion.values)};
     }
     signals.push_back(std::move(x));
     if (!with_phase_.empty()) signals.push_back(std::move(phase));

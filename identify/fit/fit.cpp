@@ -284,6 +284,11 @@ SearchOptions search_options(const Request& request, const DataScale& scale) {
           .elements = ParallelElements::of(request.rig, request.parameters, request.experiments)};
 }
 
+void turn_phases(const SearchSpace& space, SearchResult& found) {
+  found.coordinates = space.within_one_turn(found.coordinates);
+  for (Eigen::VectorXd& rival : found.rivals) rival = space.within_one_turn(rival);
+}
+
 /// Tells the elements of laws in the order in which they slip.
 void sort_elements(const std::vector<ParallelElements>& all, const FitProblem& problem, SearchResult& found) {
   if (all.empty()) return;
@@ -351,6 +356,7 @@ class RigFit {
     for (int round = 1;; ++round) {
       Fit described = result_;
       sort_elements(search_.elements, task_->problem, *found_);
+      turn_phases(task_->problem.space(), *found_);
       const std::optional<Eigen::VectorXd> lower =
           describe(task_->problem, {rig_, task_->parameters, experiments_, options}, *found_, described);
       if (!lower) return described;

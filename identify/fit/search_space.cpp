@@ -1,5 +1,7 @@
 #include "identify/fit/search_space.hpp"
 
+#include "core/constants.hpp"
+
 namespace dualdamp::identify {
 
 namespace {
@@ -25,6 +27,12 @@ double over_force_sought(const FitParameter& parameter, const Eigen::VectorXd& v
   return parameter.at_speed && parameter.at_speed->sought_at > 0.0
              ? over_force_at(parameter.at_speed->sought_at, parameter, values)
              : 1.0;
+}
+
+/// Whether the motion repeats itself with each turn of a parameter: the phase of the drive, or of a law.
+bool is_phase(const FitParameter& parameter) {
+  if (parameter.owner != Owner::law) return parameter.owner == Owner::phase;
+  return parameter.unit == "rad" && parameter.path.substr(parameter.path.rfind('.') + 1) == "phase";
 }
 
 }  // namespace
@@ -72,6 +80,20 @@ Eigen::VectorXd SearchSpace::point(const Eigen::VectorXd& values) const {
     value *= units_[i] / over_force_sought(parameters_[i], values);
     const double q = c.logarithmic ? std::log(std::max(value, 0.0) / c.size) : value / c.size;
     result[at] = std::clamp(q, c.low, c.high);
+  }
+  return result;
+}
+
+Eigen::VectorXd SearchSpace::within_one_turn(const Eigen::VectorXd& q) const {
+  Eigen::VectorXd turned = values(q);
+  Eigen::VectorXd result = q;
+  for (Eigen::Index i = 0; i < q.size(); ++i) {
+    const FitParameter& parameter = parameters_[static_cast<std::size_t>(i)];
+    const double there = std::remainder(turned[i], core::two_pi);
+    if (!is_phase(parameter) || std::abs(turned[i]) <= 0.5 * core::two_pi || !parameter.range.contains(there))
+      continue;
+    turned[i] = there;
+    result[i] = point(turned)[i];
   }
   return result;
 }

@@ -55,6 +55,9 @@ class SearchSpace {
   [[nodiscard]] Eigen::VectorXd values(const Eigen::VectorXd& q) const;
   /// The point of values. A value beyond a bound is moved to the bound.
   [[nodiscard]] Eigen::VectorXd point(const Eigen::VectorXd& values) const;
+  /// The same motion with each phase in [-pi, pi]: a search may end whole turns away. A phase whose range does not
+  /// hold the value there stays.
+  [[nodiscard]] Eigen::VectorXd within_one_turn(const Eigen::VectorXd& q) const;
   /// d(values)/d(coordinates).
   [[nodiscard]] Eigen::MatrixXd slope(const Eigen::VectorXd& q) const;
 

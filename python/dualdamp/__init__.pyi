@@ -695,6 +695,7 @@ def fit(
     threads: int = 0,
     free: str | Sequence[str] | None = None,
     bounds: Mapping[str, Any] | Sequence[Mapping[str, Any]] | None = None,
+    stated: Mapping[str, Any] | Sequence[Mapping[str, Any]] | None = None,
     robust: bool | None = None,
     profile: bool | None = None,
     starts: int | None = None,

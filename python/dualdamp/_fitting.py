@@ -64,7 +64,7 @@ def fit(
     out, threads
         As in `run`.
     **options
-        Further keys of the analysis ``fit``: ``free=["mass", "stiffness"]``, ``bounds``, ``starts``, ``robust``, ``profile``.
+        Further keys of the analysis ``fit``: ``free=["mass", "stiffness"]``, ``bounds``, ``stated``, ``starts``, ``robust``, ``profile``.
 
     Returns
     -------

@@ -8,6 +8,7 @@
 
 #include "friction_models/registry.hpp"
 #include "identify/fit/comparison.hpp"
+#include "scenarios/analyses/shared/compared_laws.hpp"
 #include "scenarios/analyses/shared/record_drive.hpp"
 #include "scenarios/analyses/shared/record_holds.hpp"
 #include "scenarios/analyses/shared/record_zeros.hpp"
@@ -30,21 +31,28 @@ Field law_list() {
 }
 
 Section fit_keys() {
-  return {{data_list("data", "data files of the rig: pairs, responses, decays, histories, loops").required(),
-           data_list("validate", "further data files, which the fitted rig has to predict"), law_list(),
-           name_list("free",
-                     "names of numbers to fit in addition to those that the system leaves out: [kinetic, mass]; "
-                     "the search begins at the values that the system states"),
-           section_list("bounds",
-                        {{text("name", "name of a fitted number").required(), text("low", "its smallest value"),
-                          text("high", "its largest value")}},
-                        "limits of fitted numbers")
-               .items(1, 100),
-           boolean("robust", "limits the influence of readings that do not agree with the others (Huber)"),
-           boolean("profile", "also compute intervals by the profile of the likelihood").with_fallback(true),
-           integer("starts", "number of starts of the search; default: 40, or 8 if every number is stated")
-               .at_least(1)
-               .at_most(10'000)}};
+  return {
+      {data_list("data", "data files of the rig: pairs, responses, decays, histories, loops").required(),
+       data_list("validate", "further data files, which the fitted rig has to predict"), law_list(),
+       name_list("free",
+                 "names of numbers to fit in addition to those that the system leaves out: [kinetic, mass]; "
+                 "the search begins at the values that the system states"),
+       section_list("bounds",
+                    {{text("name", "name of a fitted number").required(), text("low", "its smallest value"),
+                      text("high", "its largest value")}},
+                    "limits of fitted numbers")
+           .items(1, 100),
+       section_list(
+           "stated",
+           {{text("name", "name of a number of one of the laws: iwan.count, or count if one law has it").required(),
+             text("value", "its value").required()}},
+           "numbers of laws that are compared; the others are sought")
+           .items(1, 100),
+       boolean("robust", "limits the influence of readings that do not agree with the others (Huber)"),
+       boolean("profile", "also compute intervals by the profile of the likelihood").with_fallback(true),
+       integer("starts", "number of starts of the search; default: 40, or 8 if every number is stated")
+           .at_least(1)
+           .at_most(10'000)}};
 }
 
 /// Faults are added to `faults`. The caller knows the options, the drive of the scenario, the marks and the
@@ -73,10 +81,13 @@ FitQuestion::Setup setup_of(const Json& analysis, const Json& system, const Json
   if (setup.data.empty()) return setup;
   std::vector<std::string> laws = {""};
   if (analysis.contains("laws")) laws = analysis.at("laws").get<std::vector<std::string>>();
-  for (const std::string& law : laws) {
-    identify::Rig rig = rig_of(system, model, law);
-    std::vector<identify::FitParameter> parameters = parameters_for(rig, setup.data, sought, faults);
-    setup.candidates.push_back({std::move(rig), std::move(parameters)});
+  std::vector<identify::Rig> rigs;
+  for (const std::string& law : laws) rigs.push_back(rig_of(system, model, law));
+  state_values(analysis, rigs, faults);
+  for (std::size_t i = 0; i < laws.size(); ++i) {
+    std::vector<identify::FitParameter> parameters =
+        parameters_for(rigs[i], setup.data, sought_of_law(sought, laws, laws[i]), faults);
+    setup.candidates.push_back({std::move(rigs[i]), std::move(parameters)});
   }
   const auto is_loaded = [](const FitQuestion::Candidate& candidate) {
     return identify::remembers_path(candidate.rig, candidate.parameters);
@@ -112,9 +123,9 @@ void check_fit(CheckedFile& file) {
     file.withdraw("system.friction");
     file.complain(
         "analysis.laws",
-        "'analysis.laws' stands beside 'system.friction', which it replaces: of laws that are compared, every "
-        "parameter is sought, and none is stated",
-        "one of the two; a parameter can be stated in a fit of one law");
+        "'analysis.laws' stands beside 'system.friction', which it replaces: a parameter of laws that are compared "
+        "is sought, unless 'analysis.stated' states it",
+        "one of the two");
   }
   if (file.has("system", "damping_ratio"))
     file.complain("system.damping_ratio", "a damping ratio needs the mass and the stiffness",
@@ -251,6 +262,7 @@ const Analysis& fit_analysis() {
       .needs = {{"", excitations().names(), {}, false, ""}},
       .results = joined(joined(fit_fields(), validation_fields("validation.")),
                         {{"verdict", "", "verdict of the validation"}}),
+      .chart = {.overlay = "fit"},
       .seeks_laws = true,
       .check = check_fit,
       .ask = ask_fit};

@@ -1,18 +1,40 @@
 // Measured and fitted curves, drawn over each other, and their differences.
 
-/** Of the tables PREFIX_RECORD_SIGNAL. */
+const isSampled = ([{ name }]) => name === "t" || name === "number";
+
+/** A computed curve: of steady states a line for each level, in the order of the abscissa. Levels that differ by up to 3 % are one. */
+function curveOf(name, over, column, more) {
+  const whole = series(name, over, column, more);
+  const [at, beside] = tables[name].columns;
+  if (isSampled([at])) return whole;
+  if (beside.name === "measured") return inOrder(whole);
+  const level = beside.values;
+  const lines = [];
+  let first = 0;
+  for (const i of level.map((_, row) => row).sort((a, b) => level[a] - level[b])) {
+    if (!lines.length || level[i] > 1.03 * first) { lines.push([]); first = level[i]; }
+    lines[lines.length - 1].push(i);
+  }
+  const rows = lines.flatMap((line) => [-1, ...line.sort((a, b) => whole.x[a] - whole.x[b])]).slice(1);
+  const taken = (list) => rows.map((i) => list[i] ?? null);
+  return { ...whole, x: taken(whole.x), y: taken(whole.y) };
+}
+
+/** Of the tables PREFIX_RECORD_SIGNAL. A loop is drawn over its displacement. */
 function overlays(prefix, word) {
   return Object.keys(tables).filter((name) => name.startsWith(`${prefix}_`)).flatMap((name) => {
     const [, record, signal] = name.match(/_(\d+)_(\w+)$/);
-    const at = tables[name].columns[0].name;
-    const sampled = (values(name, at)?.length ?? 0) > 60;
+    const { columns } = tables[name];
+    const at = columns[0].name;
+    const over = isSampled(columns) && columns[1].name === "x" ? "x" : at;
+    const isDense = isSampled(columns) && columns[0].values.length > 60;
     const title = `${signal}, record ${Number(record) + 1}`;
     return [
-      chart({ title: `Measured and ${word}: ${title}`, wide: true, x: axis(name, at), y: axis(name, "measured", signal),
-        series: [series(name, at, "measured", sampled ? { label: "measured", colour: 6 } : { label: "measured", kind: "points" }),
-          series(name, at, word, { label: word, colour: 1, width: 1 })] }),
+      chart({ title: `Measured and ${word}: ${title}`, wide: true, x: axis(name, over), y: axis(name, "measured", signal),
+        series: [series(name, over, "measured", isDense ? { label: "measured", colour: 6 } : { label: "measured", kind: "points" }),
+          curveOf(name, over, word, { label: word, colour: 1, width: 1 })] }),
       chart({ title: `Left between them: ${title}`, wide: true, x: axis(name, at), y: axis(name, "residual", "measured - " + word),
-        series: [series(name, at, "residual", sampled ? { width: 1 } : { kind: "points" })] }),
+        series: [series(name, at, "residual", isDense ? { width: 1 } : { kind: "points" })] }),
     ];
   });
 }

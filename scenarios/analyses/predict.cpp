@@ -279,6 +279,7 @@ const Analysis& predict_analysis() {
       .keys = predict_keys(),
       .needs = {{"", excitations().names(), {}, false, ""}},
       .results = joined(validation_fields("validation."), {{"verdict", "", "what that means"}}),
+      .chart = {.overlay = "prediction"},
       .seeks_laws = true,
       .check = check_predict,
       .ask = ask_predict};

@@ -1,6 +1,10 @@
 #include "scenarios/results/fits.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <set>
+#include <utility>
 
 #include "core/coordinate.hpp"
 #include "scenarios/format/json.hpp"
@@ -46,6 +50,14 @@ Table parameter_table(const identify::Fit& fit) {
     if (column.kind == CellKind::number) column.row_units = unit.texts;
   table.columns.push_back(text_column("remark", list, [](const FittedParameter& p) { return p.reason; }));
   return table;
+}
+
+/// Whether steady states lie at more amplitudes than frequencies: their curves are those over the amplitude.
+bool has_more_values_beside(const identify::Signal& signal) {
+  const auto count = [](const std::vector<double>& values) {
+    return std::set(values.begin(), values.end()).size();
+  };
+  return signal.at_name == "omega" && count(signal.companion.values) > count(signal.at);
 }
 
 }  // namespace
@@ -115,7 +127,12 @@ void add_curves(const identify::Fit& fit, const identify::Experiments& experimen
       output.numbers.push_back(fit.outputs[i]);
       residual.numbers.push_back(signal.measured[static_cast<std::size_t>(i - fitted.rows.begin)] - fit.outputs[i]);
     }
-    table.columns = {std::move(at), std::move(measured), std::move(output), std::move(residual)};
+    table.columns = {std::move(at)};
+    if (const identify::Companion& beside = signal.companion; !beside.values.empty())
+      table.columns.push_back({.name = beside.name, .unit = unit_in(fit, beside.unit), .numbers = beside.values});
+    if (has_more_values_beside(signal)) std::swap(table.columns.front(), table.columns.back());
+    std::ranges::move(std::vector{std::move(measured), std::move(output), std::move(residual)},
+                      std::back_inserter(table.columns));
     answer.tables.push_back(std::move(table));
   }
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <utility>
 
 #include "core/coordinate.hpp"
@@ -55,35 +56,78 @@ std::string yaml(const Json& scenario) {
 
 std::string in_rad_per_s(double omega) { return core::format_number(omega) + " rad/s"; }
 
-bool all_equal(const std::vector<double>& values) {
-  return std::ranges::all_of(values, [&](double value) { return value == values.front(); });
+/// What steady states were measured.
+struct States {
+  std::vector<double> amplitudes;   ///< of each state
+  std::vector<double> frequencies;  ///< of each state
+  std::size_t distinct = 0;         ///< number of states that differ
+  std::set<double> levels;          ///< the distinct amplitudes
+  std::set<double> places;          ///< the distinct frequencies
+
+  explicit States(const identify::Experiment& experiment) {
+    const std::vector<std::pair<double, double>> all = experiment.levels();
+    for (const auto& [Y, omega] : all) {
+      amplitudes.push_back(Y);
+      frequencies.push_back(omega);
+    }
+    distinct = std::set(all.begin(), all.end()).size();
+    levels = {amplitudes.begin(), amplitudes.end()};
+    places = {frequencies.begin(), frequencies.end()};
+  }
+  /// Whether both vary, so that curves over one of them are swept over the other.
+  [[nodiscard]] bool are_grid() const { return levels.size() > 1 && places.size() > 1; }
+  /// Whether each amplitude was measured at so few of the frequencies that all combinations are too many.
+  [[nodiscard]] bool are_scattered() const {
+    constexpr std::size_t most = 10;
+    return are_grid() && levels.size() * places.size() > most * amplitudes.size();
+  }
+};
+
+template <typename Numbers>
+Json in_rad_per_s_each(const Numbers& frequencies) {
+  Json list = Json::array();
+  for (const double omega : frequencies) list.push_back(in_rad_per_s(omega));
+  return list;
 }
 
 void ask_for_states(const identify::Experiment& experiment, Json& scenario) {
-  std::vector<double> amplitudes;
-  std::vector<double> frequencies;
-  for (const auto& [Y, omega] : experiment.levels()) {
-    amplitudes.push_back(Y);
-    frequencies.push_back(omega);
-  }
+  const States states(experiment);
   Json& drive = scenario["excitation"];
   if (!drive.is_object() || excitation_type(drive.value("type", "")) == sim::ExcitationType::none)
     drive = {{"type", "base_harmonic"}};
-  if (all_equal(amplitudes) && !all_equal(frequencies)) {
-    Json list = Json::array();
-    for (const double omega : frequencies) list.push_back(in_rad_per_s(omega));
-    drive["amplitude"] = amplitudes.front();
-    drive.erase("frequency");
-    scenario["analysis"] = {{"type", "frequency_response"}, {"frequencies", std::move(list)}};
-    return;
-  }
-  // For levels at several frequencies: those at the first frequency.
-  Json list = Json::array();
-  for (std::size_t i = 0; i < amplitudes.size(); ++i)
-    if (frequencies[i] == frequencies.front()) list.push_back(amplitudes[i]);
-  drive["frequency"] = in_rad_per_s(frequencies.front());
   drive.erase("amplitude");
-  scenario["analysis"] = {{"type", "xy_curve"}, {"amplitudes", std::move(list)}};
+  drive.erase("frequency");
+  if (states.are_grid() && !states.are_scattered()) {
+    if (states.levels.size() > states.places.size()) {
+      scenario["analysis"] = {{"type", "xy_curve"}, {"amplitudes", states.levels}};
+      scenario["sweep"] = {{"excitation.frequency", in_rad_per_s_each(states.places)}};
+    } else {
+      scenario["analysis"] = {{"type", "frequency_response"}, {"frequencies", in_rad_per_s_each(states.places)}};
+      scenario["sweep"] = {{"excitation.amplitude", states.levels}};
+    }
+  } else if (states.levels.size() == 1 && states.places.size() > 1) {
+    drive["amplitude"] = states.amplitudes.front();
+    scenario["analysis"] = {{"type", "frequency_response"}, {"frequencies", in_rad_per_s_each(states.frequencies)}};
+  } else {
+    Json list = Json::array();
+    for (std::size_t i = 0; i < states.amplitudes.size(); ++i)
+      if (states.frequencies[i] == states.frequencies.front()) list.push_back(states.amplitudes[i]);
+    drive["frequency"] = in_rad_per_s(states.frequencies.front());
+    scenario["analysis"] = {{"type", "xy_curve"}, {"amplitudes", std::move(list)}};
+  }
+}
+
+/// What the scenario of a record gives less or more than the record; empty if it gives the same.
+std::string difference_from(const identify::Experiment& experiment) {
+  if (experiment.kind != ExperimentKind::steady_states) return {};
+  const States states(experiment);
+  if (states.are_scattered())
+    return "it gives the states at " + in_rad_per_s(states.frequencies.front()) +
+           " alone: each amplitude was measured at few of the " + std::to_string(states.places.size()) +
+           " frequencies";
+  if (states.are_grid() && states.distinct < states.levels.size() * states.places.size())
+    return "it also gives states that were not measured: all amplitudes at all frequencies";
+  return {};
 }
 
 /// The time of the scenario begins with the record.
@@ -239,6 +283,8 @@ std::string scenario_text(const identify::Fit& fit, const identify::Experiments&
       scenario["analysis"] = {{"type", "free_decay"}, {"peaks", 10}};
       break;
   }
+  if (const std::string difference = difference_from(experiment); !difference.empty())
+    remark += "# Of the fitted states: " + difference + ".\n";
   return remark +
          (is_friction_alone
               ? "# A loop shows the friction alone: replace mass, stiffness and initial by those of your rig.\n"
@@ -257,7 +303,11 @@ void add_scenario_files(const identify::Fit& fit, const identify::Experiments& e
       answer.tables.push_back(drive_table(name, drive, fit.rig.known.oscillator.coordinate));
       text.excitation = section_of(name + ".csv", drive);
     }
-    answer.files.push_back({"fitted" + number + ".yaml", scenario_text(fit, experiments, e, text)});
+    const std::string file = "fitted" + number + ".yaml";
+    answer.files.push_back({file, scenario_text(fit, experiments, e, text)});
+    if (experiments[e]->kind == ExperimentKind::steady_states && States(*experiments[e]).are_scattered())
+      answer.warnings.push_back(file +
+                                " does not give the whole fitted curve: " + difference_from(*experiments[e]));
   }
 }
 

@@ -61,6 +61,22 @@ class Charts(Case):
         rises = [a[1] - b[1] for a, b in zip(points, points[1:])]
         self.assertLess(max(rises) / min(rises), 1.01)
 
+    def test_points_in_any_order_are_joined_in_that_of_x(self):
+        """Also those of two results over each other, and of a sweep. The table keeps the order of the scenario."""
+        shuffled = "analysis.amplitudes=[25 cm, 10 cm, 30 cm, 15 cm, 20 cm]"
+        self.run_program("run", "curve.yaml", "--out", "out", "--plot", "a.svg")
+        self.run_program("run", "curve.yaml", "--out", "shuffled", "--set", shuffled, "--plot", "b.svg")
+        self.assertEqual(self.drawing("a.svg")[1], self.drawing("b.svg")[1])
+        rows = [line.split(",")[0] for line in (self.folder / "shuffled/curve.csv").read_text().splitlines() if not line.startswith("#")]
+        self.assertEqual(rows[1:], ["0.25", "0.1", "0.3", "0.15", "0.2"])
+        self.run_program("compare", "shuffled", "out", "--out", "both")
+        first, second = self.drawing("both/compare.svg")[1]
+        self.assertEqual(first, second)
+        for name, more in (("curves", ()), ("numbers", ("--set", "analysis={type: steady_state}", "--set", "excitation.amplitude=20 cm"))):
+            self.run_program("run", "curve.yaml", "--out", name, "--set", "sweep={system.mass: [3, 1, 2]}", *(more or ("--set", shuffled)), "--plot", f"{name}.svg")
+            for line in self.drawing(f"{name}.svg")[1]:
+                self.assertEqual(line, sorted(line), name)
+
     def test_plot_of_a_directory(self):
         self.run_program("run", "curve.yaml", "--out", "out", "--plot", "a.svg")
         self.run_program("report", "out", "--plot", "b.svg")

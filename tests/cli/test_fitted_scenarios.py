@@ -48,6 +48,44 @@ class FittedScenarios(case.Case):
         largest = max(abs(x) for x in fitted)
         self.assertLess(max(abs(a - b) for a, b in zip(fitted, motion)), 1e-11 * largest)
 
+    def states(self, name, levels, frequencies, pairs=None):
+        """Pairs at several amplitudes and frequencies, in any order; `pairs`: numbers of those that are measured."""
+        listed = ", ".join(f"{omega} rad/s" for omega in frequencies)
+        self.write("made/states.yaml", "schema: dualdamp/1\nsystem: {mass: 1 kg, stiffness: 1000 N/m, damping: 2 N.s/m, friction: {law: coulomb, kinetic: 0.5 N}}\n"
+                   f"excitation: {{type: base_harmonic}}\nanalysis: {{type: frequency_response, frequencies: [{listed}]}}\nsweep: {{excitation.amplitude: {levels}}}\n")
+        self.run_program("run", "made/states.yaml", "--out", "made/states", "--overwrite")
+        made = self.table("made/states/sweep_points.csv")
+        rows = [f"{omega!r},{level!r},{x * (1 + 1e-4 * math.sin(613.0 * i * i))!r}" for i, (omega, level, x) in enumerate(zip(made["omega"], made["excitation.amplitude"], made["x"]))]
+        chosen = [rows[i] for i in pairs or range(len(rows))]
+        self.write(name, "\n".join(["omega [rad/s],Y [m],x [m]", *chosen[1::2], *chosen[::2]]) + "\n")
+
+    def test_of_steady_states_at_several_frequencies_and_amplitudes(self):
+        """All of them, by curves over the quantity with more values: the scenario had given those at the first frequency alone."""
+        for levels, frequencies, over, swept in ((3, 5, "omega", "excitation.amplitude"), (5, 3, "Y", "excitation.frequency")):
+            self.states("grid.csv", [0.003 + 0.002 * i for i in range(levels)], [24.0 + 2.5 * i for i in range(frequencies)])
+            result = self.run_program("fit", "coulomb", "grid.csv", *CONSTANTS, "--no-profile", "--out", "fit")
+            self.assertNotIn("does not give", result.stderr)
+            self.assertNotIn("Of the fitted states", (self.folder / "fit/fitted.yaml").read_text())
+            self.run_program("run", "fit/fitted.yaml", "--out", "again", "--overwrite")
+            again, fit = self.table("again/sweep_points.csv"), self.table("fit/fit_0_x.csv")
+            beside = "Y" if over == "omega" else "omega"
+            states = {(a, b): x for a, b, x in zip(again[over], again[swept], again["x"])}
+            self.assertEqual(len(states), 15)
+            for a, b, fitted in zip(fit[over], fit[beside], fit["fitted"]):
+                self.assertAlmostEqual(states[a, b] / fitted, 1.0, delta=1e-6)
+
+    def test_of_scattered_steady_states(self):
+        """What the scenario gives beyond the states, or leaves out, is said."""
+        self.states("few.csv", [0.003, 0.005, 0.007], [24.0, 27.0, 30.0, 33.0], [0, 1, 2, 3, 5, 6, 10, 11])
+        self.run_program("fit", "coulomb", "few.csv", *CONSTANTS, "--no-profile", "--out", "fit")
+        self.assertIn("# Of the fitted states: it also gives states that were not measured", (self.folder / "fit/fitted.yaml").read_text())
+        count = 12  # each amplitude at a frequency of its own
+        self.states("own.csv", [0.003 + 4e-4 * i for i in range(count)], [24.0 + i for i in range(count)], [i * count + i for i in range(count)])
+        said = self.run_program("fit", "coulomb", "own.csv", *CONSTANTS, "--no-profile", "--out", "fit").stderr
+        told = "it gives the states at 25 rad/s alone: each amplitude was measured at few of the 12 frequencies"
+        self.assertIn("fitted.yaml does not give the whole fitted curve: " + told, " ".join(said.split()))
+        self.assertIn(told, (self.folder / "fit/fitted.yaml").read_text())
+
     def test_of_a_record_elsewhere_with_its_drive(self):
         path = self.record("data/far/run.csv", 4.0)
         self.run_program("fit", "coulomb", path, *CONSTANTS, "--no-profile", "--out", "fit")
@@ -124,12 +162,34 @@ class FittedScenarios(case.Case):
             self.assertLessEqual({"mass", "damping", "kinetic"}, set(parameters[-1]))
         self.assertEqual(parameters[0], parameters[1])
 
-    def test_laws_that_are_compared_have_no_stated_parameter(self):
-        """One error, with the reason."""
+    def test_a_parameter_of_one_of_several_laws_can_be_stated_and_freed(self):
+        """By the name of the law, or by its own name if one law has it. Each fit is then that of the law alone."""
         path = self.record("run.csv", 4.0)
-        refused = self.run_program("fit", "coulomb,stribeck", path, *CONSTANTS, "--set", "system.friction.exponent=1", status=3).stderr
-        self.assertIn("of laws that are compared, every parameter is sought, and none is stated", refused)
-        self.assertNotIn("system.friction.law", refused)
+
+        def fitted(laws, *more, status=0):
+            said = self.run_program("fit", laws, path, *CONSTANTS, *more, "--no-profile", "--json", "--out", "fit", status=status)
+            if status:
+                return said.stderr
+            return {row["law"]: row for row in json.loads(said.stdout)["result"]["laws"]}
+
+        alone = fitted("stribeck", "--set", "system.friction.exponent=1.5", "--set", "stribeck.stribeck_velocity=20 mm/s", "--free", "exponent")
+        for settings in (("stribeck.exponent=1.5", "stribeck.stribeck_velocity=20 mm/s"), ("system.friction.exponent=1.5", "system.friction.stribeck_velocity=20 mm/s")):
+            both = fitted("coulomb,stribeck", *(word for one in settings for word in ("--set", one)), "--free", "stribeck.exponent")
+            self.assertEqual(both["stribeck"]["parameters"], alone["stribeck"]["parameters"])
+            self.assertAlmostEqual(both["stribeck"]["rms"] / alone["stribeck"]["rms"], 1.0, delta=1e-6)
+            self.assertEqual(both["coulomb"]["parameters"], 4)  # damping, kinetic, position, velocity
+
+        for setting, told in (("system.friction.kinetic=1 N", "'kinetic' is a parameter of several laws: write coulomb.kinetic or stribeck.kinetic"),
+                              ("system.friction.sigma0=1 N/m", "no law of this fit has a parameter 'sigma0'"),
+                              ("stribeck.sigma0=1 N/m", "no law of this fit has a parameter 'stribeck.sigma0'"),
+                              ("stribeck.kinetic=-1 N", "'-1 N' of stribeck.kinetic: allowed is >= 0 N"),
+                              ("stribeck.kinetic=1 kg", "'1 kg' of stribeck.kinetic: ")):
+            self.assertIn(told, fitted("coulomb,stribeck", "--set", setting, status=3))
+        self.assertIn("'friction.kinetic' has bounds and is not sought", fitted("coulomb,stribeck", "--set", "stribeck.kinetic=1 N", "--set", "analysis.bounds=[{name: stribeck.kinetic, low: 0.1 N}]", status=3))
+        self.assertIn("unless 'analysis.stated' states it", fitted("coulomb,stribeck", "--set", "system.friction={law: dahl}", status=3))
+        self.write("fit.yaml", "schema: dualdamp/1\nsystem: {mass: 1 kg, stiffness: 1000 N/m, damping: 2 N.s/m, friction: {law: coulomb}}\n"
+                   f"analysis: {{type: fit, data: {path.name}, stated: [{{name: kinetic, value: 1 N}}]}}\n")
+        self.assertIn("'stated' is for laws that are compared", self.run_program("run", "fit.yaml", status=3).stderr)
 
     def test_a_zero_within_the_friction_is_named_as_a_cause(self):
         """The mean of the residuals says nothing of it: they are those of a slow motion, and few of them are independent."""

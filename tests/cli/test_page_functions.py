@@ -34,6 +34,15 @@ class Functions(PageCase):
         line = self.ask("formula", "broken({ x: [1, 2, 3, 4], y: [0, 0.1, 2, 1.9], colour: 3 })")
         self.assertEqual(line, {"x": [1, 2, None, 3, 4], "y": [0, 0.1, None, 2, 1.9], "colour": 3})
 
+    def test_steady_states_are_joined_in_the_order_of_the_abscissa(self):
+        """Level by level, whatever the order of the file; a measurement spreads a level."""
+        self.assertEqual(self.ask("formula", "inOrder({ x: [3, 1, 2], y: [30, null, 20], label: 'a' })"), {"x": [1, 2, 3], "y": [None, 20, 30], "label": "a"})
+        table = """tables.fit_0_x = { columns: [{ name: "omega", values: [2, 1, 1, 2] }, { name: "Y", values: [5.1, 7, 5, 7.1] }, { name: "measured" }],
+                   get: (name) => ({ values: { omega: [2, 1, 1, 2], fitted: [20, 100, 10, 200] }[name] }) }"""
+        self.assertEqual(self.ask("formula", f'({table}, curveOf("fit_0_x", "omega", "fitted", {{}}))'), {"label": "fitted", "x": [1, 2, None, 1, 2], "y": [10, 20, None, 100, 200]})
+        table = table.replace("omega", "t")
+        self.assertEqual(self.ask("formula", f'({table}, curveOf("fit_0_x", "t", "fitted", {{}}).x)'), [2, 1, 1, 2])
+
     def test_a_point_without_neighbours_is_drawn(self):
         scales = "{ x: (v) => 10 * v, y: (v) => 10 * v }"
         alone, nothing = self.ask("formula", *(f'pathOf({{ kind: "line", x: [1, 2, 3], y: [null, {y}, null] }}, {scales})' for y in (2, "null")))

@@ -314,12 +314,21 @@ class Uncertainty {
       fitted.reason =
           "its effect comes in steps, from reading to reading: it has an interval and no standard error";
       std::erase_if(lost_, [i](const Eigen::VectorXd& direction) { return is_alone(direction, i); });
+      take_variance_of_interval(i);
     } else if (end_.profile && ends && fitted.std > 0.0 && bends(fitted, quantiles_[static_cast<std::size_t>(i)])) {
       fitted.interval95 = fitted.profile95;
       fitted.reason = "the sum of squares is not a parabola: the interval is that of the profile";
     } else if (end_.profile && !end_.problem.is_exhausted() && !ends && fitted.std > 0.0) {
       fitted.reason = "the profile does not end: the interval by the covariance holds near the estimate only";
     }
+  }
+
+  /// Gives a parameter without derivatives the variance of its interval: what its covariance holds is rounding.
+  void take_variance_of_interval(Eigen::Index i) {
+    constexpr double deviations = 3.92;  // in 95 % of a normal distribution
+    const auto& [low, high] = fit_.parameters[static_cast<std::size_t>(i)].interval95;
+    fit_.covariance.row(i).setZero(), fit_.covariance.col(i).setZero();
+    fit_.covariance(i, i) = std::pow((high - low) / deviations, 2);
   }
 
   /// Of the square root by which the sum of squares grows to an end of the interval. Correlated residuals widen it

@@ -56,7 +56,9 @@ bool take_of_record(const std::string& name, const identify::Experiments& experi
 
 void take_bound(const Bound& bound, core::Coordinate coordinate, std::vector<FitParameter>& parameters,
                 std::vector<SetupFault>& faults) {
-  const auto parameter = std::ranges::find(parameters, bound.name, &FitParameter::name);
+  const auto parameter = std::ranges::find_if(parameters, [&](const FitParameter& one) {
+    return one.name == bound.name || (one.owner == Owner::law && "friction." + one.name == bound.name);
+  });
   if (parameter == parameters.end()) {
     faults.push_back({"bounds", "'" + bound.name + "' has bounds and is not sought"});
     return;

@@ -268,3 +268,41 @@ TEST_CASE("search: no single motion runs past the limit of the work", "[identify
   check(smooth, pairs, false);
   check(test::loop_alone(smooth), test::loop_of(test::loop_alone(smooth), 0.01, 0.01, 4), true);
 }
+
+TEST_CASE("search: a phase that was found turns away is told within one turn", "[identify][fit]") {
+  constexpr double truth = 2.9;
+  identify::Rig rig =
+      test::rig_with({"coulomb",
+                      {{"kinetic", 1.0},
+                       {"load_modulation",
+                        std::vector<friction::ParameterValues>{{{"ratio", 0.4}, {"order", 2.0}, {"phase", -0.3}}}}},
+                      {"kinetic"}});
+  rig.known.excitation.phase = truth;
+  const identify::Record record = test::history_of(rig, {}, 5);
+  std::string fault;
+  const identify::Experiments experiments = identify::experiments_of(record, {.name = "history"}, fault);
+  REQUIRE(fault.empty());
+  std::vector<identify::FitParameter> sought =
+      test::sought_in(rig, {"kinetic", "phase", "load_modulation.phase"}, 1.0);
+  const double turn = core::two_pi;
+  for (identify::FitParameter& parameter : sought) {
+    if (parameter.name == "phase") parameter.stated = truth + 0.05 - turn;
+    if (parameter.name == "load_modulation.phase") parameter.stated = 2.0 * turn - 0.25;
+  }
+  const auto fit_within = [&](const friction::Range& range) {
+    sought.back().range = range;
+    return identify::fit_rig(rig, sought, experiments, {.profile = false, .starts = 1});
+  };
+  const identify::Fit fit = fit_within({});
+  REQUIRE(fit.outcome.ok());
+  for (const auto& [name, value] : {std::pair{"phase", truth}, {"load_modulation.phase", -0.3}}) {
+    const identify::FittedParameter& found = test::fitted(fit, name);
+    CHECK(found.value == Approx(value).margin(5.0 * found.std));
+    CHECK(found.interval95[0] < found.value);
+    CHECK(found.interval95[1] > found.value);
+  }
+  CHECK(fit.rig.known.excitation.phase == test::fitted(fit, "phase").value);
+  // Bounds of the caller hold.
+  const identify::Fit bounded = fit_within({.low = turn, .high = 3.0 * turn});
+  CHECK(test::fitted(bounded, "load_modulation.phase").value == Approx(2.0 * turn - 0.3).margin(0.01));
+}

@@ -1,3 +1,4 @@
+#include <Eigen/Core>
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -49,6 +50,12 @@ TEST_CASE("steps: a play without a stated value is found in a loop, with an inte
   CHECK(found.interval95[1] > play);
   // The readings leave open no more than the way of one sample.
   CHECK(found.interval95[1] - found.interval95[0] < 0.2e-3);
+  // A prediction knows the play no better than this interval: its variance had been rounding, 1e-38 m^2.
+  const Eigen::Index at = fit.parameters[0].parameter.name == "play" ? 0 : 1;
+  CHECK(std::sqrt(fit.covariance(at, at)) ==
+        Approx((found.interval95[1] - found.interval95[0]) / 3.92).epsilon(1e-9));
+  CHECK(fit.covariance(at, 1 - at) == 0.0);
+  CHECK(fit.undetermined.cols() == 0);
 }
 
 TEST_CASE("steps: a loop that was cut out of a test has the same play, and a loaded contact", "[identify][fit]") {
