@@ -201,6 +201,7 @@ void check_stress_test(CheckedFile& file) {
   const Json& analysis = file.values().at("analysis");
   if (!file.has("analysis", "severities") || !file.has("analysis", "ranges")) return;
   check_truth(file);
+  refuse_replaced_amplitude(file);
   check_names(file, "ranges");
   check_names(file, "sensors");
   check_samples(file, analysis);

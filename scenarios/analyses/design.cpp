@@ -35,11 +35,12 @@ std::vector<Needs> design_needs() {
   const std::string base = "the states are those of a mass that its base drives";
   return {{"xy_curve", {"base_harmonic"}, {}, true, base},
           {"frequency_response", {"base_harmonic"}, {"amplitude"}, true, base},
-          {"data", {"base_harmonic", "none"}, {"frequency"}, false, base}};
+          {"data", {"base_harmonic", "none"}, {"frequency"}, false, base, idle_beside_data()}};
 }
 
 void check_design(CheckedFile& file) {
   check_measurement(file);
+  warn_of_unknown_damper(file);
   read_data(file);
   if (const std::optional<identify::Record> record = outlined_record(file)) check_gains(file, *record);
   if (!file.data) return;
