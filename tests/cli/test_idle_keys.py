@@ -106,6 +106,11 @@ class IdleKeys(case.Case):
         found = self.run_program(*base, "--set", "system.damping=2 N.s/m")
         self.assertIn(told, found.stderr)
 
+    def test_the_truth_of_a_stress_test(self):
+        for path, value in (("system.cubic_stiffness", "1e5 N/m^3"), ("system.damper_to", "base"), ("excitation.harmonics", "[{order: 3, amplitude: 0.3 mm}]")):
+            error = self.run_program("run", self.scenario("stress_test"), "--set", f"{path}={value}", status=3).stderr
+            self.assertIn(f"'{path}' would be a departure of its own", error)
+
 
 if __name__ == "__main__":
     unittest.main(argv=[sys.argv[0], *sys.argv[3:]], verbosity=1)
