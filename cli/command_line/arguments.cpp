@@ -235,6 +235,9 @@ class Parser {
     add("--frequency", next_.frequency, "Forcing frequency, such as '6.17 Hz', where the data do not state it");
     add("--sigma-x", next_.sigma_x, "Known standard deviation of a measured output amplitude, such as '0.02 mm'");
     add("--sigma-Y", next_.sigma_Y, "Known standard deviation of a measured input amplitude");
+    add("--most-level", next_.most_level,
+        "Largest input amplitude of the drive, such as '8 mm': none beyond it is advised");
+    add("--most-frequency", next_.most_frequency, "Largest frequency of the drive: none beyond it is advised");
     add_gains(command, next_.gain_uncertainties);
     add_file_options(command, next_);
     add_shown_units(command, next_);

@@ -99,12 +99,12 @@ def next(  # noqa: A001, of the package it is dualdamp.next, as the command is
     out, threads
         As in `run`.
     **options
-        Further keys of the analysis ``design``: ``sigma_x="20 um"``, ``largest_severity=0.2``, ....
+        Further keys of the analysis ``design``: ``sigma_x="20 um"``, ``most_level="8 mm"`` if the drive can do no more, ....
 
     Returns
     -------
     Result
-        ``candidates``: measurements, the best one first; ``advice``: the same in words.
+        ``candidates``: measurements, the best one first, with what to do as ``instruction``; ``advice``: the best one in words.
 
     Raises
     ------
