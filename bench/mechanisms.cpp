@@ -1,6 +1,7 @@
 #include "bench/mechanisms.hpp"
 
 #include <algorithm>
+#include <iterator>
 
 #include "bench/mechanisms/study.hpp"
 #include "bench/truth.hpp"
@@ -205,6 +206,7 @@ void complete_plausible(CheckedFile& file) {
 
 void check_mechanisms(CheckedFile& file) {
   check_truth(file);
+  if (!file.has("analysis", "amplitudes")) refuse_replaced_amplitude(file);
   const Json& analysis = file.values().at("analysis");
   if (analysis.contains("estimates")) check_parts(file);
   if (!file.stands_in_file("analysis", "mechanisms")) {
@@ -248,6 +250,16 @@ MechanismStudy study_of(const Json& section, const Json& system) {
   return result;
 }
 
+/// Keys of the other sections that the study does not use.
+std::vector<scenarios::IdleKey> idle_keys() {
+  const std::string drive = "the levels are those of a sine without harmonics, at any phase";
+  std::vector<scenarios::IdleKey> keys = {{"excitation", "phase", drive, "without it"},
+                                          {"excitation", "harmonics", drive, "without it"}};
+  std::ranges::move(scenarios::idle_start("the study is of steady states"), std::back_inserter(keys));
+  std::ranges::move(scenarios::idle_engines("the study has an accuracy of its own"), std::back_inserter(keys));
+  return keys;
+}
+
 std::unique_ptr<const Question> ask_mechanisms(CheckedValues&& values) {
   return std::make_unique<MechanismsQuestion>(study_of(values.analysis, values.system));
 }
@@ -259,7 +271,8 @@ const Analysis& mechanisms_analysis() {
       .name = "mechanisms",
       .summary = "which mechanism explains that estimates change as the upper x-Y data are left out",
       .keys = mechanisms_keys(),
-      .needs = {{"", {"base_harmonic"}, {"frequency"}, true, "the lines are of the amplitude of the base"}},
+      .needs =
+          {{"", {"base_harmonic"}, {"frequency"}, true, "the lines are of the amplitude of the base", idle_keys()}},
       .results = mechanisms_fields(),
       .check = check_mechanisms,
       .ask = ask_mechanisms};

@@ -48,6 +48,22 @@ void check_severities(CheckedFile& file, const Json& analysis) {
   }
 }
 
+/// The truth satisfies every assumption of the methods: otherwise the rejections without a departure would be
+/// right, and would count as false alarms.
+void check_assumptions(CheckedFile& file) {
+  const auto refuse = [&](const std::string& path, const std::string& what, const std::string& allowed) {
+    file.complain(path,
+                  file.subject() + " departs from " + what + ": '" + path + "' would be a departure of its own",
+                  allowed);
+  };
+  if (file.number_at("system", "cubic_stiffness").value_or(0.0) != 0.0)
+    refuse("system.cubic_stiffness", "a linear spring", "0; the departures cubic_spring and softening_spring");
+  if (file.text_at("system", "damper_to") == "base")
+    refuse("system.damper_to", "a damper between mass and ground", "ground");
+  if (file.has("excitation", "harmonics"))
+    refuse("excitation.harmonics", "a drive of one frequency", "without it; the departure base_distortion");
+}
+
 /// Whether some range is measured more than once.
 bool has_sweeps(const Json& analysis) {
   return std::ranges::any_of(analysis.at("ranges"), [](const Json& range) { return range.value("sweeps", 1) > 1; });
@@ -202,6 +218,8 @@ void check_stress_test(CheckedFile& file) {
   const Json& analysis = file.values().at("analysis");
   if (!file.has("analysis", "severities") || !file.has("analysis", "ranges")) return;
   check_truth(file);
+  check_assumptions(file);
+  refuse_replaced_amplitude(file);
   check_names(file, "ranges");
   check_names(file, "sensors");
   check_samples(file, analysis);

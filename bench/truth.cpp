@@ -28,4 +28,10 @@ void check_truth(scenarios::CheckedFile& file) {
     file.complain("system", "'system' has no damping: numbers are relative to it", "damping > 0 " + unit("N.s/m"));
 }
 
+void refuse_replaced_amplitude(scenarios::CheckedFile& file) {
+  const std::string path = "excitation.amplitude";
+  if (file.is_chosen(path))
+    file.complain(path, "'" + path + "' has no effect: " + file.subject() + " has levels of its own", "without it");
+}
+
 }  // namespace dualdamp::bench

@@ -8,4 +8,8 @@ namespace dualdamp::bench {
 /// Complains where the system is anything else.
 void check_truth(scenarios::CheckedFile& file);
 
+/// Complains where an option or a sweep names the amplitude of the drive, which the levels of the analysis replace;
+/// a scenario may state it for other analyses.
+void refuse_replaced_amplitude(scenarios::CheckedFile& file);
+
 }  // namespace dualdamp::bench

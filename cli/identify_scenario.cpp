@@ -64,11 +64,21 @@ scenarios::Scenario scenario_of(const IdentifyCommand& command) {
 }
 
 scenarios::Scenario scenario_of(const NextCommand& command) {
-  if (!is_scenario(command.data)) return scenario_about(command.data, "design", about_data(command));
+  const auto set_limits = [&](scenarios::LoadOptions& options) {
+    set_keys({{"analysis.most_level", command.most_level, "--most-level"},
+              {"analysis.most_frequency", command.most_frequency, "--most-frequency"}},
+             options);
+  };
   scenarios::LoadOptions options;
+  if (!is_scenario(command.data)) {
+    options = about_data(command);
+    set_limits(options);
+    return scenario_about(command.data, "design", options);
+  }
   options.words = key_or_option_of_setting;
   options.instead = "design";
   set_measured_keys(command, options);
+  set_limits(options);
   return scenarios::load_scenario(command.data, options);
 }
 

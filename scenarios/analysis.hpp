@@ -11,6 +11,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -35,6 +36,9 @@ struct RunContext {
   const std::string& resolved;  ///< the scenario as JSON
   const RunOptions& options;
   const sim::State* from = nullptr;  ///< where the search for a steady state begins; null: the initial state
+  /// Units of written quantities, by path (`results/shown_units.hpp`), for numbers in sentences; null: none is
+  /// known.
+  const std::map<std::string, std::string>* written_units = nullptr;
 
   /// A search for steady states with the scenario's tolerance.
   [[nodiscard]] sim::SteadyStateOptions steady_states() const {

@@ -307,6 +307,32 @@ void check_uncertainties(CheckedFile& file, const Analysis& analysis, const Anal
                     "with analysis.type " + names_of(analyses, &Analysis::uses_uncertainties));
 }
 
+/// A damped frequency is that of the stated damping.
+bool sets_frequency(const CheckedFile& file, const IdleKey& idle) {
+  return idle.section == "system" && (idle.key == "damping" || idle.key == "damping_ratio") &&
+         file.text_at("excitation", "frequency") == "damped";
+}
+
+/// A default may be stated: a resolved scenario states all of them.
+bool states_default(const CheckedFile& file, const IdleKey& idle) {
+  const Choice& section = *file.format().find(idle.section)->choice;
+  const Variant* variant =
+      section.key.empty() ? &section.variants.front() : section.find(file.text_at(idle.section, section.key));
+  const Field* field = variant == nullptr ? nullptr : variant->section.find(idle.key);
+  return field == nullptr || !file.has(idle.section, idle.key) ||
+         file.values().at(idle.section).at(idle.key) == field->fallback;
+}
+
+/// A stated value that affects no number of the result is refused.
+void check_idle_keys(CheckedFile& file) {
+  for (const IdleKey& idle : file.needs()->idle) {
+    if (!file.stands_in_file(idle.section, idle.key) || states_default(file, idle) || sets_frequency(file, idle))
+      continue;
+    const std::string path = idle.section + "." + idle.key;
+    file.complain(path, "'" + path + "' has no effect: " + idle.reason, idle.allowed);
+  }
+}
+
 /// Number of items of the result's lists, as far as it is known before the run.
 std::size_t result_rows(const CheckedFile& file, const Analysis& analysis) {
   std::set<std::string> lists;
@@ -338,7 +364,10 @@ Checked check(const Document& document, Reading& reading, const Section& format,
     check_replaced(file);
     if (!file.needs()->excitations.empty()) check_verification(file, *analysis, analyses);
   }
-  if (file.needs() != nullptr) check_uncertainties(file, *analysis, analyses);
+  if (file.needs() != nullptr) {
+    check_uncertainties(file, *analysis, analyses);
+    check_idle_keys(file);
+  }
   resolve_damping(file);
   if (file.needs() != nullptr) check_loss_factor(file, *analysis, analyses);
   check_load_modulation(file);

@@ -134,7 +134,7 @@ core::Provenance provenance_of(const Scenario& scenario) {
 }
 
 RunContext context_of(const Scenario& scenario, const RunOptions& options) {
-  return {scenario.model, scenario.tolerance, scenario.resolved, options};
+  return {scenario.model, scenario.tolerance, scenario.resolved, options, nullptr, &scenario.written_units};
 }
 
 RunResult run(const Scenario& scenario, const RunOptions& options) {

@@ -244,6 +244,10 @@ class Parser {
     add_quantity(command, "--stiffness", next_.stiffness, "Stiffness, such as '1568 N/m'");
     add_quantity(command, "--frequency", next_.frequency,
                  "Forcing frequency, such as '6.17 Hz', where the data do not state it");
+    add_quantity(command, "--most-level", next_.most_level,
+                 "Largest input amplitude of the drive, such as '8 mm': none beyond it is advised");
+    add_quantity(command, "--most-frequency", next_.most_frequency,
+                 "Largest frequency of the drive: none beyond it is advised");
     add_errors(command, next_, "Known standard deviation of a measured output amplitude, such as '0.02 mm'");
     add_input_and_output(command, next_);
   }

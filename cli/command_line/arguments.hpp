@@ -112,7 +112,9 @@ struct IdentifyCommand : MeasuredOptions {
 };
 
 /// `next`: what to measure next, for a data file or, as `data`, a scenario.
-struct NextCommand : MeasuredOptions {};
+struct NextCommand : MeasuredOptions {
+  std::string most_level, most_frequency;  ///< of the drive
+};
 
 /// What `fit` and `predict` take of their records.
 struct RecordOptions : FileOptions, OutputOptions, ShownUnitOptions {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/numbers.hpp"
 
@@ -11,13 +12,24 @@ namespace {
 
 using States = std::vector<PlannedState>;
 
-double cost_of(const States& states) { return static_cast<double>(states.size()); }
+/// Levels that differ by less are one level, as it was reached.
+constexpr double one_level = 1.05;
+
+/// The measured frequency nearest to the natural one, among the states at about this level; among all, if none is.
+double resonance_at(double level, const States& measured, double natural) {
+  const auto far = [&](const PlannedState& state) {
+    const bool elsewhere = std::max(state.Y, level) > one_level * std::min(state.Y, level);
+    return std::pair(elsewhere, std::abs(state.omega - natural));
+  };
+  return std::ranges::min_element(measured, {}, far)->omega;
+}
 
 /// `counts[i]` states at level i.
-States at_levels(const std::vector<double>& levels, const std::vector<int>& counts, double omega) {
+States at_levels(const std::vector<double>& levels, const std::vector<int>& counts, const States& measured,
+                 double natural) {
   States states;
   for (std::size_t i = 0; i < levels.size(); ++i)
-    for (int j = 0; j < counts[i]; ++j) states.push_back({levels[i], omega});
+    for (int j = 0; j < counts[i]; ++j) states.push_back({levels[i], resonance_at(levels[i], measured, natural)});
   return states;
 }
 
@@ -51,47 +63,122 @@ States resonance_curve(double Y, double natural, double zeta, int count) {
   return states;
 }
 
+/// Candidates in the order in which they are tried.
+class CandidateList {
+ public:
+  explicit CandidateList(const DriveLimits& limits) : limits_(limits) {}
+
+  /// Unless the same measurement is on the list, or the drive cannot do it.
+  void add(CandidateMeasurement candidate) {
+    const auto is_same = [&](const CandidateMeasurement& other) {
+      return other.phases == candidate.phases && other.only_phases == candidate.only_phases &&
+             other.plan == candidate.plan;
+    };
+    if (!limits_.allow(candidate.plan))
+      found_.left_out.push_back(std::move(candidate.name));
+    else if (std::ranges::none_of(found_.list, is_same))
+      found_.list.push_back(std::move(candidate));
+  }
+
+  /// Steady states; as many as they are is their cost.
+  void add(std::string name, States planned, bool phases, bool only_phases = false) {
+    const auto cost = static_cast<double>(planned.size());
+    add({std::move(name), std::move(planned), phases, only_phases, cost});
+  }
+
+  [[nodiscard]] Candidates take() { return std::move(found_); }
+
+ private:
+  DriveLimits limits_;
+  Candidates found_;
+};
+
+/// The levels of a record.
+struct Levels {
+  double low = 0.0, middle = 0.0, high = 0.0;
+
+  explicit Levels(const States& states) {
+    const auto [least, most] = std::ranges::minmax(states, {}, &PlannedState::Y);
+    low = least.Y;
+    high = most.Y;
+    middle = 0.5 * (low + high);
+    if (are_one()) low = high = middle;
+  }
+
+  [[nodiscard]] bool are_one() const { return high < one_level * low; }
+};
+
+void add_repeated_levels(CandidateList& list, const Levels& levels, const States& same, double natural,
+                         bool phases) {
+  const auto count = static_cast<int>(same.size());
+  if (levels.are_one()) {
+    list.add("the level of the record at the frequency nearest to resonance, taken several times",
+             at_levels({levels.middle}, {count}, same, natural), phases);
+    return;
+  }
+  list.add("the lowest and the highest level, each taken several times",
+           at_levels({levels.low, levels.high}, shared_out(count, 2), same, natural), phases);
+  list.add("three levels: half of the states at the lowest, a quarter in the middle, a quarter at the highest",
+           at_levels({levels.low, levels.middle, levels.high}, shared_out(count, 3), same, natural), phases);
+}
+
+void add_resonance_curves(CandidateList& list, const Levels& levels, double natural, double zeta, int count,
+                          bool has_phase) {
+  const auto curve = [&](double level) { return resonance_curve(level, natural, zeta, count); };
+  const std::string start = "the resonance curve at the ";
+  const std::string middle = start + (levels.are_one() ? "level of the record" : "middle level");
+  if (!has_phase) list.add(middle, curve(levels.middle), false);
+  list.add(middle + ", with phases", curve(levels.middle), true);
+  list.add(start + "lowest level, with phases", curve(levels.low), true);
+  list.add(start + "highest level, with phases", curve(levels.high), true);
+}
+
+/// By up to twice, as far as the drive can.
+void add_higher_levels(CandidateList& list, const Levels& levels, const States& same, const DriveLimits& limits,
+                       bool has_phase) {
+  constexpr double usual = 2.0;
+  constexpr double least = 1.1;
+  const double reach = limits.level / levels.high;
+  const double times = reach >= least ? std::min(usual, reach) : usual;
+  const std::string name = "the same states at levels " +
+                           (times == usual ? "twice" : core::format_number(times, 3) + " times") + " as high";
+  const States higher = scaled(same, times, 1.0);
+  if (!has_phase) list.add(name, higher, false);
+  list.add(name + ", with phases", higher, true);
+}
+
 }  // namespace
 
-std::vector<CandidateMeasurement> candidates_after(const std::vector<Pair>& states, const KnownConstants& constants,
-                                                   double zeta) {
+bool DriveLimits::allow(const MeasurementPlan& plan) const {
+  constexpr double rounding = 1.0 + 1e-9;
+  const auto* states = std::get_if<States>(&plan);
+  return states == nullptr || std::ranges::all_of(*states, [&](const PlannedState& state) {
+           return state.Y <= level * rounding && state.omega <= frequency * rounding;
+         });
+}
+
+Candidates candidates_after(const std::vector<Pair>& states, const KnownConstants& constants, double zeta,
+                            const DriveLimits& limits) {
   const States same = same_levels(states);
-  const auto [low, high] = std::ranges::minmax_element(same, {}, &PlannedState::Y);
-  const double omega = same.front().omega;
+  const Levels levels(same);
   const double natural = constants.natural_frequency();
   const auto count = static_cast<int>(same.size());
-  const double middle = 0.5 * (low->Y + high->Y);
   const bool has_phase = std::ranges::any_of(states, [](const Pair& state) { return !std::isnan(state.phase); });
-  const double largest_x = std::ranges::max_element(states, {}, &Pair::x)->x;
-  std::vector<CandidateMeasurement> list;
-  const auto add = [&](std::string name, States planned, bool phases) {
-    const double cost = cost_of(planned);
-    list.push_back({std::move(name), std::move(planned), phases, false, cost});
-  };
-  if (!has_phase) list.push_back({"record the phase of the same states", same, true, true, cost_of(same)});
-  add("repeat the same states", same, has_phase);
-  add("the lowest and the highest level, each taken several times",
-      at_levels({low->Y, high->Y}, shared_out(count, 2), omega), has_phase);
-  add("three levels: half of the states at the lowest, a quarter in the middle, a quarter at the highest",
-      at_levels({low->Y, middle, high->Y}, shared_out(count, 3), omega), has_phase);
-  const States higher = scaled(same, 2.0, 1.0);
-  if (!has_phase) add("the same states at levels twice as high", higher, false);
-  add("the same states at levels twice as high, with phases", higher, true);
+  CandidateList list(limits);
+  if (!has_phase) list.add("record the phase of the same states", same, true, true);
+  list.add("repeat the same states", same, has_phase);
+  add_repeated_levels(list, levels, same, natural, has_phase);
+  add_higher_levels(list, levels, same, limits, has_phase);
   const double aside = 1.0 + std::clamp(zeta, 0.01, 0.2);
   const States other_frequency = scaled(same, 1.0, aside);
-  const States curve = resonance_curve(middle, natural, zeta, std::max(count, 5));
   const std::string at_other = "the same levels at " + core::format_number(aside, 3) + " times the frequency";
-  if (!has_phase) add(at_other, other_frequency, false);
-  add(at_other + ", with phases", other_frequency, true);
-  if (!has_phase) add("the resonance curve at the middle level", curve, false);
-  add("the resonance curve at the middle level, with phases", curve, true);
-  add("the resonance curve at the lowest level, with phases",
-      resonance_curve(low->Y, natural, zeta, std::max(count, 5)), true);
-  add("the resonance curve at the highest level, with phases",
-      resonance_curve(high->Y, natural, zeta, std::max(count, 5)), true);
-  list.push_back({"release the mass from the largest amplitude and read its extremes",
-                  PlannedDecay{largest_x, std::max(count, 8)}, false, false, 1.0});
-  return list;
+  if (!has_phase) list.add(at_other, other_frequency, false);
+  list.add(at_other + ", with phases", other_frequency, true);
+  add_resonance_curves(list, levels, natural, zeta, std::max(count, 5), has_phase);
+  const double largest_x = std::ranges::max_element(states, {}, &Pair::x)->x;
+  list.add({"release the mass from the largest amplitude and read its extremes",
+            PlannedDecay{largest_x, std::max(count, 8)}, false, false, 1.0});
+  return list.take();
 }
 
 }  // namespace dualdamp::identify

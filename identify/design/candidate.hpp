@@ -1,6 +1,7 @@
 #pragma once
 /// Measurements that could follow a record, for the advice to compare.
 
+#include <limits>
 #include <string>
 #include <variant>
 #include <vector>
@@ -36,10 +37,25 @@ struct CandidateMeasurement {
   double cost = 0.0;  ///< number of states, or of releases
 };
 
+/// What the drive can do.
+struct DriveLimits {
+  double level = std::numeric_limits<double>::infinity();      ///< largest input amplitude [m]
+  double frequency = std::numeric_limits<double>::infinity();  ///< largest frequency [rad/s]
+
+  /// Whether this plan is within them.
+  [[nodiscard]] bool allow(const MeasurementPlan& plan) const;
+};
+
+struct Candidates {
+  std::vector<CandidateMeasurement> list;
+  std::vector<std::string> left_out;  ///< names of those beyond the limits of the drive
+};
+
 /// What a laboratory with this record could do next with the same rig: record the phase, repeat, take two or three
 /// levels more often, go to higher levels, another frequency, the resonance curve, or a release. `zeta`: an
-/// approximate value, for the width of the resonance.
-[[nodiscard]] std::vector<CandidateMeasurement> candidates_after(const std::vector<Pair>& states,
-                                                                 const KnownConstants& constants, double zeta);
+/// approximate value, for the width of the resonance. Of candidates that are the same measurement the first is
+/// listed. Levels that are taken more often are taken at the measured frequency nearest to the natural one.
+[[nodiscard]] Candidates candidates_after(const std::vector<Pair>& states, const KnownConstants& constants,
+                                          double zeta, const DriveLimits& limits);
 
 }  // namespace dualdamp::identify

@@ -131,6 +131,15 @@ class Advisor {
   std::size_t draws_ = 1;
 };
 
+/// The record in one order, so that the advice does not depend on that of the file: by level, then by frequency.
+Record in_order(Record record, const KnownConstants& constants) {
+  std::ranges::stable_sort(record.pairs->pairs, {}, [&](const Pair& pair) {
+    const auto known = [](double value) { return std::isnan(value) ? 0.0 : value; };
+    return std::pair(known(pair.Y), known(frequency_of(pair, constants)));
+  });
+  return record;
+}
+
 /// Groups of neighbours in the list with the same plan, which differ only in what they read.
 std::vector<std::span<const CandidateMeasurement>> by_plan(std::span<const CandidateMeasurement> candidates) {
   std::vector<std::span<const CandidateMeasurement>> groups;
@@ -166,10 +175,11 @@ std::string text_of(const MeasurementAdvice& advice, const LawIntervals& now) {
 
 }  // namespace
 
-std::variant<Design, std::string> design_after(const Record& record, const KnownConstants& constants,
+std::variant<Design, std::string> design_after(const Record& measured, const KnownConstants& constants,
                                                const KnownDeviations& known, const LawIntervalOptions& options,
-                                               const ParameterSet& moved) {
-  if (!record.pairs || record.pairs->pairs.empty()) return "advice needs a record of steady states";
+                                               const ParameterSet& moved, const DriveLimits& limits) {
+  if (!measured.pairs || measured.pairs->pairs.empty()) return "advice needs a record of steady states";
+  const Record record = in_order(measured, constants);
   auto readings = steady_readings(record, constants, known);
   if (const auto* why = std::get_if<std::string>(&readings)) return *why;
   const ReadingModel& model = *std::get<0>(readings);
@@ -186,9 +196,9 @@ std::variant<Design, std::string> design_after(const Record& record, const Known
   const Advisor advisor(studied, moved);
   Design design{.now = study.intervals};
   widen(moved, design.now);
-  const std::vector<CandidateMeasurement> candidates =
-      candidates_after(studied.states, constants, design.now.mean.zeta);
-  const std::vector<std::span<const CandidateMeasurement>> groups = by_plan(candidates);
+  Candidates candidates = candidates_after(studied.states, constants, design.now.mean.zeta, limits);
+  design.left_out = std::move(candidates.left_out);
+  const std::vector<std::span<const CandidateMeasurement>> groups = by_plan(candidates.list);
   std::vector<std::vector<MeasurementAdvice>> advice(groups.size());
   sim::in_parts(groups.size(), 1, 0, [&](std::size_t first, std::size_t count) {
     for (std::size_t i = first; i < first + count; ++i) advice[i] = advisor.advice(groups[i]);

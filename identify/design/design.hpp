@@ -45,13 +45,14 @@ struct MeasurementAdvice {
 struct Design {
   LawIntervals now;
   std::vector<MeasurementAdvice> advice;  ///< the best first: by the hull of zeta and F0 together
+  std::vector<std::string> left_out{};    ///< names of measurements that the drive cannot do
 };
 
 /// The advice after a record of steady states, or why there is none. `moved`: standard deviations of zeta and F0 by
-/// uncertain constants. They stay the same after each candidate, because none of them measures a constant.
-[[nodiscard]] std::variant<Design, std::string> design_after(const Record& record, const KnownConstants& constants,
-                                                             const KnownDeviations& known,
-                                                             const LawIntervalOptions& options,
-                                                             const ParameterSet& moved = {});
+/// uncertain constants. They stay the same after each candidate, because none of them measures a constant. The
+/// order of the states has no effect. `limits`: of the drive.
+[[nodiscard]] std::variant<Design, std::string> design_after(
+    const Record& measured, const KnownConstants& constants, const KnownDeviations& known,
+    const LawIntervalOptions& options, const ParameterSet& moved = {}, const DriveLimits& limits = {});
 
 }  // namespace dualdamp::identify

@@ -677,6 +677,8 @@ def next(
     sigma_x: Quantity | None = None,
     without: str | Sequence[str] | None = None,
     gain_uncertainty: Mapping[str, Any] | None = None,
+    most_level: Quantity | None = None,
+    most_frequency: Quantity | None = None,
 ) -> Result: ...
 def fit(
     law: str | Law | Mapping[str, Any] | Sequence[str],

@@ -99,12 +99,12 @@ def next(  # noqa: A001, of the package it is dualdamp.next, as the command is
     out, threads
         As in `run`.
     **options
-        Further keys of the analysis ``design``: ``sigma_x="20 um"``, ``largest_severity=0.2``, ....
+        Further keys of the analysis ``design``: ``sigma_x="20 um"``, ``most_level="8 mm"`` if the drive can do no more, ....
 
     Returns
     -------
     Result
-        ``candidates``: measurements, the best one first; ``advice``: the same in words.
+        ``candidates``: measurements, the best one first, with what to do as ``instruction``; ``advice``: the best one in words.
 
     Raises
     ------
@@ -152,7 +152,7 @@ def _columns_of(data):
             raise TypeError("an array of data needs names: a structured array, a DataFrame, or a dict of columns such as {'Y': ..., 'x': ...}")
         pairs = [(name, data[name]) for name in data.dtype.names]
     elif isinstance(data, Mapping) or hasattr(data, "items"):  # a DataFrame has items, too
-        pairs = list(data.items())
+        pairs = [*_named_index(data), *data.items()]
     else:
         raise TypeError(f"data are a path, a DataFrame, a structured array or a dict of columns, not {type(data).__name__}")
     refuse_other_rows(pairs)
@@ -161,6 +161,15 @@ def _columns_of(data):
     if len(lengths) > 1:
         raise ValueError("the columns differ in length: " + ", ".join(f"{head} {len(cells)}" for head, cells in columns))
     return columns, lengths.pop() if lengths else 0
+
+
+def _named_index(data):
+    """The index of a DataFrame as columns, where it has names that no column has: that of times, such as ``t [s]``."""
+    index = getattr(data, "index", None)
+    names = getattr(index, "names", None)
+    if names is None or not hasattr(data, "columns"):
+        return []
+    return [(name, index.get_level_values(i)) for i, name in enumerate(names) if name is not None and name not in data.columns]
 
 
 def _cells(name, values):

@@ -24,6 +24,11 @@ def _chart_of(name, columns):
     return (first, drawn) if first is not None and drawn else None
 
 
+def _shown(array, name, shown):
+    """A column in the unit in which it is shown."""
+    return array[name] * shown[name][1] if array[name].dtype.kind == "f" else array[name]
+
+
 def draw(result, table, ax):
     from matplotlib import pyplot
 
@@ -32,18 +37,18 @@ def draw(result, table, ax):
         table = next((name for name in arrays if name == "map" or _chart_of(name, arrays[name].dtype.names)), None)
     if table is None or table not in arrays:
         raise ValueError(f"a result of {result.analysis} has no {'chart' if table is None else f'table {table!r}'}; tables: {', '.join(arrays) or 'none'}")
-    array, units = arrays[table], result.units[table]
+    array, shown = arrays[table], result._run.shown_units[table]
     if ax is None:
         ax = pyplot.figure().add_subplot()
     ax.set_title(result.scenario.get("title", result.analysis))
     if table == "map":
-        points = ax.scatter(array["omega"], array["Y"], c=array["stops"], s=8, marker="s")
+        points = ax.scatter(_shown(array, "omega", shown), _shown(array, "Y", shown), c=array["stops"], s=8, marker="s")
         ax.figure.colorbar(points, ax=ax, label="stops in a period")
         first, drawn = "omega", ["Y"]
     else:
         first, drawn = _chart_of(table, array.dtype.names) or (array.dtype.names[0], [name for name in array.dtype.names[1:] if array[name].dtype.kind in "fi"][:1])
         for name in drawn:
-            ax.plot(array[first], array[name], ".-" if len(array) <= 200 else "-", label=name)
-    ax.set_xlabel(_label(first, units[first]))
-    ax.set_ylabel(_label(drawn[0], units[drawn[0]]))
+            ax.plot(_shown(array, first, shown), _shown(array, name, shown), ".-" if len(array) <= 200 else "-", label=name)
+    ax.set_xlabel(_label(first, shown[first][0]))
+    ax.set_ylabel(_label(drawn[0], shown[drawn[0]][0]))
     return ax

@@ -229,7 +229,7 @@ class Result:
         return frame
 
     def plot(self, table=None, ax=None):
-        """Draw a table with Matplotlib.
+        """Draw a table with Matplotlib, in the units of the page: those in which the scenario states such quantities.
 
         Parameters
         ----------
@@ -258,7 +258,7 @@ class Result:
             run.save(directory)
             files = {path.name: path.read_bytes() for path in Path(directory).iterdir()}
         tables = [(name, key, [(column, unit, kind, _own(cells)) for column, unit, kind, cells in columns]) for name, key, columns in run.tables()]
-        names = ("status", "analysis", "failure", "warnings", "scenario", "numbers")
+        names = ("status", "analysis", "failure", "warnings", "scenario", "numbers", "shown_units")
         return _restored, ({name: getattr(run, name) for name in names}, files, tables)
 
 

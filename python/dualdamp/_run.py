@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+import traceback
 import warnings
 from collections.abc import Mapping
 from contextlib import nullcontext
@@ -156,7 +157,9 @@ def run_source(source, *, out=None, threads=0, resume=False, overwrite=False, pr
         for message in done.save(directory):
             warnings.warn(message, stacklevel=3)
     if done.numbers == "null":
-        raise NumericalFailure(done.failure, result) from (watch and watch.error)
+        error = watch and watch.error
+        because = f": {''.join(traceback.format_exception_only(error)).strip()}" if error else ""
+        raise NumericalFailure(done.failure + because, result) from error
     if result.status == _CHECK_FAILED:
         raise CheckFailed(_failed_checks(result), result)
     if result.status != 0:

@@ -2,6 +2,8 @@
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -19,6 +21,7 @@
 #include "scenarios/format/json_text.hpp"
 #include "scenarios/output.hpp"
 #include "scenarios/results/prediction_keys.hpp"
+#include "scenarios/results/shown_units.hpp"
 #include "scenarios/run.hpp"
 #include "scenarios/scenario.hpp"
 #include "sim/parallel.hpp"
@@ -195,6 +198,25 @@ py::list tables_of(const py::object& self) {
   return tables;
 }
 
+/// The unit in which each column is shown, and the factor from SI, by table and column.
+py::dict shown_units_of(const Run& run) {
+  const scenarios::ShownUnits units = scenarios::shown_units(run.scenario->written_units);
+  py::dict tables;
+  for (const scenarios::Table& table : run.result->tables) {
+    py::dict columns;
+    for (const scenarios::Column& column : table.columns) {
+      double largest = 0.0;
+      for (const double number : column.numbers)
+        if (std::isfinite(number)) largest = std::max(largest, std::abs(number));
+      const auto shown = scenarios::shown_unit(units, scenarios::kind_of(column.unit, column.name), largest);
+      columns[py::str(column.name)] =
+          shown ? py::make_tuple(shown->unit, shown->factor) : py::make_tuple(column.unit, 1.0);
+    }
+    tables[py::str(table.name)] = columns;
+  }
+  return tables;
+}
+
 using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
 /// A column of data: its heading, and numbers or texts as fields of a CSV file.
 using DataColumn = std::pair<std::string, std::variant<Numbers, std::vector<std::string>>>;
@@ -225,6 +247,7 @@ void add_run_class(py::module_& module) {
       .def_property_readonly("warnings", [](const Run& run) { return run.result->warnings; })
       .def_property_readonly("scenario", [](const Run& run) { return run.scenario->resolved; })
       .def_property_readonly("numbers", [](const Run& run) { return run.result->result; })
+      .def_property_readonly("shown_units", &shown_units_of)
       .def("tables", &tables_of)
       .def("document", &document, py::call_guard<Unlocked>())
       .def("save", &save, py::arg("directory"), py::call_guard<Unlocked>());

@@ -4,6 +4,7 @@
 #include <iterator>
 #include <utility>
 
+#include "core/constants.hpp"
 #include "identify/outliers/outliers.hpp"
 #include "scenarios/analyses/shared/identify_options.hpp"
 #include "scenarios/format/json.hpp"
@@ -11,6 +12,8 @@
 #include "scenarios/measurements/measured_data.hpp"
 #include "scenarios/measurements/measurement.hpp"
 #include "scenarios/results/laws.hpp"
+#include "scenarios/results/measurement_plan.hpp"
+#include "scenarios/results/shown_units.hpp"
 #include "scenarios/results/table.hpp"
 
 namespace dualdamp::scenarios {
@@ -28,6 +31,13 @@ Section design_keys() {
       fields.push_back(std::move(field));
   }
   fields.push_back(gain_uncertainty_field());
+  fields.push_back(
+      quantity("most_level", {"m"},
+               "largest input amplitude that the drive reaches; a measurement beyond it is not advised")
+          .above(0));
+  fields.push_back(quantity("most_frequency", {"rad/s"},
+                            "largest frequency that the drive reaches; a measurement beyond it is not advised")
+                       .above(0));
   return {std::move(fields), {{{"data", "measurement"}, true}}};
 }
 
@@ -35,11 +45,12 @@ std::vector<Needs> design_needs() {
   const std::string base = "the states are those of a mass that its base drives";
   return {{"xy_curve", {"base_harmonic"}, {}, true, base},
           {"frequency_response", {"base_harmonic"}, {"amplitude"}, true, base},
-          {"data", {"base_harmonic", "none"}, {"frequency"}, false, base}};
+          {"data", {"base_harmonic", "none"}, {"frequency"}, false, base, idle_beside_data()}};
 }
 
 void check_design(CheckedFile& file) {
   check_measurement(file);
+  warn_of_unknown_damper(file);
   read_data(file);
   if (const std::optional<identify::Record> record = outlined_record(file)) check_gains(file, *record);
   if (!file.data) return;
@@ -53,7 +64,9 @@ void check_design(CheckedFile& file) {
 std::unique_ptr<const Question> ask_design(CheckedValues&& values) {
   auto options =
       identify::taken_from<identify::AnyLawOptions>(identify::any_law_method.own(method_options(values.analysis)));
-  return std::make_unique<DesignQuestion>(record_question(std::move(values)), std::move(options));
+  const identify::DriveLimits limits = {number_or(values.analysis, "most_level", core::infinity),
+                                        number_or(values.analysis, "most_frequency", core::infinity)};
+  return std::make_unique<DesignQuestion>(record_question(std::move(values)), std::move(options), limits);
 }
 
 Json shrinkage_json(const identify::Shrinkage& shrinkage) {
@@ -67,19 +80,27 @@ Json range_json(const MeasurementAdvice& advice, double identify::Shrinkage::* o
   return {finite_or_null(by_law(least)), finite_or_null(by_law(most))};
 }
 
-Json advice_json(const MeasurementAdvice& advice) {
-  return {{"measurement", advice.candidate.name},
-          {"cost", advice.candidate.cost},
-          {"hull_shrinks_to", shrinkage_json(advice.hull)},
-          {"average_shrinks_to", shrinkage_json(advice.average)},
-          {"hull_by_law",
-           {{"zeta", range_json(advice, &identify::Shrinkage::zeta)},
-            {"F0", range_json(advice, &identify::Shrinkage::F0)}}},
-          {"power", finite_or_null(advice.power)},
-          {"text", advice.text}};
+/// The advice in words: what it brings, and what to do.
+std::string text_of(const MeasurementAdvice& advice, const std::string& instruction) {
+  return advice.text + ". To do: " + instruction;
 }
 
-Table candidate_table(const std::vector<MeasurementAdvice>& list) {
+Json advice_json(const MeasurementAdvice& advice, const std::string& instruction, const PlannedRig& rig) {
+  Json json = {{"measurement", advice.candidate.name},
+               {"instruction", instruction},
+               {"cost", advice.candidate.cost},
+               {"hull_shrinks_to", shrinkage_json(advice.hull)},
+               {"average_shrinks_to", shrinkage_json(advice.average)},
+               {"hull_by_law",
+                {{"zeta", range_json(advice, &identify::Shrinkage::zeta)},
+                 {"F0", range_json(advice, &identify::Shrinkage::F0)}}},
+               {"power", finite_or_null(advice.power)},
+               {"text", text_of(advice, instruction)}};
+  json.update(plan_json(advice.candidate, rig));
+  return json;
+}
+
+Table candidate_table(const std::vector<MeasurementAdvice>& list, std::vector<std::string> instructions) {
   const auto real = [&](const std::string& name, auto get) { return column(name, "", list, get); };
   return {"candidates",
           {text_column("measurement", list, [](const MeasurementAdvice& advice) { return advice.candidate.name; }),
@@ -88,12 +109,25 @@ Table candidate_table(const std::vector<MeasurementAdvice>& list) {
            real("hull_F0", [](const MeasurementAdvice& advice) { return advice.hull.F0; }),
            real("average_zeta", [](const MeasurementAdvice& advice) { return advice.average.zeta; }),
            real("average_F0", [](const MeasurementAdvice& advice) { return advice.average.F0; }),
-           real("power", [](const MeasurementAdvice& advice) { return advice.power; })}};
+           real("power", [](const MeasurementAdvice& advice) { return advice.power; }),
+           {.name = "instruction", .texts = std::move(instructions), .kind = CellKind::text}}};
 }
 
 ResultFields design_fields() {
   return {
       {"candidates[].measurement", "", "what could be measured next, the best first"},
+      {"candidates[].instruction", "",
+       "what to do, in the units of the scenario: levels, frequencies, waiting, what is read"},
+      {"candidates[].states[].Y", "m", "input amplitude of a steady state to be measured"},
+      {"candidates[].states[].omega", "rad/s", "its frequency"},
+      {"candidates[].states[].times", "1", "how often it is measured"},
+      {"candidates[].settle", "s",
+       "time to wait after each change of level or frequency, until viscous damping alone has reduced the transient to "
+       "a thousandth"},
+      {"candidates[].release", "m", "of a release: the position from which the mass is let go"},
+      {"candidates[].extremes", "1", "number of extremes to be read"},
+      {"candidates[].duration", "s", "time that they take"},
+      {"candidates[].sample_rate", "1/s", "least sample rate: 100 samples in a period"},
       {"candidates[].cost", "1", "number of steady states to be measured, or of releases"},
       {"candidates[].hull_shrinks_to.zeta", "1", "expected width of the hull of zeta over its present width"},
       {"candidates[].hull_shrinks_to.F0", "1", "the same of the friction force"},
@@ -105,6 +139,7 @@ ResultFields design_fields() {
       {"candidates[].power", "1",
        "expected share of the wrong laws that are rejected, of those that the record allows"},
       {"candidates[].text", "", "the advice in words"},
+      {"left_out[]", "", "measurements that the drive cannot do, by most_level and most_frequency"},
       {"hull95.zeta[]", "1", "ends of the present hull of zeta"},
       {"hull95.F0[]", "N", "ends of the present hull of the friction force"},
       {"inflation", "1",
@@ -113,13 +148,36 @@ ResultFields design_fields() {
       {"advice", "", "the best candidate in words, or that none helps"}};
 }
 
-std::string summary_of(const identify::Design& design) {
+std::string summary_of(const identify::Design& design, const std::string& instruction) {
   const MeasurementAdvice& best = design.advice.front();
   constexpr double little = 0.9;
   if (const std::string none = identify::no_law_fits(design.now); !none.empty())
     return none + ", so that the ranges and what would narrow them are not to be used";
   if (best.hull.zeta > little && best.hull.F0 > little) return "nothing on the list narrows the ranges by a tenth";
-  return best.text;
+  return text_of(best, instruction);
+}
+
+std::string warning_of_limits(const std::vector<std::string>& left_out) {
+  std::string text = "left out, because the drive cannot do them by 'most_level' and 'most_frequency': ";
+  for (const std::string& name : left_out) text += (&name == &left_out.front() ? "" : "; ") + name;
+  return text;
+}
+
+/// Advice, present ranges and candidates.
+void add_design(const identify::Design& design, const PlannedRig& rig, const ShownUnits& units, Answer& answer) {
+  std::vector<std::string> instructions;
+  for (const MeasurementAdvice& advice : design.advice)
+    instructions.push_back(instruction_of(advice.candidate, rig, units));
+  if (!design.left_out.empty()) answer.warnings.push_back(warning_of_limits(design.left_out));
+  Json& result = answer.result;
+  result["advice"] = summary_of(design, instructions.front());
+  result["hull95"] = {{"zeta", design.now.zeta_hull}, {"F0", design.now.F0_hull}};
+  result["inflation"] = finite_or_null(design.now.inflation);
+  result["candidates"] = Json::array();
+  for (std::size_t i = 0; i < design.advice.size(); ++i)
+    result["candidates"].push_back(advice_json(design.advice[i], instructions[i], rig));
+  result["left_out"] = design.left_out;
+  answer.tables.push_back(candidate_table(design.advice, std::move(instructions)));
 }
 
 }  // namespace
@@ -137,8 +195,8 @@ Answer DesignQuestion::run(const RunContext& context) const {
     if (by.std) moved = *by.std;
     warnings.insert(warnings.end(), by.warnings.begin(), by.warnings.end());
   }
-  const auto found =
-      identify::design_after(record, methods.constants, options_, identify::interval_options(options_), moved);
+  const auto found = identify::design_after(record, methods.constants, options_,
+                                            identify::interval_options(options_), moved, limits_);
   if (const auto* why = std::get_if<std::string>(&found)) return failed(*why);
   const auto& design = std::get<identify::Design>(found);
   std::ranges::move(identify::warnings_about(design.now, options_), std::back_inserter(warnings));
@@ -148,13 +206,10 @@ Answer DesignQuestion::run(const RunContext& context) const {
                        "no law of the library has. The ranges and the advice are not to be used");
   Answer answer;
   answer.warnings = std::move(warnings);
-  Json& result = answer.result;
-  result["advice"] = summary_of(design);
-  result["hull95"] = {{"zeta", design.now.zeta_hull}, {"F0", design.now.F0_hull}};
-  result["inflation"] = finite_or_null(design.now.inflation);
-  result["candidates"] = Json::array();
-  for (const MeasurementAdvice& advice : design.advice) result["candidates"].push_back(advice_json(advice));
-  answer.tables.push_back(candidate_table(design.advice));
+  const ShownUnits units = context.written_units == nullptr ? ShownUnits{} : shown_units(*context.written_units);
+  const PlannedRig rig = {methods.constants.natural_frequency(), design.now.mean.zeta,
+                          methods.constants.coordinate};
+  add_design(design, rig, units, answer);
   for (Table& table : law_tables(design.now, methods.constants)) answer.tables.push_back(std::move(table));
   return answer;
 }

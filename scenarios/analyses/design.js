@@ -19,7 +19,7 @@ function adviceBox({advice, hull95, inflation}) {
 function candidateTable({candidates}) {
   const at = (i, key) => `candidates[${i}].${key}`;
   const rows = candidates.map((one, i) => [
-    {text: String(i + 1), class: 'text'}, {text: one.measurement, class: 'long'}, {text: one.cost, path: at(i, 'cost')},
+    {text: String(i + 1), class: 'text'}, {text: make('span', {}, one.measurement, make('small', {class: 'under'}, ` ${one.instruction}`)), class: 'long'}, {text: one.cost, path: at(i, 'cost')},
     ...['zeta', 'F0'].map((key) => ({
       text: make('span', {}, amount(one.hull_shrinks_to[key]), make('small', {class: 'under'}, ` ${span(one.hull_by_law[key])}`)),
       path: at(i, `hull_shrinks_to.${key}`), value: one.hull_shrinks_to[key]

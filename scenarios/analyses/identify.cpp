@@ -76,6 +76,35 @@ void check_gains(CheckedFile& file, const identify::Record& record) {
   }
 }
 
+std::vector<IdleKey> idle_beside_data() {
+  const std::string fit = "analysis 'fit' takes it as stated";
+  const std::string recorded = "the drive is that of the record";
+  std::vector<IdleKey> keys = {
+      {"system", "damping", "the damping is what the methods seek", fit},
+      {"system", "damping_ratio", "the damping is what the methods seek", "analysis 'fit' takes a stated damping"},
+      {"system", "friction", "friction is what the methods seek, as Coulomb + viscous, or over all laws", fit},
+      {"system", "damper_to",
+       "the methods take the damper between mass and ground; with one between mass and base, zeta and F0 of these "
+       "data would be wrong",
+       "ground; " + fit},
+      {"system", "cubic_stiffness", "the methods take a linear spring", "0; " + fit},
+      {"excitation", "amplitude", recorded, "without it"},
+      {"excitation", "phase", recorded, "without it"},
+      {"excitation", "harmonics", recorded + ", and that of x-Y pairs has one frequency", fit}};
+  std::ranges::move(idle_start("the motion is that of the record"), std::back_inserter(keys));
+  std::ranges::move(idle_engines("the methods choose their own"), std::back_inserter(keys));
+  return keys;
+}
+
+void warn_of_unknown_damper(CheckedFile& file) {
+  const bool rides_on_base = file.measurement() != nullptr && file.text_at("system", "damper_to") == "base" &&
+                             moves_base(file.text_at("excitation", "type"));
+  if (rides_on_base && file.number_at("system", "damping").value_or(0.0) != 0.0)
+    file.warnings.emplace_back(
+        "'system.damper_to' is base, and the methods take the damper between mass and ground: zeta and F0 of this "
+        "rig come out wrong, and no assumption that is tested names the reason");
+}
+
 namespace {
 
 Section identify_keys() {
@@ -103,11 +132,12 @@ std::vector<Needs> identify_needs() {
           {"frequency_response", {"base_harmonic"}, {"amplitude"}, true, base},
           {"simulate", excitations().names(), {"frequency"}, true, ""},
           needs_of_free_vibrations("free_decay"),
-          {"data", {"base_harmonic", "none"}, {"frequency"}, false, base}};
+          {"data", {"base_harmonic", "none"}, {"frequency"}, false, base, idle_beside_data()}};
 }
 
 void check_identify(CheckedFile& file) {
   check_measurement(file);
+  warn_of_unknown_damper(file);
   read_data(file);
   const std::optional<identify::Record> record = outlined_record(file);
   if (!record) return;

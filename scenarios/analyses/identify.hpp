@@ -65,6 +65,12 @@ class IdentifyQuestion final : public Question {
 /// Uncertainties of the sensors' gains, which remain after calibration and do not appear as noise.
 [[nodiscard]] Field gain_uncertainty_field();
 
+/// Keys that an analysis of a data file by the methods does not use.
+[[nodiscard]] std::vector<IdleKey> idle_beside_data();
+
+/// Warns of a property of a simulated rig that the methods do not know, and that no test of the ledger frees.
+void warn_of_unknown_damper(CheckedFile& file);
+
 /// Complains about gains of sensors that are not in `record`, because they would be ignored.
 void check_gains(CheckedFile& file, const identify::Record& record);
 

@@ -221,6 +221,8 @@ std::unique_ptr<const Question> ask_predict(CheckedValues&& values) {
   std::vector<identify::FitParameter> parameters = fitted_parameters(rig, values.analysis, faults);
   const std::vector<identify::FitParameter> zeros = fitted_zeros(values.analysis, faults);
   std::vector<DataItem> items = items_of(values.analysis, values.files, "data");
+  // The drive of the fit stands in the scenario for the records that need it.
+  if (!values.analysis.value("drive_of_fit", false)) refuse_idle_drive(items, values.model, faults);
   identify::Experiments undriven = undriven_data(items, values);
   std::vector<std::string> warnings = leave_out_holds(items, values.model, false);
   std::ranges::move(remove_zeros(items, values.model, {}), std::back_inserter(warnings));
@@ -277,7 +279,12 @@ const Analysis& predict_analysis() {
       .name = "predict",
       .summary = "a fitted rig against records that were not fitted",
       .keys = predict_keys(),
-      .needs = {{"", excitations().names(), {}, false, ""}},
+      .needs = {{"",
+                 excitations().names(),
+                 {},
+                 false,
+                 "",
+                 idle_start("the state at the first sample of a record is fitted to the record")}},
       .results = joined(validation_fields("validation."), {{"verdict", "", "what that means"}}),
       .chart = {.overlay = "prediction"},
       .seeks_laws = true,

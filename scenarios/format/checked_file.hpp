@@ -137,6 +137,9 @@ class CheckedFile {
   /// `analysis.measurement`; nullptr when there is none.
   [[nodiscard]] const Json* measurement() const;
 
+  /// The tables by which the file was read.
+  [[nodiscard]] const Section& format() const { return format_; }
+
   /// The tables of a section that is a plain map: system.
   [[nodiscard]] const Section& keys_of(std::string_view section) const;
 

@@ -58,8 +58,24 @@ class Terminal(Case):
         self.write("next.yaml", NEXT)
         asked = "no quantity of the result is in a unit that was asked for: "
         repeats = "; what the data or the scenario states in such units is not repeated in the result"
-        self.assertIn(f"{asked}mm, rpm{repeats}; its quantities are in N\n", self.run_program("run", "next.yaml", "--out", "next", "--show-in", "mm,rpm").stderr)
-        self.assertIn(f"{asked}kg/s; its quantities are in N\n", self.run_program("run", "next.yaml", "--out", "again", "--show-in", "kg/s").stderr)
+        quantities = "its quantities are in 1/s, N, m, rad/s, s\n"
+        self.assertIn(f"{asked}kg{repeats}; {quantities}", self.run_program("run", "next.yaml", "--out", "next", "--show-in", "kg").stderr)
+        self.assertIn(f"{asked}kg/s; {quantities}", self.run_program("run", "next.yaml", "--out", "again", "--show-in", "kg/s").stderr)
+
+    def test_what_to_do_next_is_in_the_units_of_the_user(self):
+        self.write("pairs.csv", PAIRS)
+        self.write("next.yaml", NEXT)
+        usual, asked = (self.run_program("next", "next.yaml", "--out", out, *more, "--most-level", "7.5 mm") for out, more in (("next", []), ("asked", ["--show-in", "um,Hz"])))
+        self.assertIn("left out, because the drive cannot do them by 'most_level' and 'most_frequency': the same states at levels twice as high", usual.stderr)
+        self.assertNotIn("asked for", asked.stderr)
+        for out, units in (("next", ("mm", "rpm")), ("asked", ("um", "Hz"))):
+            result = json.loads((self.folder / out / "result.json").read_text())["result"]
+            table = (self.folder / out / "candidates.csv").read_text()
+            for candidate in result["candidates"]:
+                self.assertLessEqual(max((state["Y"] for state in candidate.get("states", [])), default=0), 0.0075)
+                self.assertIn(units[0], candidate["instruction"])
+                self.assertIn(candidate["instruction"], table)
+                self.assertIn(units[1], candidate["instruction"]) if "states" in candidate else None
 
     def test_files_of_a_fit_stay_in_si(self):
         self.run_program(*FIT, "--show-in", "mm,kN")
@@ -139,7 +155,7 @@ class Page(Case):
             "[...document.querySelectorAll('.charts figcaption .row')].map((title) => title.firstChild.textContent)")
         self.assertIn(result["advice"], box)
         self.assertIn("%.4g" % result["hull95"]["zeta"][1], box)
-        self.assertEqual(rows, [candidate["measurement"] for candidate in result["candidates"]])
+        self.assertEqual(rows, [f"{candidate['measurement']} {candidate['instruction']}" for candidate in result["candidates"]])
         self.assertEqual(titles, ["How far the ranges shrink", "ζ, law by law", "F0, law by law"])
 
     def test_estimates(self):

@@ -46,6 +46,18 @@ def test_every_kind_of_columns(pairs):
         assert dd.identify(data, methods=methods, **RIG).result == expected, type(data)
 
 
+def test_the_named_index_of_a_data_frame():
+    """That of times, as after set_index."""
+    pandas = pytest.importorskip("pandas")
+    t = np.arange(0.0, 3.0, 0.005)
+    columns = {"t [s]": t, "x [mm]": 10.0 * np.exp(-0.3 * t) * np.cos(10.0 * t)}
+    rig = {"mass": "1 kg", "stiffness": "100 N/m", "methods": ["output_error"]}
+    frame = pandas.DataFrame(columns)
+    expected = dd.identify(columns, **rig).result
+    assert dd.identify(frame.set_index("t [s]"), **rig).result == expected
+    assert dd.identify(frame, **rig).result == expected
+
+
 def test_a_phase_that_was_not_measured():
     """NaN or None in a column of phases; in another column it is refused."""
     rig = {"mass": "1 kg", "stiffness": "100 N/m"}

@@ -130,8 +130,10 @@ def test_chart():
     matplotlib = pytest.importorskip("matplotlib")
     matplotlib.use("Agg")
     ax = dd.run(CURVE).plot()
-    assert (ax.get_xlabel(), ax.get_ylabel()) == ("Y [m]", "x [m]")
-    assert np.array_equal(ax.lines[0].get_ydata(), dd.run(CURVE).points["x"])
+    assert (ax.get_xlabel(), ax.get_ylabel()) == ("Y [mm]", "x [mm]")
+    assert np.array_equal(ax.lines[0].get_ydata(), 1e3 * dd.run(CURVE).points["x"])
+    stored = pickle.loads(pickle.dumps(dd.run(CURVE))).plot()
+    assert (stored.get_xlabel(), stored.get_ylabel()) == ("Y [mm]", "x [mm]")
     with pytest.raises(ValueError, match="has no table 'nothing'; tables: curve"):
         dd.run(CURVE).plot("nothing")
 

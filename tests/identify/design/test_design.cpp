@@ -4,6 +4,7 @@
 #include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <string>
 #include <utility>
@@ -169,4 +170,97 @@ TEST_CASE("design: a record without steady states gets no advice, with the reaso
   const auto found = design_after(record, {mass, stiffness, natural}, {}, {});
   REQUIRE(std::holds_alternative<std::string>(found));
   CHECK(std::get<std::string>(found).find("steady states") != std::string::npos);
+}
+
+namespace {
+
+/// Plans of the candidates after these states, by name.
+std::map<std::string, MeasurementPlan> plans_after(const std::vector<Pair>& states,
+                                                   const DriveLimits& limits = {}) {
+  std::map<std::string, MeasurementPlan> plans;
+  for (const CandidateMeasurement& candidate :
+       candidates_after(states, {mass, stiffness, natural}, 0.1, limits).list) {
+    REQUIRE_FALSE(plans.contains(candidate.name));
+    plans.emplace(candidate.name, candidate.plan);
+  }
+  return plans;
+}
+
+/// A resonance curve at each of these levels, 20 % to both sides, without phases.
+std::vector<Pair> curves_at(const std::vector<double>& levels) {
+  std::vector<Pair> states;
+  for (const double Y : levels)
+    for (int i = -4; i <= 4; ++i)
+      states.push_back({.Y = Y, .x = Y * (6.0 - std::abs(i)), .omega = natural * (1.001 + 0.05 * i)});
+  return states;
+}
+
+}  // namespace
+
+TEST_CASE("design: after a resonance curve the levels are planned at its top, whatever the order of the file") {
+  const std::vector<Pair> states = curves_at({0.004, 0.006});
+  std::vector<Pair> reversed(states.rbegin(), states.rend());
+  const std::string often = "the lowest and the highest level, each taken several times";
+  for (const std::vector<Pair>& one : {states, reversed}) {
+    const auto plans = plans_after(one);
+    for (const PlannedState& state : std::get<std::vector<PlannedState>>(plans.at(often)))
+      CHECK(state.omega == Approx(1.001 * natural));
+  }
+}
+
+TEST_CASE("design: measurements that are the same are one candidate") {
+  // Levels as a shaker reaches them.
+  std::vector<Pair> states = curves_at({0.005});
+  states.front().Y = 0.00502;
+  const auto found = candidates_after(states, {mass, stiffness, natural}, 0.1, {});
+  CHECK(found.left_out.empty());
+  for (std::size_t i = 0; i < found.list.size(); ++i)
+    for (std::size_t k = 0; k < i; ++k) {
+      INFO(found.list[i].name << " and " << found.list[k].name);
+      CHECK_FALSE((found.list[i].plan == found.list[k].plan && found.list[i].phases == found.list[k].phases &&
+                   found.list[i].only_phases == found.list[k].only_phases));
+    }
+  const auto plans = plans_after(states);
+  CHECK(plans.contains("the resonance curve at the level of the record, with phases"));
+  CHECK_FALSE(plans.contains("the resonance curve at the highest level, with phases"));
+  CHECK_FALSE(plans.contains("the lowest and the highest level, each taken several times"));
+  CHECK(plans_after(curves_at({0.004, 0.006})).contains("the resonance curve at the highest level, with phases"));
+}
+
+TEST_CASE("design: what the drive cannot do is no candidate") {
+  const std::vector<Pair> states = curves_at({0.004, 0.006});
+  const auto within = [&](const DriveLimits& limits) {
+    const auto plans = plans_after(states, limits);
+    for (const auto& [name, plan] : plans) {
+      INFO(name);
+      CHECK(limits.allow(plan));
+    }
+    return plans;
+  };
+  // Higher levels go as far as they can.
+  const auto higher = within({.level = 0.009}).at("the same states at levels 1.5 times as high");
+  CHECK(std::get<std::vector<PlannedState>>(higher).back().Y == Approx(0.009));
+  const auto low = within({.level = 0.0061});
+  CHECK_FALSE(low.contains("the same states at levels twice as high"));
+  CHECK(low.contains("repeat the same states"));
+  const DriveLimits slow{.frequency = 1.21 * natural};
+  CHECK_FALSE(within(slow).contains("the same levels at 1.1 times the frequency"));
+  const auto left_out = candidates_after(states, {mass, stiffness, natural}, 0.1, slow).left_out;
+  CHECK(left_out == std::vector<std::string>{"the same levels at 1.1 times the frequency",
+                                             "the same levels at 1.1 times the frequency, with phases"});
+}
+
+TEST_CASE("design: the order of the readings does not change the advice") {
+  Normal normal(21);
+  const Record record = amplitudes(normal, 0.003, 0.03);
+  Record reversed = record;
+  std::ranges::reverse(reversed.pairs->pairs);
+  std::vector<std::string> texts[2];
+  const Record* orders[2] = {&record, &reversed};
+  for (int i = 0; i < 2; ++i) {
+    const auto found = design_after(*orders[i], {mass, stiffness, natural}, {}, {.without = all_but_few()});
+    REQUIRE(std::holds_alternative<Design>(found));
+    for (const MeasurementAdvice& advice : std::get<Design>(found).advice) texts[i].push_back(advice.text);
+  }
+  CHECK(texts[0] == texts[1]);
 }

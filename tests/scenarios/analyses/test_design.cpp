@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <cstdio>
 #include <fstream>
 #include <string>
@@ -68,6 +69,60 @@ void check_candidates(const scenarios::RunResult& run) {
   CHECK(std::ranges::find(names, "advice") == names.end());
 }
 
+/// What to do, in numbers: in words as the user writes units, and in SI.
+void check_instructions(const scenarios::RunResult& run) {
+  const auto answer = testing::result_of(run);
+  std::size_t states = 0;
+  for (const auto& candidate : answer.at("candidates")) {
+    const auto instruction = candidate.at("instruction").get<std::string>();
+    INFO(instruction);
+    CHECK(candidate.at("text").get<std::string>().ends_with(". To do: " + instruction));
+    CHECK(instruction.find(" mm") != std::string::npos);
+    if (candidate.contains("release")) {
+      CHECK(instruction.find("let the mass go from x = ") != std::string::npos);
+      CHECK(candidate.at("duration").get<double>() == Approx(8 * 3.14159265 / std::sqrt(1568 / 1.042)));
+      CHECK(candidate.at("sample_rate").get<double>() > 600.0);
+      continue;
+    }
+    CHECK(instruction.find(" Hz") != std::string::npos);
+    double all = 0.0;
+    for (const auto& state : candidate.at("states")) all += state.at("times").get<double>();
+    CHECK(all == candidate.at("cost").get<double>());
+    CHECK(candidate.at("settle").get<double>() > 0.5);
+    ++states;
+  }
+  CHECK(states == answer.at("candidates").size() - 1);
+  const auto named = [&](const std::string& name) {
+    for (const auto& candidate : answer.at("candidates"))
+      if (candidate.at("measurement") == name) return candidate.at("instruction").get<std::string>();
+    return std::string();
+  };
+  CHECK(named("repeat the same states")
+            .starts_with("6 states: Y = 4 mm, 4.7 mm, 5.4 mm, 6.1 mm, 6.8 mm, 7.5 mm at 6.174 Hz; wait "));
+  CHECK(named("the lowest and the highest level, each taken several times")
+            .starts_with("6 states: Y = 4 mm (3 times), 7.5 mm (3 times) at 6.174 Hz; wait "));
+  CHECK(named("the resonance curve at the highest level, with phases")
+            .starts_with("6 states: Y = 7.5 mm at 6 frequencies from "));
+}
+
+void check_limits_of_the_drive() {
+  std::string text = with_few_laws();
+  text.replace(text.find("type: design"), 12, "type: design, most_level: 8 mm, most_frequency: 6.2 Hz");
+  const scenarios::RunResult run = scenarios::run(scenarios::parse_scenario(text, "test.yaml"));
+  const auto answer = testing::result_of(run);
+  for (const auto& candidate : answer.at("candidates"))
+    for (const auto& state : candidate.value("states", nlohmann::json::array())) {
+      CHECK(state.at("Y").get<double>() <= 0.008);
+      CHECK(state.at("omega").get<double>() < 39.0);
+    }
+  CHECK(answer.at("left_out").size() >= 3);
+  CHECK(std::ranges::any_of(run.warnings, [](const std::string& warning) {
+    return warning.find(
+               "left out, because the drive cannot do them by 'most_level' and 'most_frequency': the same "
+               "states at levels twice as high, with phases; ") != std::string::npos;
+  }));
+}
+
 void check_laws_left_out(const scenarios::RunResult& run) {
   const auto some = design_answer(with_few_laws(", free_play, partial_play"));
   CHECK(some.at("candidates")[0].at("power") != testing::result_of(run).at("candidates")[0].at("power"));
@@ -101,6 +156,8 @@ void check_uncertain_constants(const scenarios::RunResult& run) {
 TEST_CASE("design: candidates, laws that are left out, and uncertain constants", "[scenarios][design]") {
   static const scenarios::RunResult run = scenarios::run(scenarios::parse_scenario(with_few_laws(), "test.yaml"));
   SECTION("candidates have their widths and power, the best first") { check_candidates(run); }
+  SECTION("each says in numbers what to do") { check_instructions(run); }
+  SECTION("what the drive cannot do is left out and named") { check_limits_of_the_drive(); }
   SECTION("laws that are left out take no part") { check_laws_left_out(run); }
   SECTION("uncertain constants are in the ranges now and after, as in those of identify") {
     check_uncertain_constants(run);
