@@ -253,10 +253,9 @@ MechanismStudy study_of(const Json& section, const Json& system) {
 /// Keys of the other sections that the study does not use.
 std::vector<scenarios::IdleKey> idle_keys() {
   const std::string drive = "the levels are those of a sine without harmonics, at any phase";
-  std::vector<scenarios::IdleKey> keys = {{"excitation", "phase", drive, "without it"},
+  std::vector<scenarios::IdleKey> keys = {{"excitation", "phase", drive, ""},
                                           {"excitation", "harmonics", drive, "without it"}};
   std::ranges::move(scenarios::idle_start("the study is of steady states"), std::back_inserter(keys));
-  std::ranges::move(scenarios::idle_engines("the study has an accuracy of its own"), std::back_inserter(keys));
   return keys;
 }
 

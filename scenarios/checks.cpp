@@ -323,13 +323,17 @@ bool states_default(const CheckedFile& file, const IdleKey& idle) {
          file.values().at(idle.section).at(idle.key) == field->fallback;
 }
 
-/// A stated value that affects no number of the result is refused.
+/// A stated value that affects no number of the result is told; one that contradicts the analysis is refused.
 void check_idle_keys(CheckedFile& file) {
   for (const IdleKey& idle : file.needs()->idle) {
     if (!file.stands_in_file(idle.section, idle.key) || states_default(file, idle) || sets_frequency(file, idle))
       continue;
     const std::string path = idle.section + "." + idle.key;
-    file.complain(path, "'" + path + "' has no effect: " + idle.reason, idle.allowed);
+    const std::string message = "'" + path + "' has no effect: " + idle.reason;
+    if (idle.allowed.empty())
+      file.warnings.push_back(message);
+    else
+      file.complain(path, message, idle.allowed);
   }
 }
 

@@ -80,19 +80,19 @@ std::vector<IdleKey> idle_beside_data() {
   const std::string fit = "analysis 'fit' takes it as stated";
   const std::string recorded = "the drive is that of the record";
   std::vector<IdleKey> keys = {
-      {"system", "damping", "the damping is what the methods seek", fit},
-      {"system", "damping_ratio", "the damping is what the methods seek", "analysis 'fit' takes a stated damping"},
-      {"system", "friction", "friction is what the methods seek, as Coulomb + viscous, or over all laws", fit},
+      {"system", "damping", "the damping is what the methods seek; " + fit, ""},
+      {"system", "damping_ratio", "the damping is what the methods seek", ""},
+      {"system", "friction", "friction is what the methods seek, as Coulomb + viscous, or over all laws; " + fit,
+       ""},
       {"system", "damper_to",
        "the methods take the damper between mass and ground; with one between mass and base, zeta and F0 of these "
        "data would be wrong",
        "ground; " + fit},
       {"system", "cubic_stiffness", "the methods take a linear spring", "0; " + fit},
-      {"excitation", "amplitude", recorded, "without it"},
-      {"excitation", "phase", recorded, "without it"},
+      {"excitation", "amplitude", recorded, ""},
+      {"excitation", "phase", recorded, ""},
       {"excitation", "harmonics", recorded + ", and that of x-Y pairs has one frequency", fit}};
   std::ranges::move(idle_start("the motion is that of the record"), std::back_inserter(keys));
-  std::ranges::move(idle_engines("the methods choose their own"), std::back_inserter(keys));
   return keys;
 }
 

@@ -13,7 +13,7 @@ struct IdleKey {
   std::string section;
   std::string key;
   std::string reason;   ///< continues "'system.damping' has no effect: "
-  std::string allowed;  ///< what may be stated instead
+  std::string allowed;  ///< what may be stated instead; empty: the value does no harm, and a warning is enough
 };
 
 struct Needs {
@@ -24,7 +24,7 @@ struct Needs {
   std::vector<std::string> drive;        ///< keys of a harmonic excitation that must be there
   bool whole_system = true;              ///< mass, stiffness above zero, and damping or damping_ratio must be there
   std::string reason;                    ///< why these excitations only, for messages
-  std::vector<IdleKey> idle = {};        ///< these are refused, unless they state their default
+  std::vector<IdleKey> idle = {};        ///< told or refused, unless they state their default
 };
 
 /// Needs of an analysis of steady states; `drive`: keys of the excitation that the analysis does not vary.
@@ -32,17 +32,11 @@ struct Needs {
   return {{"", harmonic_excitations(), std::move(drive), true, "a steady state needs a harmonic excitation"}};
 }
 
-/// The keys of the state at t = 0 and of the engines, for an analysis that takes the motion from a record or from a
-/// model of its own.
+/// The keys of the state at t = 0, for an analysis that takes the motion from a record or from a model of its own.
 [[nodiscard]] inline std::vector<IdleKey> idle_start(const std::string& reason) {
   std::vector<IdleKey> keys;
-  for (const char* key : {"position", "velocity", "travel"})
-    keys.push_back({"initial", key, reason, "without 'initial'"});
+  for (const char* key : {"position", "velocity", "travel"}) keys.push_back({"initial", key, reason, ""});
   return keys;
-}
-
-[[nodiscard]] inline std::vector<IdleKey> idle_engines(const std::string& reason) {
-  return {{"numerics", "tolerance", reason, "without it"}, {"numerics", "solver", reason, "without it"}};
 }
 
 /// Needs of an analysis of free vibrations.
