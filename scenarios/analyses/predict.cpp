@@ -221,8 +221,9 @@ std::unique_ptr<const Question> ask_predict(CheckedValues&& values) {
   std::vector<identify::FitParameter> parameters = fitted_parameters(rig, values.analysis, faults);
   const std::vector<identify::FitParameter> zeros = fitted_zeros(values.analysis, faults);
   std::vector<DataItem> items = items_of(values.analysis, values.files, "data");
-  // The drive of the fit stands in the scenario for the records that need it.
-  if (!values.analysis.value("drive_of_fit", false)) refuse_idle_drive(items, values.model, faults);
+  // The drive of the fit stands in the scenario for the records that need it, and so may a measured one.
+  if (!values.analysis.value("drive_of_fit", false) && values.model.excitation.is_harmonic())
+    refuse_idle_drive(items, values.model, faults);
   identify::Experiments undriven = undriven_data(items, values);
   std::vector<std::string> warnings = leave_out_holds(items, values.model, false);
   std::ranges::move(remove_zeros(items, values.model, {}), std::back_inserter(warnings));
