@@ -60,18 +60,22 @@ class MatFile(Case):
         self.run_program("report", "out", "--mat", "b.mat")
         self.assertFalse((self.folder / "b.mat~").exists())
 
-    def test_numbers_that_do_not_exist_and_names_with_points(self):
+    def test_names_with_points(self):
+        (self.folder / "sweep.yaml").write_text(HISTORY + "sweep: {system.friction.kinetic: [1 N, 2 N]}\n")
+        self.run_program("run", "sweep.yaml", "--out", "out", "--mat", "out.mat")
+        found = self.loaded("out.mat")["sweep"]
+        self.assertIn("system.friction.kinetic [N]", self.columns("out/sweep.csv"))
+        self.assertEqual(list(found.system_friction_kinetic), [1.0, 2.0])
+
+    def test_numbers_that_do_not_exist(self):
         (self.folder / "records.csv").write_text("Y [mm],x [mm]\n" + "".join(f"{y},{3 * y - 4}\n" for y in range(3, 11)))
         self.run_program("identify", "records.csv", "--mass", "1 kg", "--stiffness", "100 N/m", "--frequency", "natural", "--out", "out")
         self.run_program("report", "out", "--mat", "out.mat")
         found = self.loaded("out.mat")["estimates"]
         columns = self.columns("out/estimates.csv")
-        self.assertEqual(len(found._fieldnames), len(columns))
-        for field in found._fieldnames:
-            self.assertTrue(field.isidentifier(), field)
-        empty = [value == "" for value in columns["zeta_low [1]"]] if "zeta_low [1]" in columns else None
-        if empty is not None:
-            self.assertEqual([value != value for value in found.zeta_low], empty)
+        empty = [value == "" for value in columns["zeta_low"]]
+        self.assertIn(True, empty)
+        self.assertEqual([value != value for value in found.zeta_low], empty)
 
     def test_a_file_of_the_user_is_kept(self):
         (self.folder / "mine.mat").write_text("measured last week")
