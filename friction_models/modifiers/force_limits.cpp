@@ -61,7 +61,7 @@ double ForceLimits::fluctuation(const ModifierCourse& course) const {
   return std::max(0.0, 1.0 + settings_.ratio * course.level);
 }
 
-Instant ForceLimits::at(const ModifierCourse& course, double power, Instant now) const {
+Instant ForceLimits::at(const ModifierCourse& course, double power, const Instant& now) const {
   double factor = course.drift_ended ? 0.0 : fluctuation(course);
   if (settings_.warms()) factor *= std::exp(-power / settings_.warming_power);
   const double drifted = 1.0 + settings_.drift * now.t;
@@ -76,12 +76,14 @@ Instant ForceLimits::at(const ModifierCourse& course, double power, Instant now)
   if (factor != 0.0 && (settings_.drift != 0.0 || settings_.modulates())) factor_rate = varying_rate(factor_rate);
   double vanished = course.vanished == 0 ? -1.0 : nominal_[static_cast<std::size_t>(course.vanished) - 1];
   if (course.unloaded) vanished = infinity;
-  now.modification = {.factor = drifted * modulated * factor,
-                      .factor_rate = factor_rate,
-                      .factor_slope = drifted * modulated * factor * settings_.load_gradient,
-                      .slope = course.side * settings_.slope,
-                      .vanished = vanished};
-  return now;
+  // Called at every evaluation of a law: each number is stored once, where the caller reads it.
+  Instant modified = now;
+  modified.modification.factor = drifted * modulated * factor;
+  modified.modification.factor_rate = factor_rate;
+  modified.modification.factor_slope = drifted * modulated * factor * settings_.load_gradient;
+  modified.modification.slope = course.side * settings_.slope;
+  modified.modification.vanished = vanished;
+  return modified;
 }
 
 bool ForceLimits::are_gone(const ModifierCourse& course) const {

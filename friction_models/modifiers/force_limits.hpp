@@ -62,7 +62,7 @@ class ForceLimits {
 
   [[nodiscard]] ModifierCourse start(const Instant& now) const;
   /// `now` with the modification of the force limits. `power`: mean of the power that the law turned to heat [W].
-  [[nodiscard]] Instant at(const ModifierCourse& course, double power, Instant now) const;
+  [[nodiscard]] Instant at(const ModifierCourse& course, double power, const Instant& now) const;
   /// All force limits are zero: there is no contact until one comes back.
   [[nodiscard]] bool are_gone(const ModifierCourse& course) const;
 

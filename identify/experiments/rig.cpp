@@ -165,10 +165,12 @@ void add_missing(const RigLaw& law, std::size_t index, const std::vector<FitPara
       names.emplace_back(parameter.name);
       return;
     }
-    faults.push_back("'" + std::string(parameter.name) + "' of " + std::string(law.entry->name) + " is missing: " +
+    const std::string name(parameter.name);
+    const std::string law_name(law.entry->name);
+    faults.push_back("'" + name + "' of " + law_name + " is missing: " +
                      (parameter.kind == ParameterKind::list
                           ? "state the list, such as [{}, {}]; a fit does not choose its length"
-                          : "state it; a fit seeks numbers only"));
+                          : "state '" + law_name + "." + name + "'; a fit seeks numbers only"));
   };
   for (const friction::ParameterFault& fault : friction::complete(*law.entry, completed)) {
     if (!fault.is_missing) continue;

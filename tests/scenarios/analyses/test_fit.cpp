@@ -193,7 +193,7 @@ TEST_CASE("fit: what cannot be fitted is refused with its place", "[scenarios][f
                                    "data: fit_faults.csv")),
              Contains("'elements' of generalized_maxwell_slip is missing"));
   CHECK_THAT(fault_of(fit_scenario(std::string(rig) + ", friction: {law: iwan}", "data: fit_faults.csv")),
-             Contains("'count' of iwan is missing: state it; a fit seeks numbers only"));
+             Contains("'count' of iwan is missing: state 'iwan.count'; a fit seeks numbers only"));
   CHECK_THAT(fault_of(fit_scenario(std::string(rig) + ", friction: {law: reset_integrator}",
                                    "data: fit_faults.csv, free: stiffness")),
              Contains("'stiffness' may be system.stiffness or friction.stiffness"));
