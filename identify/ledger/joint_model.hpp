@@ -75,8 +75,8 @@ struct JointModel {
   /// [N]; empty: no relaxation sets one free.
   Eigen::VectorXd F0_parts = {};
   Eigen::VectorXd zeta_parts = {};  ///< the same for the damping ratio
-  /// Relaxations without a column, which change the record in the second order only. They are not tested, but are
-  /// fitted when a departure is to be explained.
+  /// Relaxations without a column: they change the record in the second order only, or are forms of friction that
+  /// others stand for. They are not tested, but are fitted when a departure of friction is to be explained.
   std::vector<std::size_t> hidden = {};
   /// Of each channel, whose rows follow one another; empty: the noise is what the model leaves.
   std::vector<KnownNoise> known_noise = {};

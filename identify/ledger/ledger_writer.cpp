@@ -138,7 +138,8 @@ std::string LedgerWriter::reason_of(const FoundDeparture& departure, const Judge
            rounded(test.coefficient) + " s, less than their distance of " + rounded(model_.step_interval) +
            " s, stands for it" + constant_force;
   if (harms(judgement, test))
-    return alternatives(departure, test) + constant_force + (is_uneven(test) ? size_of_unevenness(test) : "");
+    return alternatives(departure, test) + other_forms(departure, test) + constant_force +
+           (is_uneven(test) ? size_of_unevenness(test) : "");
   const bool another_harms = std::ranges::any_of(
       departure.explanations, [&](const RelaxationTest& other) { return harms(judgement, other); });
   return harmless() + (another_harms ? " if it is this; " + alternatives(departure, test) : "") + constant_force;
@@ -232,6 +233,15 @@ std::string LedgerWriter::alternatives(const FoundDeparture& departure, const Re
     text += (text.empty() ? "" : ", ") + std::string(name_of(said.back()));
   }
   return text.empty() ? "no other assumption explains it as well" : "explained as well by: " + text;
+}
+
+/// What else of the same assumption explains the departure as well.
+std::string LedgerWriter::other_forms(const FoundDeparture& departure, const RelaxationTest& own) const {
+  std::vector<std::string> forms;
+  for (const RelaxationTest& other : departure.explanations)
+    if (other.index != own.index && assumption_of(other) == assumption_of(own) && is_of_law(assumption_of(own)))
+      forms.push_back(model_.relaxations[other.index].test);
+  return forms.empty() ? "" : "; it may also be: " + core::joined(forms, ", ");
 }
 
 /// The entry of an assumption shows that of its relaxations which has the least p-value.

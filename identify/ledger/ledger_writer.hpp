@@ -58,6 +58,7 @@ class LedgerWriter {
   [[nodiscard]] bool is_as_stated(const RelaxationTest& test) const;
   [[nodiscard]] bool is_of_step(const RelaxationTest& test) const;
   [[nodiscard]] std::string alternatives(const FoundDeparture& departure, const RelaxationTest& own) const;
+  [[nodiscard]] std::string other_forms(const FoundDeparture& departure, const RelaxationTest& own) const;
   void record_as_held(const RelaxationTest& test, Ledger& ledger);
   void charge_unexplained(Ledger& ledger) const;
   [[nodiscard]] std::string harmless() const;

@@ -218,9 +218,10 @@ std::vector<RelaxationTest> candidates(const JointModel& model, const TestOption
     });
     if (missed || own.is_far || known < 2) list.push_back(test);
   }
-  if (!model.refit || list.empty()) return list;
-  const double p_value = list.front().p_value;
-  for (const std::size_t index : model.hidden) list.push_back({.index = index, .p_value = p_value});
+  const bool may_be_friction = std::ranges::any_of(
+      list, [&](const RelaxationTest& test) { return is_of_law(model.relaxations[test.index].assumption); });
+  if (!model.refit || !may_be_friction) return list;
+  for (const std::size_t index : model.hidden) list.push_back({.index = index, .p_value = list.front().p_value});
   return list;
 }
 
@@ -284,7 +285,7 @@ FoundDeparture departure_shown(const JointModel& model, const Taken& taken,
     set_change(rests.back().change, test);
     test.constants = rests.back().constants;
   }
-  // A relaxation that acts in the second order only is never charged alone, but beside a departure of friction.
+  // A hidden relaxation is never charged alone, but beside a departure of friction.
   const auto is_hidden = [&](std::size_t i) {
     return std::ranges::find(model.hidden, list[i].index) != model.hidden.end();
   };

@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <memory>
-#include <numeric>
 #include <optional>
 #include <vector>
 
@@ -29,8 +28,6 @@ class Histories {
 
   /// The model linearised where the relaxations taken are fitted beside the parameters.
   [[nodiscard]] JointModel fitted(const Taken& taken) {
-    Taken all(motion_.list().relaxations.size());
-    std::iota(all.begin(), all.end(), std::size_t{0});
     Fitted best{motion_.start(), motion_.at(motion_.start(), taken, Whitening::off)};
     bool is_near = taken.empty();
     for (const std::size_t number : taken) {
@@ -43,7 +40,7 @@ class Histories {
       best.take_nearer({*yielding, motion_.at(*yielding, taken, Whitening::off)});
     descend(taken, best);
     if (!is_near) best.take_nearer(through_constant(taken));
-    return joint(best.at, taken, all);
+    return joint(best.at, taken);
   }
 
  private:
@@ -122,18 +119,18 @@ class Histories {
     return {motion_.start(), std::nullopt};
   }
 
-  [[nodiscard]] JointModel joint(const Place& at, const Taken& taken, const Taken& all) {
+  [[nodiscard]] JointModel joint(const Place& at, const Taken& taken) {
     JointModel model;
     model.relaxations = motion_.list().relaxations;
     for (std::size_t j = 0; j < motion_.list().parts.size(); ++j) {
       const FreedPart& part = motion_.list().parts[j];
+      if (is_hidden(j)) model.hidden.push_back(j);
       model.relaxations[j].is_far =
           part.kind == FreedPart::Kind::corner || (!motion_.is_constant(j) && freed(j).has_value());
       if (part.kind == FreedPart::Kind::zero || (part.term != nullptr && part.term->is_constant))
         model.relaxations[j].constant_force = motion_.unit_force();
     }
-    if (std::optional<LinearisedHistories> found =
-            taken.empty() ? seen_from_afar(at, all) : motion_.at(at, all, Whitening::on)) {
+    if (std::optional<LinearisedHistories> found = taken.empty() ? seen_from_afar(at) : with_all(at, taken)) {
       model.deviance =
           found->log_variances +
           left_beside(free_columns(found->base, found->relaxed, taken), found->residuals).squaredNorm();
@@ -171,16 +168,40 @@ class Histories {
     return model;
   }
 
+  [[nodiscard]] bool is_hidden(std::size_t number) const {
+    const HistoryTerm* term = motion_.list().parts[number].term;
+    return term != nullptr && term->is_hidden;
+  }
+
+  /// Linearised with a column for each relaxation: zero for the hidden ones, but for those taken.
+  [[nodiscard]] std::optional<LinearisedHistories> with_all(const Place& at, const Taken& taken,
+                                                            const std::vector<Autoregression>& errors = {}) {
+    Taken wanted;
+    for (std::size_t j = 0; j < motion_.list().parts.size(); ++j)
+      if (!is_hidden(j) || std::ranges::find(taken, j) != taken.end()) wanted.push_back(j);
+    std::optional<LinearisedHistories> found = motion_.at(at, wanted, Whitening::on, errors);
+    const auto spread = [&](Eigen::MatrixXd& columns, Eigen::Index before) {
+      const Eigen::MatrixXd few = columns;
+      columns.setZero(few.rows(), before + static_cast<Eigen::Index>(motion_.list().parts.size()));
+      columns.leftCols(before) = few.leftCols(before);
+      for (std::size_t i = 0; i < wanted.size(); ++i)
+        columns.col(before + static_cast<Eigen::Index>(wanted[i])) = few.col(before + static_cast<Eigen::Index>(i));
+    };
+    if (found) spread(found->relaxed, 0);
+    if (found && found->shaken.size() > 0) spread(found->shaken, 1 + found->base.cols());
+    return found;
+  }
+
   /// Far from the right constants the fit leaves a swing, which an autoregression would take for errors that last.
   /// If another constant brings it much nearer, errors are those of the nearer fit, and the column of a constant
   /// leads straight to the fit with it free.
-  [[nodiscard]] std::optional<LinearisedHistories> seen_from_afar(const Place& at, const Taken& all) {
+  [[nodiscard]] std::optional<LinearisedHistories> seen_from_afar(const Place& at) {
     const FreedFit* near = freed_.much_nearer();
     std::optional<LinearisedHistories> nearer;
     for (std::size_t j = 0; near != nullptr && !nearer && j < motion_.list().parts.size(); ++j)
       if (freed_.with(motion_.list().parts[j]) == near) nearer = motion_.at(*freed(j), {}, Whitening::on);
-    if (!nearer) return motion_.at(at, all, Whitening::on);
-    std::optional<LinearisedHistories> found = motion_.at(at, all, Whitening::on, nearer->errors);
+    if (!nearer) return with_all(at, {});
+    std::optional<LinearisedHistories> found = with_all(at, {}, nearer->errors);
     for (std::size_t j = 0; found && j < motion_.list().parts.size(); ++j) {
       const std::optional<Place> place = freed(j);
       const auto own = static_cast<Eigen::Index>(j);

@@ -20,9 +20,15 @@ double damping_drift(const At& at, const MotionScale& scale) { return speed(at, 
 double drag(const At& at, const MotionScale& scale) { return at.direction * std::pow(speed(at, scale), 2); }
 double cubic_damping(const At& at, const MotionScale& scale) { return std::pow(speed(at, scale), 3); }
 // A Stribeck force and a presliding force fall over a share of the largest speed and of the amplitude.
-double low_speed(const At& at, const MotionScale& scale) {
-  constexpr double share = 0.1;
-  return at.direction * std::exp(-at.direction * speed(at, scale) / share);
+template <int percent>
+double falling(const At& at, const MotionScale& scale) {
+  return at.direction * std::exp(-at.direction * speed(at, scale) / (0.01 * percent));
+}
+// Rounder: the law `stribeck`. Over a short record drag or a cubic term beside other zeta and F0 is nearly the
+// same.
+template <int percent>
+double stribeck(const At& at, const MotionScale& scale) {
+  return at.direction * std::exp(-std::pow(speed(at, scale) / (0.01 * percent), 2));
 }
 double presliding(const At& at, const MotionScale& scale) {
   constexpr double share = 0.03;
@@ -35,7 +41,12 @@ double one_sided_friction(const At& /*at*/, const MotionScale& /*scale*/) { retu
 double one_sided_damping(const At& at, const MotionScale& scale) { return at.direction * speed(at, scale); }
 
 using enum Assumption;
-constexpr std::array<HistoryTerm, 12> all_history_terms = {{
+
+constexpr HistoryTerm hidden(std::string_view test, double (*force)(const At& at, const MotionScale& scale)) {
+  return {.assumption = friction_velocity, .test = test, .force = force, .is_hidden = true};
+}
+
+constexpr std::array<HistoryTerm, 18> all_history_terms = {{
     {sensors, "gain of the drive free", drive_gain, 0, false, Freed::gain},
     {spring, "cubic stiffness", cubic_spring},
     {spring, "quadratic stiffness", square_spring},
@@ -43,7 +54,13 @@ constexpr std::array<HistoryTerm, 12> all_history_terms = {{
     {stationarity, "damping that drifts", damping_drift},
     {.assumption = friction_velocity, .test = "quadratic term over speed", .force = drag, .is_law = true},
     {friction_velocity, "cubic term over speed", cubic_damping},
-    {friction_velocity, "force at low speed", low_speed},
+    {friction_velocity, "force at low speed", falling<10>},
+    hidden("force that falls over 20 % of the largest speed", falling<20>),
+    hidden("Stribeck force below 10 % of the largest speed", stribeck<10>),
+    hidden("Stribeck force below 14 % of the largest speed", stribeck<14>),
+    hidden("Stribeck force below 20 % of the largest speed", stribeck<20>),
+    hidden("Stribeck force below 28 % of the largest speed", stribeck<28>),
+    hidden("Stribeck force below 40 % of the largest speed", stribeck<40>),
     {.assumption = friction_displacement,
      .test = "friction that builds up after a reversal",
      .force = presliding,

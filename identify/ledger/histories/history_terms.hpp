@@ -27,6 +27,7 @@ struct HistoryTerm {
   bool is_of_contact = false;  ///< shows a contact that yields before it slides
   bool is_constant = false;    ///< the part of Coulomb friction that differs between the directions
   bool is_law = false;         ///< with a positive coefficient, as drag beside Coulomb and viscous friction
+  bool is_hidden = false;      ///< fitted where a departure of friction is to be explained, and not tested
 };
 
 /// The terms, by assumption.
