@@ -125,6 +125,7 @@ class Histories {
   [[nodiscard]] JointModel joint(const Place& at, const Taken& taken, const Taken& all) {
     JointModel model;
     model.relaxations = motion_.list().relaxations;
+    model.coefficients = at.g;
     for (std::size_t j = 0; j < motion_.list().parts.size(); ++j) {
       const FreedPart& part = motion_.list().parts[j];
       model.relaxations[j].is_far =
