@@ -16,6 +16,7 @@
 #include "identify/assumption.hpp"
 #include "identify/estimate.hpp"
 #include "identify/record.hpp"
+#include "identify/uncertainty/uncertain_constants.hpp"
 
 namespace dualdamp::identify {
 
@@ -35,6 +36,9 @@ struct Relaxation {
   bool is_far = false;
   /// A positive coefficient makes a law of friction of it, with a Coulomb force and a viscous damping of its own.
   bool is_law = false;
+  /// The uncertainty of the number that it sets free, if an estimate of the model is to know it; nullptr: none.
+  double ConstantUncertainties::* stated = nullptr;
+  double stated_unit = 1.0;  ///< coefficient of a relative error of one of this number
   /// The constant force that a coefficient of one stands for, by a zero of x or by friction that differs between
   /// the directions [N]; 0: another effect.
   double constant_force = 0.0;
@@ -66,7 +70,8 @@ struct JointModel {
   std::vector<Reading> readings;  ///< of each row; empty where rows are means of many
   Eigen::MatrixXd base;
   std::vector<Relaxation> relaxations;
-  Eigen::MatrixXd relaxed;  ///< a column for each relaxation
+  Eigen::MatrixXd relaxed;            ///< a column for each relaxation
+  Eigen::VectorXd coefficients = {};  ///< of the relaxations where the model is linearised; empty: all zero
   /// Residuals, base and relaxed side by side, computed with as much noise again in the drive; empty: noise is in r
   /// alone. The columns are derivatives of the motion under the measured drive, so they contain its noise as r
   /// does.

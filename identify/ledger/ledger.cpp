@@ -10,6 +10,7 @@
 #include "identify/ledger/decay_model.hpp"
 #include "identify/ledger/estimate/joint_estimate.hpp"
 #include "identify/ledger/estimate/one_frequency.hpp"
+#include "identify/ledger/estimate/stated_errors.hpp"
 #include "identify/ledger/estimate/stated_shares.hpp"
 #include "identify/ledger/force_balance.hpp"
 #include "identify/ledger/histories/history_model.hpp"
@@ -86,7 +87,8 @@ Ledger tested_ledger(const Record& record, const KnownConstants& constants, cons
   if (!is_fitted || !(constants.stiffness > 0.0 && constants.mass > 0.0)) return ledger;
   ledger.frees_law = is_friction;
   ledger.joint = relaxed_estimate(model, tests, shares);
-  ledger.unseen = unseen_friction(model, tests, *ledger.joint);
+  ledger.unseen = unseen_friction(model, tests, *ledger.joint, shares);
+  ledger.joint_knows_uncertainties = knows_stated_errors(model);
   for (const FoundDeparture& departure : tests.departures)
     ledger.relaxed.push_back(model.relaxations[departure.explanations.front().index].test);
   note_nearly_seen(model, tests, ledger);
@@ -106,9 +108,9 @@ Ledger ledger_of(const Record& record, const KnownConstants& constants, const Le
 }
 
 Estimate joint_fit(const Record& record, const KnownConstants& constants, const std::vector<std::string>& relaxed,
-                   const KnownDeviations& known) {
+                   const LedgerOptions& options) {
   Estimate none;
-  const MaybeModel found = testable_model(record, constants, known);
+  const MaybeModel found = testable_model(record, constants, options.deviations);
   if (const auto* reason = std::get_if<std::string>(&found)) {
     refuse(none, *reason);
     return none;
@@ -124,7 +126,7 @@ Estimate joint_fit(const Record& record, const KnownConstants& constants, const 
     numbers.push_back(static_cast<std::size_t>(at - model.relaxations.begin()));
   }
   return joint_estimate(model.refit && !numbers.empty() ? model.refit(numbers) : model, numbers,
-                        "all of " + model.data + " together");
+                        StatedShares(constants, options.uncertainties), "all of " + model.data + " together");
 }
 
 }  // namespace dualdamp::identify

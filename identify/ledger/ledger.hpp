@@ -133,6 +133,8 @@ struct Ledger {
   /// or beside a misfit or an unexplained rest; nor, but of histories, if a departure that matters may be one of
   /// friction over speed or displacement.
   std::optional<Estimate> joint;
+  /// `joint` has the stated uncertainties in its covariance, and need not be read again with each number moved.
+  bool joint_knows_uncertainties = false;
   /// The joint estimate has a term of friction over speed or displacement free, of histories whose every sample the
   /// model follows to the noise: zeta and F0 are those beside it.
   bool frees_law = false;
@@ -162,6 +164,6 @@ struct Ledger {
 
 /// The joint estimate with exactly these relaxations free, named as `Relaxation::test`. Nothing is tested.
 [[nodiscard]] Estimate joint_fit(const Record& record, const KnownConstants& constants,
-                                 const std::vector<std::string>& relaxed, const KnownDeviations& known = {});
+                                 const std::vector<std::string>& relaxed, const LedgerOptions& options = {});
 
 }  // namespace dualdamp::identify

@@ -116,7 +116,7 @@ const KnownColumn* column_named_by(Heading& heading) {
   if (const KnownColumn* known = known_column(heading.name)) return known;
   if (const KnownColumn* known = column_in_any_case(heading.name)) return known;
   if (heading.text == "X_Value") {  // LabVIEW's name of the time
-    heading.unit = "s";
+    if (heading.unit.empty()) heading.unit = "s";
     return known_column("t");
   }
   if (heading.name.size() == 1 && heading.name != "y" && heading.name != "Y")  // X [mm], but not V without a unit

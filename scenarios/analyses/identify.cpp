@@ -277,7 +277,8 @@ identify::Identification IdentifyQuestion::conclude(const identify::Record& data
     const identify::Reader reader = reader_of(*method, methods_.options);
     estimates.push_back(method->takes_seconds ? slow_estimate(reader, record) : read(reader));
   }
-  if (ledger.joint && methods_.uncertainties.any()) ledger.joint = read(reader_of_joint(methods_.ledger));
+  if (ledger.joint && methods_.uncertainties.any() && !ledger.joint_knows_uncertainties)
+    ledger.joint = read(reader_of_joint(methods_.ledger));
   for (identify::Estimate& estimate : estimates) identify::widen(estimate, within);
   if (ledger.joint) identify::widen(*ledger.joint, within);
   return identify::concluded(std::move(estimates), std::move(ledger));
@@ -292,7 +293,7 @@ std::vector<identify::Sensitivity> IdentifyQuestion::sensitivities(const identif
   // With the same relaxations and no others: otherwise a changed constant would itself be relaxed, and the
   // sensitivity would be lost.
   const identify::Reader joint = [&](const identify::Record& moved, const identify::KnownConstants& constants) {
-    return identify::joint_fit(moved, constants, found.ledger.relaxed, methods_.ledger.deviations);
+    return identify::joint_fit(moved, constants, found.ledger.relaxed, methods_.ledger);
   };
   const identify::Reader reader = method == nullptr ? joint : reader_of(*method, methods_.options);
   return identify::sensitivities(reader, best, record, methods_.constants, methods_.uncertainties);

@@ -71,6 +71,12 @@ def lvm():
     return head + table("X_Value\tUntitled\tComment", ROWS, "\t")
 
 
+def lvm_labelled(unit, factor, time="s", seconds=1.0):
+    """The units are in the header, as LabVIEW labels them."""
+    labels = f"Y_Unit_Label\t{unit}\t\nX_Unit_Label\t{time}\t\nX_Dimension"
+    return lvm().split("X_Value", 1)[0].replace("X_Dimension", labels) + table("X_Value\tx\tComment", [(t / seconds, factor * x) for t, x in ROWS], "\t")
+
+
 def lvm_comma():
     """As LabVIEW writes it on a German system: the header says so itself."""
     head, body = lvm().split("X_Value", 1)
@@ -173,6 +179,9 @@ ACCEPTED = [
     ("iso_stamps.csv", table("time,x [mm]", [("2026-11-22T" + clock(45001 + t) + "Z", x) for t, x in ROWS]), [], DECAY),
     ("german_stamps.csv", table("time;x [mm]", [("22.11.2026 " + clock(45001 + t), x) for t, x in ROWS], ";").replace("22.11.2026", "22#11#2026").replace(".", ",").replace("#", "."), ["--decimal", ","], DECAY),
     ("labview.lvm", lvm(), ["--column", "x=Untitled", "--unit", "x=mm"], DECAY),
+    ("labview_inches.lvm", lvm_labelled("in", 1 / 25.4), [], DECAY),
+    ("labview_milliseconds.lvm", lvm_labelled("mm", 1.0, "ms", 1e-3), [], DECAY),
+    ("labview_volts.lvm", lvm_labelled("Volts", 0.4), ["--scale", "x=2.5 mm/V"], DECAY),
     ("gap.csv", table("t [s],x [mm]", ROWS[:1000] + ROWS[1010:]), [], DECAY),
     ("row_twice.csv", table("t [s],x [mm]", ROWS[:500] + ROWS[499:]), [], DECAY),
     ("each_row_twice.csv", table("t [s],x [mm]", [row for row in ROWS for _ in range(2)]), [], DECAY),
@@ -314,6 +323,7 @@ REFUSED = [
     ("amplitudes_of_a_force.csv", table("f [Hz],F [N],x [mm]", [(6.17, *row) for row in MM]), [], "acts as a base that moves by F/k: for k = 2000 N/m --column Y=FORCE, --scale Y='0.0005 m/N'"),
     ("amplitudes_of_a_force_as_Y.csv", table("Y [N],x [mm]", MM), [], "acts as a base that moves by F/k: for k = 2000 N/m --scale Y='0.0005 m/N'"),
     ("names_of_another_language.csv", table("Zeit [s];Weg in mm", ROWS, ";"), [], "did you mean '--column t=Zeit --column x=Weg'?"),
+    ("labview_volts_alone.lvm", lvm_labelled("Volts", 0.4), [], "'Volts' is not a unit of a length"),
     ("labview_without_x.lvm", lvm_without_x(), [], "X_Columns"),
     ("header_alone.csv", "Y [mm],x [mm]\n", [], "no data below it"),
     ("empty.csv", "", [], "empty"),

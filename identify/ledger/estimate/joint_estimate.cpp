@@ -8,7 +8,9 @@
 
 #include "core/constants.hpp"
 #include "identify/conclusion.hpp"
+#include "identify/ledger/estimate/stated_errors.hpp"
 #include "identify/ledger/stated_noise.hpp"
+#include "identify/models/force_parameters.hpp"
 #include "identify/statistics/decompositions.hpp"
 #include "identify/statistics/distributions.hpp"
 #include "identify/statistics/least_squares.hpp"
@@ -29,25 +31,6 @@ void cover(Estimate& estimate, const Estimate& other) {
     cover((*estimate.interval95).*parameter.interval, (*other.interval95).*parameter.interval);
 }
 
-/// A model with relaxations free, solved by least squares.
-struct Solution {
-  Eigen::MatrixXd covariance;  ///< of the parameters, for rows of unit variance
-  Eigen::VectorXd step;        ///< from the parameters of the model
-  double variance = 1.0;       ///< of the rows
-  double freedom = 0.0;        ///< degrees of freedom that the parameters leave
-};
-
-/// Nothing where a column is a combination of the others, or no degree of freedom is left.
-std::optional<Solution> solved(const JointModel& model, const Taken& taken) {
-  const Eigen::MatrixXd columns = free_columns(model.base, model.relaxed, taken);
-  std::optional<Eigen::MatrixXd> covariance = unit_covariance(columns);
-  const double freedom = static_cast<double>(columns.rows() - columns.cols()) - model.spent;
-  if (!covariance || freedom < 1.0) return std::nullopt;
-  Eigen::VectorXd step = *covariance * (columns.transpose() * model.residuals);
-  const double variance = model.is_stated ? 1.0 : (model.residuals - columns * step).squaredNorm() / freedom;
-  return Solution{std::move(*covariance), std::move(step), variance, freedom};
-}
-
 /// Quantile of an estimate whose model leaves `freedom`: the deviation of the rows has no more degrees of freedom
 /// than that of the readings that decide about friction, and one at least.
 double quantile_of(const JointModel& model, double freedom) {
@@ -60,24 +43,50 @@ bool is_nearly_seen(const JointModel& model, const RelaxationTest& test) {
   return is_of_friction(model.relaxations[test.index].assumption) && test.p_alone < level;
 }
 
+/// The forces of a solution, and their covariance, of (m, c, k, F0).
+struct SolvedForce {
+  ForceParameters value;
+  Eigen::Matrix4d covariance;
+};
+
+/// Columns of a mass and of a stiffness are at constant zeta, so their errors move c.
+SolvedForce force_of(const JointModel& model, const Solution& solution) {
+  const KnownConstants& constants = model.constants;
+  ForceParameters force{.m = constants.mass, .k = constants.stiffness, .F0 = model.value.F0 + solution.step[1]};
+  Eigen::Index mass = -1;
+  Eigen::Index stiffness = -1;
+  for (std::size_t j = 0; j < solution.free.size(); ++j) {
+    const Eigen::Index column = model.base.cols() + static_cast<Eigen::Index>(j);
+    const auto stated = model.relaxations[solution.free[j]].stated;
+    if (stated == &ConstantUncertainties::mass) mass = column;
+    if (stated == &ConstantUncertainties::stiffness) stiffness = column;
+  }
+  if (mass >= 0) force.m += solution.step[mass];
+  if (stiffness >= 0) force.k += solution.step[stiffness];
+  const double zeta = model.value.zeta + solution.step[0];
+  const double critical = critical_damping(force.m, force.k);
+  force.c = zeta * critical;
+  Eigen::MatrixXd to_force = Eigen::MatrixXd::Zero(4, solution.step.size());
+  to_force(1, 0) = critical;
+  to_force(3, 1) = 1.0;
+  if (mass >= 0) to_force(0, mass) = 1.0, to_force(1, mass) = 0.5 * force.c / force.m;
+  if (stiffness >= 0) to_force(2, stiffness) = 1.0, to_force(1, stiffness) = 0.5 * force.c / force.k;
+  return {force, propagated(to_force, solution.variance * solution.covariance)};
+}
+
 }  // namespace
 
-Estimate joint_estimate(const JointModel& model, const Taken& relaxed, std::string basis) {
+Estimate joint_estimate(const JointModel& model, const Taken& relaxed, const StatedShares& shares,
+                        std::string basis) {
   Estimate estimate;
   estimate.method = "joint_fit";
-  const std::optional<Solution> solution = solved(model, relaxed);
+  const std::optional<Solution> solution = solved(model, relaxed, shares);
   if (!solution) {
     refuse(estimate, "the record does not distinguish the parameters of the joint model");
     return estimate;
   }
-  const Eigen::VectorXd& step = solution->step;
-  const KnownConstants& constants = model.constants;
-  estimate.value =
-      parameters(model.value.zeta + step[0], (model.value.F0 + step[1]) / constants.stiffness, constants);
-  Eigen::Matrix2d of_friction = solution->variance * solution->covariance.topLeftCorner<2, 2>();
-  const Eigen::DiagonalMatrix<double, 2> to_length(1.0, 1.0 / constants.stiffness);
-  of_friction = to_length * of_friction * to_length;
-  set_uncertainty(estimate, of_friction, quantile_of(model, solution->freedom), constants);
+  const SolvedForce force = force_of(model, *solution);
+  set_estimate(estimate, force.value, force.covariance, quantile_of(model, solution->freedom));
   std::vector<std::string> faults;
   judge_signs(estimate, 0.0, faults);
   conclude(estimate, faults, std::move(basis));
@@ -88,13 +97,13 @@ namespace {
 
 /// Extends the intervals to cover the estimates in which a nearly seen term of friction is free.
 void reach_over_nearly_seen(const JointModel& model, const RelaxationTests& tests, const Taken& relaxed,
-                            Estimate& estimate) {
+                            const StatedShares& shares, Estimate& estimate) {
   const JointModel& here = tests.relaxed ? *tests.relaxed : model;
   for (const RelaxationTest& test : tests.tests) {
     if (!is_nearly_seen(model, test)) continue;
     Taken further = relaxed;
     further.push_back(test.index);
-    cover(estimate, joint_estimate(here, further, {}));
+    cover(estimate, joint_estimate(here, further, shares, {}));
   }
 }
 
@@ -140,7 +149,7 @@ class RelaxedEstimates {
 
   [[nodiscard]] Estimate alone(const JointModel& relaxed, const Taken& taken) const {
     return joint_estimate(
-        relaxed, taken,
+        relaxed, taken, shares_,
         "all of " + model_.data + " together" + (relaxed_.empty() ? "" : "; free beside zeta and F0: " + relaxed_));
   }
 
@@ -166,7 +175,7 @@ Estimate relaxed_estimate(const JointModel& model, const RelaxationTests& tests,
   const RelaxedEstimates relaxed(model, tests, shares);
   Estimate estimate = relaxed.with_best();
   for (std::size_t d = 0; d < tests.departures.size(); ++d) relaxed.cover_others(d, estimate);
-  reach_over_nearly_seen(model, tests, relaxed.best(), estimate);
+  reach_over_nearly_seen(model, tests, relaxed.best(), shares, estimate);
   return estimate;
 }
 
@@ -176,11 +185,15 @@ namespace {
 class FreedTerm {
  public:
   /// Nothing can be said where a column is a combination of the others.
-  FreedTerm(const JointModel& model, const Taken& taken, double quantile, int sign) : quantile_(quantile) {
-    const std::optional<Solution> solution = solved(model, taken);
+  FreedTerm(const JointModel& model, const Taken& taken, const StatedShares& shares, double quantile, int sign)
+      : quantile_(quantile) {
+    const std::optional<Solution> solution = solved(model, taken, shares);
     if (!solution) return;
-    const auto& [covariance, step, variance, freedom] = *solution;
-    const Eigen::Index last = step.size() - 1;
+    const Eigen::MatrixXd& covariance = solution->covariance;
+    const Eigen::VectorXd& step = solution->step;
+    const double variance = solution->variance;
+    const Eigen::Index last =
+        model.base.cols() + (std::ranges::find(solution->free, taken.back()) - solution->free.begin());
     const double of_term = covariance(last, last);
     const double reach = quantile * std::sqrt(variance * of_term);
     const double least = sign > 0 ? 0.0 : -core::infinity;
@@ -235,7 +248,7 @@ void set_others(const KnownConstants& constants, UnseenRange& range) {
 }  // namespace
 
 std::optional<UnseenRange> unseen_friction(const JointModel& model, const RelaxationTests& tests,
-                                           const Estimate& estimate) {
+                                           const Estimate& estimate, const StatedShares& shares) {
   if (!estimate.outcome.ok() || !estimate.interval95) return std::nullopt;
   const JointModel& here = tests.relaxed ? *tests.relaxed : model;
   Taken taken;
@@ -248,7 +261,7 @@ std::optional<UnseenRange> unseen_friction(const JointModel& model, const Relaxa
     if (!is_of_friction(relaxation.assumption)) continue;
     Taken further = taken;
     further.push_back(test.index);
-    const FreedTerm freed(here, further, quantile, relaxation.sign);
+    const FreedTerm freed(here, further, shares, quantile, relaxation.sign);
     if (!freed.is_possible()) continue;
     const auto from = [&](double value, std::size_t parameter) {
       const Interval change = freed.interval(parameter);

@@ -26,8 +26,10 @@ namespace dualdamp::identify {
 /// Names the tests whose departures are nearly seen in the entries of assumptions that are not violated.
 void note_nearly_seen(const JointModel& model, const RelaxationTests& tests, Ledger& ledger);
 
-/// The fit of the joint model with these relaxations free beside the base parameters.
-[[nodiscard]] Estimate joint_estimate(const JointModel& model, const Taken& relaxed, std::string basis);
+/// The fit of the joint model with these relaxations free beside the base parameters, and with errors of uncertain
+/// numbers as far as the model knows them (stated_errors.hpp).
+[[nodiscard]] Estimate joint_estimate(const JointModel& model, const Taken& relaxed, const StatedShares& shares,
+                                      std::string basis);
 
 /// The estimate with the best explanation of each departure relaxed. If other relaxations explain a departure as
 /// well, or a term of friction is nearly seen, the intervals are extended to cover the estimates with those. A mass
@@ -38,7 +40,7 @@ void note_nearly_seen(const JointModel& model, const RelaxationTests& tests, Led
 
 /// The range of an estimate of the joint model. Nothing if it has no interval.
 [[nodiscard]] std::optional<UnseenRange> unseen_friction(const JointModel& model, const RelaxationTests& tests,
-                                                         const Estimate& estimate);
+                                                         const Estimate& estimate, const StatedShares& shares = {});
 
 /// Does one term that is a law of its own explain all that departs? Several terms together may follow any other law
 /// with a wrong zeta and F0.

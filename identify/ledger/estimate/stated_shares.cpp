@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "identify/ledger/estimate/stated_errors.hpp"
 #include "identify/ledger/estimate/unstated_constants.hpp"
 #include "identify/statistics/statistics.hpp"
 
@@ -17,6 +18,8 @@ double allowed_error(const ConstantUncertainties& uncertainties, const KnownCons
 
 StatedShares::StatedShares(const KnownConstants& stated, const ConstantUncertainties& uncertainties)
     : stated_(stated), allowed_(allowed_error(uncertainties, stated)) {
+  for (const StatedNumber& number : stated_numbers)
+    relative_.*number.uncertainty = number.relative(uncertainties, stated);
   if (!(stated.mass > 0.0) || !(stated.stiffness > 0.0)) return;
   mass_ = uncertainties.mass / stated.mass;
   stiffness_ = uncertainties.stiffness / stated.stiffness;
@@ -33,7 +36,7 @@ bool StatedShares::apply_to(const JointModel& model, const FoundDeparture& depar
       return model.relaxations[test.index].freed == freed;
     });
   };
-  return inertia_ > 0.0 && explains(Freed::mass) && explains(Freed::stiffness);
+  return !knows_stated_errors(model) && inertia_ > 0.0 && explains(Freed::mass) && explains(Freed::stiffness);
 }
 
 double StatedShares::departure_of(const KnownConstants& fitted) const {

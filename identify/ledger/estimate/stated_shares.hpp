@@ -30,6 +30,13 @@ class StatedShares {
   [[nodiscard]] double mass() const { return mass_; }
   [[nodiscard]] double stiffness() const { return stiffness_; }
 
+  /// That of any stated number, relative; 0: none.
+  [[nodiscard]] double relative(double ConstantUncertainties::* uncertainty) const {
+    return relative_.*uncertainty;
+  }
+  /// The largest relative error of k/m, of a gain or of both that the uncertainties allow.
+  [[nodiscard]] double allowed() const { return allowed_; }
+
   /// Is this relaxation the mass or the stiffness?
   [[nodiscard]] static bool is_shared(const Relaxation& relaxation);
 
@@ -43,6 +50,7 @@ class StatedShares {
   [[nodiscard]] double departure_of(const KnownConstants& fitted) const;
 
   KnownConstants stated_;
+  ConstantUncertainties relative_;  ///< each as a share of its number
   double mass_ = 0.0, stiffness_ = 0.0, inertia_ = 0.0, allowed_ = 0.0;
 };
 

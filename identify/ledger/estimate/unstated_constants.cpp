@@ -64,7 +64,7 @@ void reach_over_unstated(const Record& record, const KnownConstants& constants, 
                          Ledger& ledger) {
   if (!ledger.unseen || !ledger.joint) return;
   const Reader read = [&](const Record& moved, const KnownConstants& known) {
-    return joint_fit(moved, known, ledger.relaxed, options.deviations);
+    return joint_fit(moved, known, ledger.relaxed, options);
   };
   std::optional<Estimate> plain;
   for (const Moved& moved : unstated(constants, options, ledger)) {

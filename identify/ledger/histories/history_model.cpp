@@ -122,6 +122,7 @@ class Histories {
   [[nodiscard]] JointModel joint(const Place& at, const Taken& taken) {
     JointModel model;
     model.relaxations = motion_.list().relaxations;
+    model.coefficients = at.g;
     for (std::size_t j = 0; j < motion_.list().parts.size(); ++j) {
       const FreedPart& part = motion_.list().parts[j];
       if (is_hidden(j)) model.hidden.push_back(j);

@@ -74,6 +74,42 @@ void add_reading(HistoryRelaxations& list, const std::string& signal, MotionSens
   add(list, Assumption::sensors, "delay of " + signal + " free", {.kind = Kind::delay, .sensor = sensor});
 }
 
+/// The uncertainty of the gain of this sensor.
+double ConstantUncertainties::* gain_of(MotionSensor sensor) {
+  if (sensor == MotionSensor::x) return &ConstantUncertainties::gain_x;
+  return sensor == MotionSensor::v ? &ConstantUncertainties::gain_v : &ConstantUncertainties::gain_a;
+}
+
+/// The uncertainty of the gain of the drive, where one sensor measured that of all histories; else nullptr.
+double ConstantUncertainties::* gain_of_drive(const std::vector<ForwardTest>& tests) {
+  const auto all = [&](bool has_y, bool has_force) {
+    return std::ranges::all_of(tests, [&](const ForwardTest& test) {
+      return test.history->y.empty() != has_y && test.history->force.empty() != has_force;
+    });
+  };
+  if (all(true, false)) return &ConstantUncertainties::gain_y;
+  return all(false, true) ? &ConstantUncertainties::gain_force : nullptr;
+}
+
+/// Names the number that each relaxation sets free, if all that may be stated with an uncertainty has a relaxation.
+void name_stated(HistoryRelaxations& list, const std::vector<ForwardTest>& tests, const KnownConstants& constants) {
+  double ConstantUncertainties::* const drive = gain_of_drive(tests);
+  if (drive == nullptr) return;
+  for (std::size_t j = 0; j < list.parts.size(); ++j) {
+    const FreedPart& part = list.parts[j];
+    Relaxation& relaxation = list.relaxations[j];
+    if (relaxation.freed == Freed::mass) {
+      relaxation.stated = &ConstantUncertainties::mass;
+      relaxation.stated_unit = constants.mass;
+    } else if (relaxation.freed == Freed::stiffness) {
+      relaxation.stated = &ConstantUncertainties::stiffness;
+      relaxation.stated_unit = constants.stiffness;
+    } else if (relaxation.freed == Freed::gain) {
+      relaxation.stated = part.kind == Kind::gain ? gain_of(part.sensor) : drive;
+    }
+  }
+}
+
 }  // namespace
 
 /// A vibration has a mean speed that x tells, and hardly a mean acceleration.
@@ -137,6 +173,7 @@ HistoryRelaxations history_relaxations(const std::vector<ForwardTest>& tests, co
   add(list, Assumption::stationarity, "zero of x that drifts", {.kind = Kind::zero_drift});
   if (has(&History::v)) add_reading(list, "v", MotionSensor::v);
   if (has(&History::a)) add_reading(list, "a", MotionSensor::a);
+  name_stated(list, tests, constants);
   return list;
 }
 

@@ -64,6 +64,8 @@ class HeaderReader {
     if (fields.is_unclosed) complain(1, "a quoted field does not end with its quote");
     if (!fields.is_unclosed && is_quoted_whole()) return false;
     if (!fields.is_unclosed && layout_.units) read_units();
+    for (Heading& heading : headings_)
+      if (is_time_of_labview(heading)) heading.unit = layout_.time_label;
     return !fields.is_unclosed;
   }
 
@@ -133,11 +135,15 @@ class HeaderReader {
                  excerpt(below) + "'");
   }
 
+  /// Its unit is not in the row of units, whose first field says what the others are.
+  static bool is_time_of_labview(const Heading& heading) { return heading.text == "X_Value"; }
+
   void read_units() {
     std::size_t i = 0;
     for (const std::string& field : fields_of(layout_.units->text, layout_.separator)) {
       if (i == headings_.size()) return;
       Heading& heading = headings_[i++];
+      if (is_time_of_labview(heading)) continue;
       refuse_other_unit(heading, unit_in(field));
       if (!heading.brackets.empty()) below_[heading.column] = unit_in(field);
       if (!heading.unit.empty() || !heading.brackets.empty() || !heading.well_formed) continue;

@@ -42,6 +42,14 @@ class Search {
   Search(std::string_view text, const ReadOptions& options) : options_(options), start_(text) { collect(); }
 
   Layout run() {
+    Layout layout = found();
+    if (!layout.units && labels_.number > 0) layout.units = labels_;
+    layout.time_label = time_label(layout.separator);
+    return layout;
+  }
+
+ private:
+  Layout found() {
     if (lines_.empty()) return with_separator({});
     if (options_.no_header) return headless();
     for (const bool named : {true, false})
@@ -53,7 +61,6 @@ class Search {
     return first_line();
   }
 
- private:
   struct Candidate {
     SourceLine line;
     Lines before;        ///< positioned at this line
@@ -70,6 +77,7 @@ class Search {
       if (line.number == 1 && line.text.size() == 5 && line.text.starts_with("sep=")) {
         stated_separator_ = line.text.back();  // `sep=;`, as Excel writes it
       } else if (trimmed(line.text).starts_with("***End_of_Header***")) {
+        keep_labels();
         lines_.clear();  // end of the LabVIEW header: the lines above are no table
       } else if (is_comment(line.text)) {
         comment = line;
@@ -78,6 +86,19 @@ class Search {
       }
     }
     lines_left_ = !lines.at_end();
+  }
+
+  /// LabVIEW labels the units of its columns above the table, field by field; those of times all alike.
+  void keep_labels() {
+    for (const auto& [line, before, comment] : lines_) {
+      if (line.text.starts_with("Y_Unit_Label")) labels_ = line;
+      if (line.text.starts_with("X_Unit_Label")) time_labels_ = line;
+    }
+  }
+
+  [[nodiscard]] std::string time_label(char separator) const {
+    const Words fields = fields_of(time_labels_.text, separator);
+    return fields.size() < 2 ? std::string() : unit_in(fields[1]);
   }
 
   [[nodiscard]] std::vector<char> candidates(std::string_view header) const {
@@ -223,6 +244,7 @@ class Search {
   const ReadOptions& options_;
   Lines start_;
   std::vector<Candidate> lines_;
+  SourceLine labels_, time_labels_;  ///< of units, in a LabVIEW header; number 0: none
   char stated_separator_ = 0;
   bool lines_left_ = false;
 };

@@ -44,7 +44,8 @@ inline constexpr int most_header_lines = 10'000;
 struct Layout {
   char separator = ',';
   SourceLine header = {};                ///< number 0: the file has none
-  std::optional<SourceLine> units = {};  ///< a row of units below the header
+  std::optional<SourceLine> units = {};  ///< a row of units below the header, or LabVIEW's labels above it
+  std::string time_label = {};           ///< LabVIEW's label of the unit of X_Value; empty: seconds
   std::vector<std::string_view> below_header =
       {};                       ///< lines between the header and the first row, units among them
   Lines lines = Lines({});      ///< at the first row

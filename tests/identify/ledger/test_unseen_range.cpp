@@ -68,11 +68,11 @@ UnseenRange range_of(const JointModel& model) {
 TEST_CASE("The range holds the interval of the estimate with an unseen term of friction free") {
   const JointModel model = parabola(0.3, 0);
   const UnseenRange range = range_of(model);
-  const Estimate freed = joint_estimate(model, {0}, {});
+  const Estimate freed = joint_estimate(model, {0}, {}, {});
   CHECK(range.ends.zeta[0] == Approx(freed.interval95->zeta[0]).epsilon(0.002));
   CHECK(range.zeta_by[0] == "bend");
   CHECK(range.ends.zeta[1] ==
-        Approx(std::max(freed.interval95->zeta[1], joint_estimate(model, {}, {}).interval95->zeta[1]))
+        Approx(std::max(freed.interval95->zeta[1], joint_estimate(model, {}, {}, {}).interval95->zeta[1]))
             .epsilon(0.002));
 }
 
@@ -83,7 +83,7 @@ TEST_CASE("A term that can have one sign only extends the range on one side") {
   const double low = 10.0 - above.ends.zeta[0];
   const double high = below.ends.zeta[1] - 10.0;
   const JointModel model = parabola(0.0, 0);
-  const Interval plain = joint_estimate(model, {}, {}).interval95->zeta;
+  const Interval plain = joint_estimate(model, {}, {}, {}).interval95->zeta;
   CHECK(low > 1.3 * (10.0 - plain[0]));
   CHECK(above.ends.zeta[1] == Approx(plain[1]).epsilon(0.01));
   CHECK(high > 1.3 * (plain[1] - 10.0));

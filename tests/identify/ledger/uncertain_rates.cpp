@@ -108,7 +108,7 @@ void identify(const Drawn& drawn, Rates& rates) {
   }
   const LedgerOptions options{.uncertainties = uncertainties};
   Ledger ledger = ledger_of(measured.record, measured.constants, options);
-  if (ledger.joint) ledger.joint = with(joint_reader(options));
+  if (ledger.joint && !ledger.joint_knows_uncertainties) ledger.joint = with(joint_reader(options));
   const Identification all = concluded(std::move(estimates), std::move(ledger));
   for (const Estimate& estimate : all.estimates) count_interval(estimate, measured.rig, rates.of[estimate.method]);
   if (all.answer) count_interval(all.estimates[*all.answer], measured.rig, rates.of["the answer"]);
