@@ -145,8 +145,9 @@ class HeldLaw {
 
 }  // namespace
 
-bool sticks_for_good(const Model& model, const Engine& engine, double held) {
-  if (engine.direction() != Direction::none) return false;
+bool rests_for_good(const Model& model, const Engine& engine, double held) {
+  const bool is_held = engine.direction() == Direction::none;
+  if (!is_held && engine.velocity() != 0.0) return false;
   const State state = engine.state();
   const Instant now{.t = engine.time(), .x = state.x};
   double limit = 0.0;
@@ -155,6 +156,8 @@ bool sticks_for_good(const Model& model, const Engine& engine, double held) {
     limit += model.friction[i].static_limit(state.memories[i], now);
     pull -= model.friction[i].force(state.memories[i], now, Direction::none);
   }
+  // Where no law can hold the mass, the smooth engine counts it as slipping.
+  if (!is_held && (limit > 0.0 || pull != 0.0)) return false;
   const double period = 2.0 * std::numbers::pi / natural_frequency(model.oscillator);
   for (std::size_t i = 0; i < model.friction.size(); ++i) {
     const HeldLaw law(model.friction[i], state.memories[i], now, limit, limit - std::abs(pull), period);

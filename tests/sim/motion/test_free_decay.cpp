@@ -208,6 +208,41 @@ TEST_CASE("free decay: where nothing weakens what holds the mass, it sticks for 
   }
 }
 
+TEST_CASE("free decay: a mass that no law can hold rests where all forces cancel", "[sim][free_decay]") {
+  const ParameterValues element{{"stiffness", 1000.0}, {"share", 1.0}};
+  const ParameterValues lugre{
+      {"kinetic", 2.0}, {"static", 3.0}, {"stribeck_velocity", 0.1}, {"sigma0", 1000.0}, {"sigma1", 30.0}};
+  ParameterValues elasto_plastic = lugre;
+  elasto_plastic.set("elastic_limit", 1e-4);
+  const std::vector<Law> laws = {
+      test::law("dahl", {{"kinetic", 2.0}, {"sigma0", 1000.0}}),
+      test::law("bouc_wen", {{"limit", 2.0}, {"stiffness", 1000.0}, {"exponent", 1.5}, {"ratio", 0.1}}),
+      test::law("lugre", lugre),
+      test::law("elasto_plastic", elasto_plastic),
+      test::law("generalized_maxwell_slip", {{"kinetic", 2.0},
+                                             {"stribeck_velocity", 0.1},
+                                             {"elements", std::vector<ParameterValues>{element}},
+                                             {"attraction", 10.0}}),
+      test::law("rate_state", {{"normal_force", 10.0},
+                               {"mu0", 0.2},
+                               {"a", 0.02},
+                               {"b", 0.015},
+                               {"slip_distance", 1e-3},
+                               {"reference_velocity", 0.01}}),
+      test::law("viscous_power", {{"coefficient", 3.0}, {"exponent", 0.5}}),
+      test::law("viscous_saturating", {{"coefficient", 3.0}, {"saturation_velocity", 0.1}}),
+      test::law("attached_mass", {{"mass", 3.0}, {"stiffness", 8e4}})};
+  for (std::size_t i = 0; i < laws.size(); ++i) {
+    CAPTURE(i);
+    const sim::FreeDecay decay = sim::free_decay(machine({laws[i]}, 0.0), 5);
+    REQUIRE(decay.outcome.ok());
+    CHECK(decay.came_to_rest);
+    CHECK_FALSE(decay.creeps);
+    CHECK(decay.extremes.size() == 1);
+    CHECK_FALSE(sim::free_decay(machine({laws[i]}, 1e-18), 5).came_to_rest);
+  }
+}
+
 TEST_CASE("simulate: every stop is followed by a release or by the end, in both engines", "[sim][free_decay]") {
   for (const sim::SolverKind solver : {sim::SolverKind::automatic, sim::SolverKind::implicit_steps})
     for (const Law& law : {fluctuating(0.6), coulomb_with("drift", -0.4)}) {
