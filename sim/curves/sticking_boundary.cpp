@@ -77,8 +77,7 @@ std::optional<double> den_hartogs(const Model& model, const ForceLimits& limits)
   return is_force ? force : force / o.stiffness;
 }
 
-/// Steady states of one model by amplitude, up to a limit of their total work. Only the searches for events count,
-/// not the steps of the smooth engine.
+/// Steady states of one model by amplitude, up to a limit of their total work.
 class States {
  public:
   States(Model model, long most_work) : model_(std::move(model)), most_work_(most_work) {}
@@ -94,7 +93,7 @@ class States {
                                               .most_work = most_work_ - work_,
                                               .detail = OrbitDetail::extremes,
                                               .others = false});
-    work_ += state.certificate.work();
+    work_ += state.work;
     return state;
   }
 
@@ -319,6 +318,10 @@ BoundaryPoint find(Model model, const ForceLimits& limits, double omega, std::sp
                    long most_work) {
   model.excitation.frequency = omega;
   BoundaryPoint point{.omega = omega};
+  if (std::ranges::none_of(model.friction, &friction::Law::holds_mass)) {
+    point.outcome = {core::OutcomeKind::no_steady_state, always_slides};
+    return point;
+  }
   States states(model, most_work);
   Bracket found;
   point.outcome = has_one_boundary(model, limits) ? bracket(states, first_amplitude(model, limits), found)

@@ -14,6 +14,9 @@
 /// of a force or, with the damper to ground, of the base) the result also has Den Hartog's closed form
 /// (`sim/analytic/den_hartog.hpp`), which shares no code with the engine.
 ///
+/// Where no law holds the mass (contacts that yield from the first motion on), it never sticks: no steady state is
+/// computed.
+///
 /// Cost: some fifty steady states a frequency; with a scan some hundred to three hundred, and those of the caller's
 /// amplitudes. Frequencies are computed in parallel. The search at a frequency has a limit of work, of which a scan
 /// leaves a quarter to the bisection.
@@ -42,7 +45,7 @@ struct BoundaryPoint {
   /// If the scan was stopped above the boundary because it takes too long: the largest amplitude it looked at.
   std::optional<double> seen_up_to{};
   bool is_stopped = false;  ///< no boundary was found, because the search takes too long
-  long work = 0;            ///< searches for events, panels and splits of all its steady states
+  long work = 0;            ///< `Engine::work` of all its steady states
   int unknown_below = 0;    ///< scanned amplitudes below the boundary without a steady state
 };
 

@@ -1,7 +1,10 @@
 #include "sim/engine/eigenvalues.hpp"
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <Eigen/QR>
 #include <cmath>
+#include <complex>
 
 #include "core/constants.hpp"
 
@@ -36,6 +39,21 @@ Eigen::VectorXcd eigenvalues_of(const Eigen::MatrixXd& matrix) {
   const Eigen::EigenSolver<Eigen::MatrixXd> solver(balanced, false);
   if (solver.info() != Eigen::Success) return Eigen::VectorXcd::Constant(matrix.rows(), core::infinity);
   return solver.eigenvalues();
+}
+
+std::optional<Modes> modes_of(Eigen::MatrixXd matrix, Eigen::VectorXd rate) {
+  constexpr double solved = 1e-9;
+  const Eigen::VectorXd units = balance(matrix);
+  rate = rate.cwiseQuotient(units);
+  const Eigen::VectorXd whole = matrix.completeOrthogonalDecomposition().solve(-rate);
+  if (!((matrix * whole + rate).norm() <= solved * rate.norm())) return std::nullopt;
+  const Eigen::EigenSolver<Eigen::MatrixXd> solver(matrix);
+  if (solver.info() != Eigen::Success) return std::nullopt;
+  Modes modes{.exponents = solver.eigenvalues(), .ways = solver.eigenvectors()};
+  const Eigen::VectorXcd shares = modes.ways.partialPivLu().solve(whole.cast<std::complex<double>>());
+  modes.ways = units.asDiagonal() * modes.ways * shares.asDiagonal();
+  if (!modes.ways.allFinite()) return std::nullopt;
+  return modes;
 }
 
 }  // namespace dualdamp::sim

@@ -43,9 +43,13 @@ class Decay {
   /// further extreme. If damping is so close to critical that a swing lasts a hundred natural periods, the swing
   /// ends at exp(-628) of its start.
   bool follow_slip() {
+    decay_.came_to_rest = rests_for_good(model_, *engine_, 0.0);
+    if (decay_.came_to_rest) return false;
     const Interval* interval = engine_->next(since_ + FreeDecay::patience * period_);
     if (interval == nullptr) {
-      decay_.creeps = engine_->outcome().ok();
+      const bool moves = engine_->velocity() != 0.0;
+      decay_.creeps = engine_->outcome().ok() && moves;
+      decay_.pauses = engine_->outcome().ok() && !moves;
       return false;
     }
     if (interval->ending == EventKind::reversal || interval->ending == EventKind::stop) {
@@ -68,7 +72,7 @@ class Decay {
         return true;
       }
       if (!engine_->outcome().ok()) return false;
-      const bool lasts = sticks_for_good(model_, *engine_, look);
+      const bool lasts = rests_for_good(model_, *engine_, look);
       if (!lasts && look < last) continue;
       decay_.came_to_rest = lasts && !is_complete();
       decay_.pauses = !lasts && !is_complete();

@@ -28,8 +28,9 @@ struct FreeDecay {
 };
 
 /// Successive extremes of the motion from `model.initial`; at most `count` of them. The excitation must be `none`.
-/// A stick is a pause if the mass is released again, as by a force limit that falls with time or by an attached
-/// mass that swings on. A place where the mass pauses and goes on in the same direction is no extreme.
+/// A stick is a pause if the mass is released again, as by a force limit that falls with time, by an attached mass
+/// that swings on or by a normal load that vibrates. A place where the mass pauses and goes on in the same
+/// direction is no extreme.
 [[nodiscard]] FreeDecay free_decay(const Model& model, int count);
 
 }  // namespace dualdamp::sim

@@ -54,6 +54,7 @@ class OrbitSolver {
 
   [[nodiscard]] int newton_steps() const { return newton_steps_; }
   [[nodiscard]] core::SearchCount count() const;
+  [[nodiscard]] long work() const { return work_ + (map_ ? map_->engine().work() : 0); }  ///< `Engine::work`
   /// Limits the total work (`Engine::work`); beyond the limit no orbit is found.
   void limit(long work) { most_work_ = work; }
 

@@ -98,13 +98,21 @@ class OrbitFinder {
   }
 
   void find(SteadyState& result);
-  [[nodiscard]] core::SearchCount count() {
-    core::SearchCount sum = searched_;
-    return sum += map_.engine().count();
+  /// States the cost of all motions. Call it once, at the end.
+  void account_for_cost(SteadyState& result) {
+    add_cost(map_.engine());
+    result.certificate = searched_;
+    result.work = work_;
   }
   void describe(SteadyState& result);
 
  private:
+  /// Of an engine or a solver that is used no more.
+  template <class Counting>
+  void add_cost(const Counting& counting) {
+    searched_ += counting.count();
+    work_ += counting.work();
+  }
   [[nodiscard]] std::optional<State> start_of_sliding_orbit();
   [[nodiscard]] std::optional<Orbit> the_only_orbit(SteadyState& result);
   [[nodiscard]] std::optional<Orbit> only_orbit_from(const State& start, SteadyState& result);
@@ -127,6 +135,7 @@ class OrbitFinder {
   std::vector<SteadyState> others_;
   std::optional<OrbitAccount> account_;  ///< of the sliding orbit that Newton's method began on, if it stayed there
   core::SearchCount searched_;           ///< in addition to those of the engine
+  long work_ = 0;                        ///< likewise, `Engine::work`
   double rounding_closure_ = 0.0;
   double error_ = 0.0;  ///< the largest one of the orbits (`error_of_orbit`)
 };
@@ -140,6 +149,7 @@ std::optional<State> OrbitFinder::start_of_sliding_orbit() {
   // Newton's method will accept this start at once, so its pass along the orbit can collect the account too.
   account_.emplace(model_, AccountParts{.detail = options_.detail});
   searched_ += orbit->certificate;
+  work_ += orbit->certificate.work();
   return start;
 }
 
@@ -195,7 +205,7 @@ void OrbitFinder::describe(SteadyState& result) {
   } else {
     PeriodMap map(model_, result.period_ratio);
     account_for_orbit(model_, map, parts, result);
-    searched_ += map.engine().count();
+    add_cost(map.engine());
     result.warnings.emplace_back("subharmonic: the motion repeats itself after several forcing periods only");
   }
   if (options_.others) add_mirror_images(result);
@@ -209,7 +219,7 @@ void OrbitFinder::describe(SteadyState& result) {
 SteadyState OrbitFinder::outlined(const Orbit& orbit) {
   PeriodMap map(model_, orbit.period_ratio);
   SteadyState state = outline_of_orbit(model_, map, orbit.period.begin, orbit.period_ratio);
-  searched_ += map.engine().count();
+  add_cost(map.engine());
   return state;
 }
 
@@ -275,7 +285,7 @@ void OrbitFinder::add_mirror_images(SteadyState& result) {
     }
     if (i == 0) result.warnings.emplace_back("asymmetric: the mirror image of this steady state is another one");
   }
-  searched_ += solver.count();
+  add_cost(solver);
 }
 
 /// "3 %", for a distance relative to the size of the motion.
@@ -310,7 +320,7 @@ std::optional<double> OrbitFinder::error_of_steps(const Orbit& orbit) {
   PeriodMap map(model, orbit.period_ratio);
   map.limit(patience_with(map.engine().accuracy(), options_.most_work).work);
   const ForcingPeriod again = map.from(orbit.period.begin, Monodromy::without);
-  searched_ += map.engine().count();
+  add_cost(map.engine());
   if (!map.outcome().ok()) return std::nullopt;
   const ForcingPeriod& period = orbit.period;
   const double omega = model_.excitation.frequency;
@@ -358,7 +368,7 @@ void OrbitFinder::find(SteadyState& result) {
       }
     }
     result.newton_steps += solver.newton_steps();
-    searched_ += solver.count();
+    add_cost(solver);
   }
   if (!orbit) return;
   if (creeps_below_steps(model_, orbit->period, map_.engine().accuracy())) {
@@ -409,7 +419,7 @@ SteadyState steady_state(const Model& model, const SteadyStateOptions& options) 
   OrbitFinder finder(model, options);
   finder.find(result);
   if (result.outcome.ok()) finder.describe(result);
-  result.certificate = finder.count();
+  finder.account_for_cost(result);
   return result;
 }
 

@@ -60,6 +60,7 @@ struct SteadyState {
   int newton_steps = 0;
   int transient_periods = 0;
   core::SearchCount certificate;  ///< of all searches for events on the way to the orbit and on it
+  long work = 0;                  ///< `Engine::work` of all motions that were computed for it
 
   /// Whether the mass stands still all the time. Slips below rounding are no motion (orbit_account.cpp).
   [[nodiscard]] bool never_moves() const { return peak == trough; }

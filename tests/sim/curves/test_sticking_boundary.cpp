@@ -8,6 +8,8 @@
 #include "friction_models/laws/free_play.hpp"
 #include "friction_models/laws/gap_spring.hpp"
 #include "sim/orbits/steady_state.hpp"
+#include "tests/support/make_law.hpp"
+#include "tests/support/standard_system.hpp"
 
 using namespace dualdamp;
 
@@ -203,4 +205,30 @@ TEST_CASE("a boundary that takes too long is given up, with the amplitudes betwe
   REQUIRE(above.seen_up_to.has_value());
   CHECK(*above.seen_up_to > above.amplitude);
   CHECK(*above.seen_up_to < far.back());
+}
+
+TEST_CASE("where contacts yield from the first motion on, the mass never sticks, and nothing is computed") {
+  for (const friction::Law& law : {test::law("dahl", {{"kinetic", 2.0}, {"sigma0", 2000.0}, {"exponent", 1.5}}),
+                                   test::law("iwan", {{"stiffness", 80.0}, {"limit", 3.0}, {"count", 20.0}}),
+                                   test::law("viscous_power", {{"coefficient", 1.0}, {"exponent", 0.3}})}) {
+    const sim::BoundaryPoint point = sim::sticking_boundary(test::standard_system(law), std::vector{10.0})[0];
+    CHECK(point.outcome.reason == "even the weakest drive moves the mass without a stick");
+    CHECK_FALSE(point.is_stopped);
+    CHECK(point.work == 0);
+  }
+}
+
+TEST_CASE("the steps of the smooth engine count in the work of a boundary") {
+  sim::Model beside_bristles = model(0.05, 1.0, 1.5);
+  beside_bristles.friction.push_back(test::law("dahl", {{"kinetic", 0.1}, {"sigma0", 20.0}}));
+  beside_bristles.excitation.frequency = 0.6;
+  beside_bristles.excitation.amplitude = 2.0;
+  const sim::SteadyState one = sim::steady_state(beside_bristles, {.others = false});
+  REQUIRE(one.outcome.ok());
+  CHECK(one.work > 2 * one.certificate.work());
+
+  const sim::BoundaryPoint stopped = sim::sticking_boundary(beside_bristles, std::vector{0.6}, {}, 3 * one.work)[0];
+  CHECK(stopped.is_stopped);
+  CHECK(stopped.work > 2 * one.work);
+  CHECK(stopped.work < 12 * one.work);
 }

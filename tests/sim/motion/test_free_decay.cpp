@@ -5,6 +5,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "sim/motion/simulate.hpp"
@@ -118,6 +119,58 @@ TEST_CASE("free decay: whether an attached mass without a damper releases the ma
   CHECK_FALSE(decay.came_to_rest);
 }
 
+namespace {
+
+/// A rider whose normal vibration, of 36 ms, is fast beside the oscillator's 650 ms.
+sim::Model ridden(double normal_damping_ratio, double position, ParameterValues more = {}) {
+  for (const auto& [name, value] : std::vector<std::pair<const char*, double>>{{"mu", 0.2},
+                                                                               {"mu_static", 0.3},
+                                                                               {"weight", 12.0},
+                                                                               {"normal_mass", 0.4},
+                                                                               {"static_approach", 0.002},
+                                                                               {"lift", 60.0},
+                                                                               {"lift_velocity", 0.2}})
+    more.set(name, value);
+  more.set("normal_damping_ratio", normal_damping_ratio);
+  sim::Model model;
+  model.oscillator = {.mass = 1.3, .stiffness = 120.0};
+  model.friction = {test::law("normal_vibration", more)};
+  model.initial = {.position = position};
+  return model;
+}
+
+}  // namespace
+
+TEST_CASE("free decay: a normal load that vibrates fast releases the mass again", "[sim][free_decay]") {
+  for (const auto& [ratio, position] : {std::pair{0.0, 0.21}, {0.002, 0.3}}) {
+    CAPTURE(ratio);
+    const sim::Model model = ridden(ratio, position);
+    const sim::FreeDecay decay = sim::free_decay(model, 40);
+    REQUIRE(decay.outcome.ok());
+    check_against_simulate(model, decay);
+    CHECK(decay.extremes.size() == turns(model, 20.0).size());
+    CHECK(decay.came_to_rest == (ratio > 0.0));
+    CHECK(decay.pauses == (ratio == 0.0));
+    // The mean static limit holds it there.
+    CHECK(120.0 * std::abs(decay.extremes.back().x) < 0.3 * 12.0);
+  }
+}
+
+TEST_CASE("free decay: a normal vibration dies out, also of a contact that cools", "[sim][free_decay]") {
+  const ParameterValues warming{{"power", 2.0}, {"time_constant", 500.0}};
+  const ParameterValues warm{{"warming", std::vector<ParameterValues>{warming}}};
+  for (const double ratio : {0.02, 0.5, 1.0, 2.0})
+    for (const ParameterValues& more : {ParameterValues{}, warm}) {
+      CAPTURE(ratio);
+      const sim::Model model = ridden(ratio, 0.3, more);
+      const sim::FreeDecay decay = sim::free_decay(model, 60);
+      REQUIRE(decay.outcome.ok());
+      CHECK(decay.came_to_rest);
+      CHECK(decay.extremes.size() == turns(model, 20.0).size());
+      check_against_simulate(model, decay);
+    }
+}
+
 TEST_CASE("free decay: under a fluctuation without end a stick of 100 natural periods ends it",
           "[sim][free_decay]") {
   const sim::Model model = machine({fluctuating(0.4)}, 0.004);
@@ -152,6 +205,41 @@ TEST_CASE("free decay: where nothing weakens what holds the mass, it sticks for 
     CHECK(decay.came_to_rest);
     CHECK_FALSE(decay.pauses);
     check_against_simulate(model, decay);
+  }
+}
+
+TEST_CASE("free decay: a mass that no law can hold rests where all forces cancel", "[sim][free_decay]") {
+  const ParameterValues element{{"stiffness", 1000.0}, {"share", 1.0}};
+  const ParameterValues lugre{
+      {"kinetic", 2.0}, {"static", 3.0}, {"stribeck_velocity", 0.1}, {"sigma0", 1000.0}, {"sigma1", 30.0}};
+  ParameterValues elasto_plastic = lugre;
+  elasto_plastic.set("elastic_limit", 1e-4);
+  const std::vector<Law> laws = {
+      test::law("dahl", {{"kinetic", 2.0}, {"sigma0", 1000.0}}),
+      test::law("bouc_wen", {{"limit", 2.0}, {"stiffness", 1000.0}, {"exponent", 1.5}, {"ratio", 0.1}}),
+      test::law("lugre", lugre),
+      test::law("elasto_plastic", elasto_plastic),
+      test::law("generalized_maxwell_slip", {{"kinetic", 2.0},
+                                             {"stribeck_velocity", 0.1},
+                                             {"elements", std::vector<ParameterValues>{element}},
+                                             {"attraction", 10.0}}),
+      test::law("rate_state", {{"normal_force", 10.0},
+                               {"mu0", 0.2},
+                               {"a", 0.02},
+                               {"b", 0.015},
+                               {"slip_distance", 1e-3},
+                               {"reference_velocity", 0.01}}),
+      test::law("viscous_power", {{"coefficient", 3.0}, {"exponent", 0.5}}),
+      test::law("viscous_saturating", {{"coefficient", 3.0}, {"saturation_velocity", 0.1}}),
+      test::law("attached_mass", {{"mass", 3.0}, {"stiffness", 8e4}})};
+  for (std::size_t i = 0; i < laws.size(); ++i) {
+    CAPTURE(i);
+    const sim::FreeDecay decay = sim::free_decay(machine({laws[i]}, 0.0), 5);
+    REQUIRE(decay.outcome.ok());
+    CHECK(decay.came_to_rest);
+    CHECK_FALSE(decay.creeps);
+    CHECK(decay.extremes.size() == 1);
+    CHECK_FALSE(sim::free_decay(machine({laws[i]}, 1e-18), 5).came_to_rest);
   }
 }
 
