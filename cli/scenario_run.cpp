@@ -68,7 +68,7 @@ CommandOutput load(const RunCommand& command, const std::string& file, std::opti
     if ((command.resume || command.overwrite) && campaign_of(loaded) == nullptr)
       return refused(ExitStatus::usage, file + (command.resume ? ": --resume continues" : ": --overwrite repeats") +
                                             " a stress test or a sweep; this scenario is neither");
-    if (command.dry_run) return checked(loaded, output_directory(command, file));
+    if (command.dry_run) return checked(loaded, output_directory(command, file), command);
     scenario.emplace(std::move(loaded));
     return {};
   });
@@ -135,10 +135,15 @@ void show_in(const std::string& units, Scenario& scenario) {
   if (!units.empty()) static_cast<void>(scenarios::ask_for_units(units, scenario.written_units));
 }
 
-CommandOutput checked(const Scenario& scenario, const std::string& directory) {
+CommandOutput checked(const Scenario& scenario, const std::string& directory, const ResultFiles& files) {
   CommandOutput output;
   output.text = scenario.file + ": valid: " + scenario.analysis_name;
-  if (!directory.empty()) output.text += ", results would go to " + directory;
+  if (!directory.empty()) {
+    output.text += ", results would go to " + directory;
+    if (!files.plot.empty()) output.text += ", the chart to " + files.plot;
+    if (!files.mat.empty()) output.text += ", the tables to " + files.mat;
+    if (scenario.verify) output.text += ", and each result would be computed again in another way";
+  }
   output.text += "\n";
   const scenarios::Campaign* campaign = campaign_of(scenario);
   if (campaign != nullptr && !directory.empty())

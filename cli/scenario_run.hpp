@@ -26,7 +26,8 @@ void refuse_unusable(const std::string& directory);
 void show_in(const std::string& units, scenarios::Scenario& scenario);
 
 /// What `check` says. `directory`: where the results would be written; empty if nothing would be run.
-[[nodiscard]] CommandOutput checked(const scenarios::Scenario& scenario, const std::string& directory);
+[[nodiscard]] CommandOutput checked(const scenarios::Scenario& scenario, const std::string& directory,
+                                    const ResultFiles& files = {});
 
 /// Errors: those of `scenarios::run` and of writing the files.
 [[nodiscard]] CommandOutput run_and_write(scenarios::Scenario scenario, scenarios::RunOptions options, bool quiet);

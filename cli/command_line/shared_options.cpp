@@ -90,7 +90,7 @@ void add_record_kind(CLI::App& command, bool& loop, std::string& drive) {
                   "files without this column")
       ->check(CLI::IsMember({"y", "force"}))
       ->excludes(is_loop)
-      ->type_name("COLUMN");
+      ->type_name("y|force");
 }
 
 std::function<std::string(const std::string&)> whole_number(int most) {

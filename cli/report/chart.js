@@ -13,7 +13,7 @@ const colour = (which) => (typeof which === "number" ? `var(--c${which % 14})` :
 const isNumber = (value) => value !== null && Number.isFinite(value);
 
 /** The smallest and the largest finite number, with a margin; on a logarithmic axis the margin is a factor. */
-function extent(lists, { log, whole, names }) {
+function extent(lists, { log, whole, names, isTime }) {
   if (names) return [0.5, names.length + 0.5];
   let low = Infinity;
   let high = -Infinity;
@@ -26,7 +26,9 @@ function extent(lists, { log, whole, names }) {
   if (log) return [low / 1.05, high * 1.05];
   const span = Math.max(high - low, 1);
   if (whole) return [low - 0.05 * span, low + 1.05 * span]; // counts that are all 0 have no negative part
-  const room = high > low ? 0.05 * (high - low) : Math.abs(high) * 0.1 || 1;
+  // The labels of a narrower span would have more digits than fit, and its curve is one of rounding. Times may be counted from long ago.
+  const size = Math.max(Math.abs(low), Math.abs(high));
+  const room = high - low > (isTime ? 0 : 1e-5 * size) ? 0.05 * (high - low) : 0.1 * size || 1;
   return [low - room, high + room];
 }
 
@@ -45,7 +47,7 @@ function scaled(spec) {
   const axisOf = (axis, lists) => {
     const { unit, factor } = axis.asWritten ? { unit: axis.unit, factor: 1 } : readable(axis.unit, largest(lists), axis.column);
     const shown = unit && unit !== "1" ? unit : "";
-    return { unit: shown, factor, text: axis.label + (shown ? ` [${shown}]` : ""), log: axis.log ?? false, whole: axis.whole ?? false, names: axis.names };
+    return { unit: shown, factor, text: axis.label + (shown ? ` [${shown}]` : ""), log: axis.log ?? false, whole: axis.whole ?? false, names: axis.names, isTime: axis.unit === "s" };
   };
   const x = axisOf(spec.x, spec.series.map((s) => s.x));
   const y = axisOf(spec.y, spec.series.map((s) => s.y));

@@ -115,7 +115,11 @@ std::pair<double, double> extent(const Chart& chart, std::vector<double> ChartSe
   if (axis.is_log) return {low / 1.05, high * 1.05};
   const double span = std::max(high - low, 1.0);
   if (axis.is_whole) return {low - 0.05 * span, low + 1.05 * span};
-  const double room = high > low ? 0.05 * (high - low) : high == 0.0 ? 1.0 : 0.1 * std::abs(high);
+  // The labels of a narrower span would have more digits than fit, and its curve is one of rounding. Times may be
+  // counted from long ago.
+  const double narrow = axis.unit == "s" ? 0.0 : 1e-5;
+  const double size = std::max(std::abs(low), std::abs(high));
+  const double room = high - low > narrow * size ? 0.05 * (high - low) : size == 0.0 ? 1.0 : 0.1 * size;
   return {low - room, high + room};
 }
 

@@ -95,7 +95,9 @@ constexpr std::string_view bash_begin = R"(# Completion of dualdamp for bash; wr
 _dualdamp_propose() {
   local ending
   case $1 in
-    words) mapfile -t COMPREPLY < <(compgen -W "$2" -- "$word") ;;
+    words) # of a list with commas, the last one
+      mapfile -t COMPREPLY < <(compgen -P "${word%"${word##*,}"}" -W "$2" -- "${word##*,}")
+      ;;
     directories)
       compopt -o filenames 2>/dev/null
       mapfile -t COMPREPLY < <(compgen -d -- "$word")

@@ -11,7 +11,6 @@
 #include "identify/ledger/sensor_or_symmetry.hpp"
 #include "identify/statistics/decompositions.hpp"
 #include "identify/statistics/ties.hpp"
-#include "identify/statistics/unit_columns.hpp"
 
 namespace dualdamp::identify {
 
@@ -56,13 +55,13 @@ Eigen::MatrixXd finite_columns(Eigen::MatrixXd columns) {
 
 /// Lengths of columns beside a base.
 Eigen::VectorXd lengths_beside(const Eigen::MatrixXd& base, const Eigen::MatrixXd& columns) {
-  return (columns - base * UnitColumns(base).solve_each(columns)).colwise().norm();
+  return (columns - base * DependentColumns(base).solve_each(columns)).colwise().norm();
 }
 
 Projection project(const JointModel& model, const Taken& taken) {
   const Eigen::Index own = model.base.cols();
   const Eigen::MatrixXd base = free_columns(model.base, model.relaxed, taken);
-  const UnitColumns unit(base);
+  const DependentColumns unit(base);
   const Eigen::MatrixXd columns = finite_columns(model.relaxed);
   const Eigen::MatrixXd solved = unit.solve_each(columns);
   const Eigen::MatrixXd beside = columns - product(base, solved);

@@ -63,15 +63,20 @@ std::optional<double> bend(const std::vector<double>& signal, std::ptrdiff_t i) 
 
 /// Whether the signal returns beside sample i. A spike of height h has the second differences h, -2 h, h; a corner,
 /// as at the begin and the end of a blow, has one, or two of one sign. Those of the smooth signal count as known
-/// from two samples further on.
-bool returns(const std::vector<double>& signal, std::size_t sample) {
+/// from two samples further on. Near an end of the signal no neighbour tells a step, which has two of both signs
+/// side by side: there both beside must be those of a spike as high as the sample is `off`.
+bool returns(const std::vector<double>& signal, std::size_t sample, double off) {
   const auto i = static_cast<std::ptrdiff_t>(sample);
   double smooth = 0.0;
   const std::optional<double> before = bend(signal, i - 2);
   const std::optional<double> after = bend(signal, i + 2);
   if (before || after) smooth = (before.value_or(0.0) + after.value_or(0.0)) / (before && after ? 2.0 : 1.0);
   const double here = *bend(signal, i) - smooth;
-  const double beside = 0.5 * (*bend(signal, i - 1) + *bend(signal, i + 1)) - smooth;
+  const double earlier = *bend(signal, i - 1) - smooth;
+  const double later = *bend(signal, i + 1) - smooth;
+  const double back = here > 0.0 ? -1.0 : 1.0;
+  if (!before || !after) return std::min(back * earlier, back * later) > 0.5 * off;
+  const double beside = 0.5 * (earlier + later);
   constexpr double share = 0.25;  // half of it for a spike, none for a corner
   return here * beside < 0.0 && std::abs(beside) > share * std::abs(here);
 }
@@ -93,7 +98,7 @@ std::vector<Spike> spikes_of(const std::vector<double>& signal) {
     // but small relative to the range.
     constexpr double share = 0.03;
     const bool large = off[i] > share * range_around(signal, i);
-    if (large && off[i] > far * noise && returns(signal, i))
+    if (large && off[i] > far * noise && returns(signal, i, off[i]))
       spikes.push_back({i, off[i] / noise, smooth_at(signal, i)});
   }
   return spikes;

@@ -5,6 +5,7 @@
 #include <Eigen/LU>
 #include <Eigen/QR>
 #include <algorithm>
+#include <limits>
 
 namespace dualdamp::identify {
 
@@ -33,14 +34,38 @@ Eigen::VectorXd left_beside(const Eigen::MatrixXd& columns, const Eigen::VectorX
   return values - columns * pivoted_least_squares(columns, values);
 }
 
+namespace {
+
+/// Below this share of the longest, what is left of a column of unit length beside others is rounding: columns of
+/// one motion are computed by recurrences of many steps.
+constexpr double rounding = 1e-12;
+
+/// Lengths to divide columns by; 1 for a column of zeros.
+Eigen::VectorXd lengths_of(const Eigen::MatrixXd& columns) {
+  const Eigen::VectorXd norms = columns.colwise().norm();
+  return (norms.array() > 0.0).select(norms, 1.0);
+}
+
+/// Columns of unit length: the units of columns do not decide which of them count as dependent.
+Eigen::ColPivHouseholderQR<Eigen::MatrixXd> unit_factors(const Eigen::MatrixXd& columns,
+                                                         const Eigen::VectorXd& lengths) {
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(columns * lengths.cwiseInverse().asDiagonal());
+  qr.setThreshold(rounding);
+  return qr;
+}
+
+}  // namespace
+
 struct DependentColumns::Factors {
+  explicit Factors(const Eigen::MatrixXd& columns)
+      : lengths(lengths_of(columns)), qr(unit_factors(columns, lengths)) {}
+
+  Eigen::VectorXd lengths;
   Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr;
 };
 
 DependentColumns::DependentColumns(const Eigen::MatrixXd& columns)
-    : factors_(columns.cols() == 0
-                   ? nullptr
-                   : std::make_shared<const Factors>(Eigen::ColPivHouseholderQR<Eigen::MatrixXd>(columns))) {}
+    : factors_(columns.cols() == 0 ? nullptr : std::make_shared<const Factors>(columns)) {}
 
 Eigen::Index DependentColumns::rank() const { return factors_ ? factors_->qr.rank() : 0; }
 
@@ -48,7 +73,18 @@ Eigen::VectorXd DependentColumns::solve(const Eigen::VectorXd& values) const { r
 
 Eigen::MatrixXd DependentColumns::solve_each(const Eigen::MatrixXd& values) const {
   if (!factors_) return Eigen::MatrixXd(0, values.cols());
-  return factors_->qr.solve(values);
+  const Eigen::VectorXd& lengths = factors_->lengths;
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd>& qr = factors_->qr;
+  if (!qr.matrixR().allFinite())
+    return Eigen::MatrixXd::Constant(lengths.size(), values.cols(), std::numeric_limits<double>::quiet_NaN());
+  // Eigen's own solution takes the columns beyond the rank too: it would fit values by rounding errors.
+  const Eigen::Index rank = qr.rank();
+  Eigen::MatrixXd solved = values;
+  solved.applyOnTheLeft(qr.householderQ().setLength(rank).adjoint());
+  Eigen::MatrixXd ordered = Eigen::MatrixXd::Zero(lengths.size(), values.cols());
+  ordered.topRows(rank) =
+      qr.matrixR().topLeftCorner(rank, rank).triangularView<Eigen::Upper>().solve(solved.topRows(rank));
+  return lengths.cwiseInverse().asDiagonal() * (qr.colsPermutation() * ordered);
 }
 
 Eigen::VectorXd shortest_solution(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& values) {
@@ -57,7 +93,7 @@ Eigen::VectorXd shortest_solution(const Eigen::MatrixXd& matrix, const Eigen::Ve
 
 Eigen::MatrixXd orthonormal_basis(const Eigen::MatrixXd& columns, std::optional<double> threshold) {
   if (columns.cols() == 0) return Eigen::MatrixXd(columns.rows(), 0);
-  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(columns);
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr = unit_factors(columns, lengths_of(columns));
   if (threshold) qr.setThreshold(*threshold);
   return qr.householderQ() * Eigen::MatrixXd::Identity(columns.rows(), std::min(qr.rank(), columns.rows()));
 }

@@ -27,7 +27,8 @@ struct LinearFit {
 /// What columns, which may be nearly dependent, leave of values: values - columns x with the x of least squares.
 [[nodiscard]] Eigen::VectorXd left_beside(const Eigen::MatrixXd& columns, const Eigen::VectorXd& values);
 
-/// Least squares over columns that may be nearly dependent, for several targets: one decomposition serves all.
+/// Least squares over columns that may be nearly dependent, for several targets: one decomposition serves all. What
+/// counts as dependent does not depend on the units of columns. A column that is not finite makes the solution so.
 class DependentColumns {
  public:
   explicit DependentColumns(const Eigen::MatrixXd& columns);
@@ -50,7 +51,7 @@ class DependentColumns {
 [[nodiscard]] Eigen::VectorXd shortest_solution(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& values);
 
 /// An orthonormal basis of what the columns span, by QR with column pivoting: columns that are dependent to
-/// `threshold` of the largest, or to rounding, add nothing. No columns have an empty basis.
+/// `threshold`, or to rounding, add nothing, whatever their units. No columns have an empty basis.
 [[nodiscard]] Eigen::MatrixXd orthonormal_basis(const Eigen::MatrixXd& columns,
                                                 std::optional<double> threshold = std::nullopt);
 

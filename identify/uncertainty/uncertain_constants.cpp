@@ -221,6 +221,20 @@ void add(const Change& change, Estimate& estimate) {
   }
 }
 
+/// Readings that leave no freedom have no interval that could include what the constants contribute: it is said.
+void note_contribution(const ParameterSet& errors, const KnownConstants& constants, Estimate& estimate) {
+  if (estimate.std || estimate.interval95) return;
+  constexpr int digits = 2;
+  const bool spring = std::isfinite(estimate.value.zeta);
+  const std::string damping = spring
+                                  ? core::format_number(errors.zeta, digits) + " of zeta"
+                                  : core::format_number(errors.c, digits) + " " + constants.unit("N.s/m") + " of c";
+  estimate.warnings.push_back(
+      "there is no interval that could include the stated uncertainties of constants and gains: by themselves they "
+      "give standard errors of " +
+      damping + " and " + core::format_number(errors.F0, digits) + " " + constants.unit("N") + " of F0");
+}
+
 /// An interval that lacks the effect of a constant is too narrow by an unknown amount: there is none.
 void drop_uncertainty(Estimate& estimate) {
   estimate.std.reset();
@@ -262,7 +276,9 @@ Estimate with_uncertainties(const Reader& read, const Record& record, const Know
   const Input input{record, constants};
   Variation variation(read, input, stated);
   Estimate estimate = stated;
+  ParameterSet contributed{0.0, 0.0, 0.0, 0.0};
   bool not_carried = false;
+  bool is_moved = false;
   for (const Variable& variable : variables) {
     const double deviation = variable.number.relative(uncertainties, constants);
     if (!(deviation > 0.0)) continue;
@@ -275,6 +291,9 @@ Estimate with_uncertainties(const Reader& read, const Record& record, const Know
         if (const std::optional<Bracket> inner = variation.at(variable, smaller))
           take_larger(change_by(*inner, stated), change);
       add(change, estimate);
+      for (const ReportedParameter& member : reported_parameters)
+        contributed.*member.value = std::hypot(contributed.*member.value, change.values.*member.value);
+      is_moved = true;
     } else {
       not_carried = true;
       estimate.warnings.push_back("the uncertainty of the " + variable.number.text() +
@@ -282,7 +301,10 @@ Estimate with_uncertainties(const Reader& read, const Record& record, const Know
                                   " there is no estimate");
     }
   }
-  if (not_carried) drop_uncertainty(estimate);
+  if (not_carried)
+    drop_uncertainty(estimate);
+  else if (is_moved)
+    note_contribution(contributed, constants, estimate);
   return estimate;
 }
 

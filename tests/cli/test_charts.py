@@ -61,6 +61,13 @@ class Charts(Case):
         rises = [a[1] - b[1] for a, b in zip(points, points[1:])]
         self.assertLess(max(rises) / min(rises), 1.01)
 
+    def test_values_that_differ_by_rounding_have_labels_that_fit(self):
+        self.run_program("run", "curve.yaml", "--out", "out", "--set", "analysis.amplitudes=[20 cm, 20.00000005 cm, 20.0000001 cm]", "--plot", "a.svg")
+        texts, (points,) = self.drawing("a.svg")
+        self.assertLessEqual({"18", "20", "22"}, set(texts))
+        self.assertLess(max(len(text) for text in texts if re.fullmatch(r"[\d.]+", text)), 8)
+        self.assertLess(points[-1][0] - points[0][0], 0.05)
+
     def test_points_in_any_order_are_joined_in_that_of_x(self):
         """Also those of two results over each other, and of a sweep. The table keeps the order of the scenario."""
         shuffled = "analysis.amplitudes=[25 cm, 10 cm, 30 cm, 15 cm, 20 cm]"

@@ -121,10 +121,11 @@ class Run(Case):
         self.run_program("run", "base.yaml", "--set", "system.mass", status=2)
 
     def test_dry_run_writes_nothing(self):
-        result = self.run_program("run", "base.yaml", "--dry-run")
-        self.assertIn("valid", result.stdout)
-        self.assertEqual(list(tree(self.folder)), ["base.yaml"])
+        self.assertIn("valid", self.run_program("run", "base.yaml", "--dry-run").stdout)
         self.assertIsNone(self.document("run", "base.yaml", "--dry-run", "--json")["result"])
+        told = self.run_program("run", "base.yaml", "--dry-run", "--plot", "a.svg", "--mat", "a.mat", "--verify").stdout
+        self.assertIn(", the chart to a.svg, the tables to a.mat, and each result would be computed again", told)
+        self.assertEqual(list(tree(self.folder)), ["base.yaml"])
 
     def test_expectations(self):
         self.write("off.yaml", BASE + "expect:\n  - {value: peak, equals: 0.2, within: 1.0e-3, source: page 7}\n")

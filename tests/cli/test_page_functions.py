@@ -30,6 +30,13 @@ class Functions(PageCase):
         self.assertEqual(self.ask("formula", "ticksOf({ whole: true }, extent([[0, 0]], { whole: true }), 5)"), [0, 1])
         self.assertNotIn("−", "".join(self.ask("frequency_branch", '[...document.querySelectorAll("figure")].filter((f) => f.textContent.includes("Stops in a period")).map((f) => [...f.querySelectorAll("svg text")].map((t) => t.textContent).join(" "))')))
 
+    def test_a_curve_of_rounding_errors_is_flat(self):
+        asked = [f"extent([[{values}]], {{ isTime: {time} }})" for values, time in (("0.136067937179, 0.1360679371795", "false"), ("-2, -2.000000000001", "false"), ("1, 1.0001", "false"), ("1e9, 1000000010", "true"))]
+        positive, negative, resolved, time = self.ask("formula", *asked)
+        for found, expected in ((positive, [0.12246, 0.14967]), (negative, [-2.2, -1.8]), (resolved, [0.999995, 1.000105]), (time, [1e9 - 0.5, 1e9 + 10.5])):
+            for place, end in zip(found, expected, strict=True):
+                self.assertAlmostEqual(place, end, 5)
+
     def test_a_jump_between_two_samples_is_left_open(self):
         line = self.ask("formula", "broken({ x: [1, 2, 3, 4], y: [0, 0.1, 2, 1.9], colour: 3 })")
         self.assertEqual(line, {"x": [1, 2, None, 3, 4], "y": [0, 0.1, None, 2, 1.9], "colour": 3})

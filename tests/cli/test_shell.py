@@ -27,6 +27,7 @@ LINES = [
     ("dualdamp fit coulomb ", ["a.yaml", "b.csv", "folder", "law.so"]),
     ("dualdamp identify b.csv --method recu", ["recursive_least_squares"]),
     ("dualdamp identify b.csv --coordinate ", ["angle", "displacement"]),
+    ("dualdamp fit coulomb b.csv --drive ", ["force", "y"]),
     ("dualdamp run ", ["a.yaml", "folder"]),
     ("dualdamp run --out run ", ["a.yaml", "folder"]),  # the second "run" is a value
     ("dualdamp run a.yaml --out ", ["folder"]),
@@ -91,6 +92,9 @@ class Bash(Shell, unittest.TestCase):
         script = 'source "$0"; COMP_WORDS=("$@"); COMP_CWORD=$(($# - 1)); _dualdamp; printf "%s\\n" "${COMPREPLY[@]}"'
         found = call("bash", "--norc", "-c", script, self.folder / "scripts/_dualdamp", *words, cwd=self.place)
         return sorted(found.split())
+
+    def test_the_last_item_of_a_list(self):
+        self.assertEqual(self.proposed("dualdamp fit coulomb,iw"), [f"coulomb,{law}" for law in LAWS])
 
 
 class Fish(Shell, unittest.TestCase):

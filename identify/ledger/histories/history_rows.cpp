@@ -9,7 +9,6 @@
 #include "identify/records/derived_records.hpp"
 #include "identify/statistics/decompositions.hpp"
 #include "identify/statistics/noise_level.hpp"
-#include "identify/statistics/unit_columns.hpp"
 
 namespace dualdamp::identify {
 
@@ -37,7 +36,7 @@ namespace {
 /// of the errors. The projection H onto the columns is known, so what it takes out is added: s^2 sum H_(i,i+lag).
 Eigen::VectorXd error_covariances(const Eigen::MatrixXd& columns, const Eigen::VectorXd& left,
                                   const std::vector<Eigen::Index>& blocks, int most) {
-  const Eigen::MatrixXd basis = orthonormal_basis(of_unit_length(columns, lengths_of(columns)));
+  const Eigen::MatrixXd basis = orthonormal_basis(columns);
   const auto count = static_cast<double>(left.size());
   const double freedom = std::max(1.0, count - static_cast<double>(basis.cols()));
   const double variance = left.squaredNorm() / freedom;

@@ -46,8 +46,9 @@ std::string infinite_force(const Model& model, const Flow& flow, std::span<const
   flow.evaluate(X, t, rates);
   std::vector<double> there(X.size());
   const double begin = now.t;
-  for (double s = 1e-15 * reach; s < reach; s *= 10.0) {
-    for (std::size_t k = 0; k < X.size(); ++k) there[k] = X[k] + s * rates[k];
+  // First here, where an infinite force makes the rates infinite too; then ahead.
+  for (double s = 0.0; s < reach; s = s > 0.0 ? 10.0 * s : 1e-15 * reach) {
+    for (std::size_t k = 0; k < X.size(); ++k) there[k] = s > 0.0 ? X[k] + s * rates[k] : X[k];
     flow.scatter(there, memories);
     now.t = begin + s;
     now.x = there[0];

@@ -1,6 +1,7 @@
 #include "identify/statistics/ties.hpp"
 
 #include <algorithm>
+#include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
@@ -159,4 +160,39 @@ TEST_CASE("What the stated uncertainties allow is charged to the constant that i
   CHECK(constants_of(with(0.04, 0.0).value).second == Approx(stiffness));
   const auto [half_mass, half_stiffness] = constants_of(with(0.04, 0.04).value);
   CHECK(half_mass * half_stiffness == Approx(mass * stiffness));
+}
+
+TEST_CASE("A free history has the same zeta and interval in every unit of mass, length and time") {
+  const auto ledger_with = [](double mass, double length, double rate) {
+    Measured m = measured(Kind::decay, 100);
+    for (double& x : m.record.histories.front().x) x *= length;
+    m.record.histories.front().sample_rate *= rate;
+    m.constants.mass *= mass;
+    m.constants.stiffness *= mass * rate * rate;
+    return ledger_of(m.record, m.constants, {});
+  };
+  const Ledger plain = ledger_with(1.0, 1.0, 1.0);
+  REQUIRE(plain.joint);
+  // Powers of two change no digit; a root of mass times stiffness does where the power is odd.
+  for (const auto& [mass, length, rate] : {std::array{0.25, 1.0, 1.0},
+                                           {0.5, 1.0, 1.0},
+                                           {1.0 / 1024.0, 1.0, 1.0},
+                                           {16.0, 1.0, 1.0},
+                                           {1.0, 0.125, 1.0},
+                                           {1.0, 1024.0, 1.0},
+                                           {1.0, 1.0, 0.125},
+                                           {1.0, 1.0, 64.0},
+                                           {0.25, 8.0, 16.0},
+                                           {0.01, 3.0, 7.0}}) {
+    CAPTURE(mass, length, rate);
+    const Ledger scaled = ledger_with(mass, length, rate);
+    REQUIRE(scaled.joint);
+    const double force = mass * length * rate * rate;
+    for (std::size_t end = 0; end < 2; ++end) {
+      CHECK(scaled.joint->interval95->zeta[end] == Approx(plain.joint->interval95->zeta[end]).epsilon(1e-7));
+      CHECK(scaled.joint->interval95->F0[end] == Approx(force * plain.joint->interval95->F0[end]).epsilon(1e-7));
+    }
+    for (std::size_t i = 0; i < plain.entries.size(); ++i)
+      CHECK(scaled.entries[i].p_value.value_or(1.0) == Approx(plain.entries[i].p_value.value_or(1.0)).margin(1e-6));
+  }
 }

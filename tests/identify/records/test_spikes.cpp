@@ -86,6 +86,28 @@ TEST_CASE("The begin and the end of a blow are no spikes") {
     }
 }
 
+TEST_CASE("A step is no spike wherever the record begins or ends") {
+  // The acceleration of half swings: it steps where friction changes its sign, at each turn.
+  for (const double noise : {0.0, 1e-3}) {
+    const core::RandomStream stream{7, 3};
+    std::vector<double> a;
+    for (std::uint64_t i = 0; i < 800; ++i) {
+      const double place = static_cast<double>(i) * std::acos(-1.0) / 100.3;
+      const double side = std::sin(place) > 0.0 ? 1.0 : -1.0;
+      a.push_back((1.0 - 1e-3 * static_cast<double>(i)) * std::cos(place) + 0.1 * side + noise * stream.normal(i));
+    }
+    for (std::ptrdiff_t cut = 0; cut < 400; ++cut) {
+      CAPTURE(noise, cut);
+      CHECK(spikes_of({a.begin(), a.end() - cut}).empty());
+      CHECK(spikes_of({a.begin() + cut, a.end()}).empty());
+      // A spike beside the end is still one.
+      std::vector<double> spoilt(a.begin(), a.begin() + 400 + cut);
+      spoilt[spoilt.size() - 3] += 2.0;
+      CHECK(spikes_of(spoilt).size() == 1);
+    }
+  }
+}
+
 TEST_CASE("Noise, steps, peaks and rounding are no spikes") {
   for (std::uint64_t seed = 1; seed <= 50; ++seed) {
     CHECK(spikes_of(decay(0.001, seed)).empty());

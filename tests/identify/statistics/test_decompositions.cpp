@@ -32,6 +32,27 @@ TEST_CASE("decompositions: dependent columns have a rank, a fit and a shortest s
   CHECK(shortest[1] == Approx(2.0));
 }
 
+TEST_CASE("decompositions: what depends to rounding is told by no units, and fits nothing") {
+  // The third column is the sum of the others but for rounding, which points wherever it likes.
+  Eigen::MatrixXd columns(6, 3);
+  columns.col(0) << 1.0, 2.0, 3.0, 4.0, 5.0, 6.0;
+  columns.col(1) << 1.0, -1.0, 2.0, -2.0, 1.0, 0.5;
+  const Eigen::VectorXd rounding = (Eigen::VectorXd(6) << 1.0, -3.0, 2.0, 0.0, -1.0, 4.0).finished() * 1e-14;
+  columns.col(2) = columns.col(0) + columns.col(1) + rounding;
+  const Eigen::VectorXd values = (Eigen::VectorXd(6) << 3.0, 0.0, -1.0, 2.0, 1.0, 5.0).finished();
+  const Eigen::VectorXd left = left_beside(columns.leftCols(2), values);
+  for (const double unit : {1.0, 1e-9, 1e9}) {
+    Eigen::MatrixXd in_other_units = columns;
+    in_other_units.col(1) *= unit;
+    CAPTURE(unit);
+    CHECK(DependentColumns(in_other_units).rank() == 2);
+    CHECK(orthonormal_basis(in_other_units).cols() == 2);
+    CHECK((left_beside(in_other_units, values) - left).norm() < 1e-12);
+  }
+  columns(2, 1) = std::nan("");
+  CHECK_FALSE(pivoted_least_squares(columns, values).allFinite());
+}
+
 TEST_CASE("decompositions: a definite matrix is solved and inverted") {
   Eigen::MatrixXd matrix(2, 2);
   matrix << 4.0, 2.0, 2.0, 3.0;  // of determinant 8

@@ -62,6 +62,22 @@ TEST_CASE("Uncertain constants widen the intervals by what they do to the estima
   CHECK((*wide.covariance)(1, 1) == Approx((*exact.covariance)(1, 1) + std::pow(0.03 * F0, 2)).epsilon(1e-6));
 }
 
+TEST_CASE("Without an interval it is said what the uncertain constants alone contribute") {
+  // Two pairs tell the two parameters of a line without freedom; F0 is proportional to k.
+  const Record record = pairs({{4.5e-3, 5.36e-3}, {5.05e-3, 8.15e-3}});
+  const auto read = [](const Record& of, const KnownConstants& known) {
+    return find_method("resonance_two_point")->run(of, known);
+  };
+  const Estimate exact = read(record, soft_spring);
+  REQUIRE(exact.outcome.ok());
+  REQUIRE_FALSE(exact.interval95);
+  const ConstantUncertainties uncertainties{.stiffness = 0.03 * stiffness};
+  const Estimate told = with_uncertainties(read, record, soft_spring, uncertainties);
+  CHECK_FALSE(told.interval95);
+  REQUIRE(told.warnings.size() == exact.warnings.size() + 1);
+  CHECK_THAT(told.warnings.back(), Catch::Contains("of zeta and 0.13 N of F0"));
+}
+
 TEST_CASE("Each uncertainty counts alone, as a share of its number") {
   CHECK_FALSE(ConstantUncertainties{}.any());
   const KnownConstants known{2.0, 400.0, 10.0};
