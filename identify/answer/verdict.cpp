@@ -122,20 +122,13 @@ std::string departures_text(const Ledger& ledger) {
   return text;
 }
 
-/// " The drive steps between two samples ... (delay of x free, p = 1e-20)."
-std::string step_text(const Ledger& ledger) {
-  const auto found = std::ranges::find_if(ledger.entries, &LedgerEntry::is_of_step);
-  if (found == ledger.entries.end()) return {};
-  return " The data show that " + found->reason + " (" + found->test + ", " + p_text(*found->p_value) + ").";
-}
-
 /// "zero of x free (p = 1e-20)", of departures that are seen and violate nothing: those that the stated
 /// uncertainties allow, or the others. Entries with the same p are one departure.
 std::string harmless_text(const Ledger& ledger, bool as_stated) {
   std::vector<std::string> texts;
   std::vector<double> seen;
   for (const LedgerEntry& entry : ledger.entries) {
-    if (entry.standing != Standing::holds || entry.p_value.value_or(1.0) >= family_level || entry.is_of_step ||
+    if (entry.standing != Standing::holds || entry.p_value.value_or(1.0) >= family_level ||
         entry.is_as_stated != as_stated)
       continue;
     const auto known = std::ranges::find(seen, *entry.p_value);
@@ -306,7 +299,7 @@ std::string verdict_of(const Identification& all) {
   for (const Estimate& other : all.estimates)
     if (disagree(best, other))
       text += " " + other.method + " disagrees: " + numbers_of(other, all.ledger.coordinate) + ".";
-  text += step_text(all.ledger) + range_text(all);
+  text += range_text(all);
   return text + over_laws(all);
 }
 

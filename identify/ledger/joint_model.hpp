@@ -93,9 +93,6 @@ struct JointModel {
   double scale_freedom = 0.0;  ///< degrees of freedom behind the deviation that decides about friction
   /// Of a channel that is estimated beside one that is stated and decides about friction.
   double other_freedom = core::infinity;
-  /// Of a measured drive that steps between two samples, once or twice in all histories: their distance [s]. Where
-  /// in between it steps is not known. 0: there is no such step.
-  double step_interval = 0.0;
   ParameterSet value;        ///< of the fit
   bool is_possible = true;   ///< friction takes work in either direction
   KnownConstants constants;  ///< as stated, or as fitted

@@ -56,8 +56,6 @@ struct LedgerEntry {
   std::optional<double> sight;
   /// The constants that explain a departure: "a stiffness of 1421 N/m, not the stated 1563 N/m".
   std::string wanted;
-  /// A departure is seen that the unknown place of a step of the drive between two samples explains.
-  bool is_of_step = false;
   /// A departure is seen that the stated uncertainties allow.
   bool is_as_stated = false;
   /// Of stationarity: a drift that this record cannot tell from friction over speed, which is named with it.

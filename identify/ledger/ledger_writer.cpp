@@ -89,7 +89,6 @@ LedgerWriter::Judgement LedgerWriter::judge(const FoundDeparture& departure) con
   const auto any = [&](auto is) { return std::ranges::any_of(departure.explanations, is); };
   Judgement found;
   found.is_as_stated = any([&](const RelaxationTest& t) { return is_as_stated(t); });
-  found.is_of_step = !found.is_as_stated && is_of_step(departure.explanations.front());
   found.drift_matters =
       any([&](const RelaxationTest& t) { return model_.relaxations[t.index].is_like_speed && matters(t); });
   return found;
@@ -98,8 +97,7 @@ LedgerWriter::Judgement LedgerWriter::judge(const FoundDeparture& departure) con
 /// Does the departure violate the assumption of this test, one of its explanations?
 bool LedgerWriter::harms(const Judgement& judgement, const RelaxationTest& test) const {
   const bool is_of_speed = assumption_of(test) == Assumption::friction_velocity;
-  return !judgement.is_as_stated && !judgement.is_of_step &&
-         (matters(test) || (is_of_speed && judgement.drift_matters));
+  return !judgement.is_as_stated && (matters(test) || (is_of_speed && judgement.drift_matters));
 }
 
 void LedgerWriter::charge(const FoundDeparture& departure, Ledger& ledger) const {
@@ -113,7 +111,6 @@ void LedgerWriter::charge(const FoundDeparture& departure, Ledger& ledger) const
     set(test, entry);
     entry.is_like_speed = model_.relaxations[test.index].is_like_speed;
     entry.standing = is_violated ? Standing::violated : Standing::holds;
-    entry.is_of_step = judgement.is_of_step;
     entry.is_as_stated = judgement.is_as_stated;
     entry.reason = reason_of(departure, judgement, test);
     if (!is_violated) continue;
@@ -133,10 +130,6 @@ std::string LedgerWriter::reason_of(const FoundDeparture& departure, const Judge
   const std::string constant_force = size_of_constant_force(model_, test);
   if (judgement.is_as_stated)
     return "a departure is seen, and lies within the uncertainties that are stated" + constant_force;
-  if (judgement.is_of_step)
-    return "the drive steps between two samples, and where between them is not known: a delay of " +
-           rounded(test.coefficient) + " s, less than their distance of " + rounded(model_.step_interval) +
-           " s, stands for it" + constant_force;
   if (harms(judgement, test))
     return alternatives(departure, test) + other_forms(departure, test) + constant_force +
            (is_uneven(test) ? size_of_unevenness(test) : "");
@@ -215,13 +208,6 @@ bool LedgerWriter::is_as_stated(const RelaxationTest& test) const {
     return std::abs(std::log(test.constants.mass / known.mass)) < allowed &&
            std::abs(std::log(test.constants.stiffness / known.stiffness)) < allowed;
   return relaxation.freed == Freed::gain && std::abs(test.coefficient) < allowed;
-}
-
-/// The unknown place of a step between two samples shows as a delay: the drive is taken as smooth between them.
-bool LedgerWriter::is_of_step(const RelaxationTest& test) const {
-  constexpr double most = 0.75;  // of the interval: half of it, and the noise
-  return model_.relaxations[test.index].freed == Freed::delay &&
-         std::abs(test.coefficient) < most * model_.step_interval;
 }
 
 std::string LedgerWriter::alternatives(const FoundDeparture& departure, const RelaxationTest& own) const {

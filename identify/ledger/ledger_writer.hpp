@@ -37,7 +37,6 @@ class LedgerWriter {
   /// What is judged of a departure as a whole.
   struct Judgement {
     bool is_as_stated = false;   ///< the stated uncertainties allow it
-    bool is_of_step = false;     ///< the unknown place of a step of the drive explains it
     bool drift_matters = false;  ///< terms of speed have few forms: the drift shows what another form would move
   };
 
@@ -56,7 +55,6 @@ class LedgerWriter {
   [[nodiscard]] std::string constants_of_joint(const FoundDeparture& departure) const;
   void join_constants(const FoundDeparture& seen, Ledger& ledger) const;
   [[nodiscard]] bool is_as_stated(const RelaxationTest& test) const;
-  [[nodiscard]] bool is_of_step(const RelaxationTest& test) const;
   [[nodiscard]] std::string alternatives(const FoundDeparture& departure, const RelaxationTest& own) const;
   [[nodiscard]] std::string other_forms(const FoundDeparture& departure, const RelaxationTest& own) const;
   void record_as_held(const RelaxationTest& test, Ledger& ledger);

@@ -4,11 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "core/cancellation.hpp"
 #include "identify/models/series.hpp"
 #include "identify/statistics/decompositions.hpp"
-#include "identify/statistics/finer_samples.hpp"
+#include "identify/statistics/drive_steps.hpp"
 #include "sim/engine/sticking_gate.hpp"
 
 namespace dualdamp::identify {
@@ -22,76 +23,6 @@ std::array<double, nodes> shifted(std::array<double, nodes> p, double by) {
   for (std::size_t i = 0; i + 1 < nodes && by != 0.0; ++i)
     for (std::size_t j = nodes - 1; j-- > i;) p[j] += by * p[j + 1];
   return p;
-}
-
-/// Whether polynomials through eight samples miss a smooth drive between them, so that those through twelve are
-/// nearer to it: they differ by more than 1e-5 of the drive, and those through four by ten times as much. With
-/// noise, or at jumps, they do not.
-bool needs_wide_polynomials(const std::vector<double>& samples) {
-  constexpr double half = 0.5;
-  constexpr double least = 1e-5;
-  constexpr double converging = 0.1;
-  const WidePolynomial wide(half);
-  const MiddlePolynomial<8> middle(half);
-  const MiddlePolynomial<4> narrow(half);
-  double squares = 0.0;
-  double of_middle = 0.0;
-  double of_narrow = 0.0;
-  for (std::size_t i = WidePolynomial::before; i + WidePolynomial::after < samples.size(); ++i) {
-    const double value = wide.between(samples, i);
-    squares += value * value;
-    of_middle += std::pow(middle.between(samples, i) - value, 2);
-    of_narrow += std::pow(narrow.between(samples, i) - value, 2);
-  }
-  return of_middle > least * least * squares && of_middle < converging * converging * of_narrow;
-}
-
-/// Coefficients of the polynomial through eight places of an interval, both ends among them, from the twelve
-/// samples around it. Of a polynomial through these samples it is as good as exact.
-Eigen::Matrix<double, nodes, WidePolynomial::count> coefficients_of_wide() {
-  Eigen::Matrix<double, nodes, nodes> powers;
-  Eigen::Matrix<double, nodes, WidePolynomial::count> values;
-  for (int r = 0; r < nodes; ++r) {
-    const double place = 0.5 - 0.5 * std::cos(std::numbers::pi * r / (nodes - 1));
-    for (int c = 0; c < nodes; ++c) powers(r, c) = std::pow(place, c);
-    const WidePolynomial wide(place);
-    for (std::size_t c = 0; c < WidePolynomial::count; ++c) values(r, static_cast<int>(c)) = wide.weights()[c];
-  }
-  return inverse_of(powers) * values;
-}
-
-/// The polynomials through the eight samples around each interval, or where these do not show a smooth drive,
-/// through twelve.
-std::vector<std::array<double, nodes>> interpolate(const std::vector<double>& samples, std::size_t count) {
-  std::vector<std::array<double, nodes>> polynomials(count - 1);
-  if (samples.empty()) return polynomials;
-  const bool is_wide = needs_wide_polynomials(samples);
-  const Eigen::Matrix<double, nodes, WidePolynomial::count> wide_weights = coefficients_of_wide();
-  Eigen::Matrix<double, nodes, nodes> weights;
-  std::ptrdiff_t laid_out = -1;
-  for (std::size_t i = 0; i + 1 < count; ++i) {
-    if (is_wide && i >= WidePolynomial::before && i + WidePolynomial::after < count) {
-      const Eigen::Map<const Eigen::Matrix<double, WidePolynomial::count, 1>> around(samples.data() + i -
-                                                                                     WidePolynomial::before);
-      const Eigen::Matrix<double, nodes, 1> coefficients = wide_weights * around;
-      std::copy_n(coefficients.data(), nodes, polynomials[i].begin());
-      continue;
-    }
-    const auto here = static_cast<std::ptrdiff_t>(i);
-    const auto first = std::clamp<std::ptrdiff_t>(here - 3, 0, static_cast<std::ptrdiff_t>(count) - nodes);
-    const std::ptrdiff_t back = here - first;
-    if (back != laid_out) {
-      Eigen::Matrix<double, nodes, nodes> powers;
-      for (int r = 0; r < nodes; ++r)
-        for (int c = 0; c < nodes; ++c) powers(r, c) = std::pow(static_cast<double>(r - back), c);
-      weights = inverse_of(powers);
-      laid_out = back;
-    }
-    const Eigen::Map<const Eigen::Matrix<double, nodes, 1>> around(samples.data() + first);
-    const Eigen::Matrix<double, nodes, 1> coefficients = weights * around;
-    std::copy_n(coefficients.data(), nodes, polynomials[i].begin());
-  }
-  return polynomials;
 }
 
 /// Chebyshev's points of (0, 1).
@@ -121,11 +52,14 @@ const Eigen::Array<double, nodes, powers>& powers_of_places() {
 
 }  // namespace
 
-SampledOscillator::SampledOscillator(const History& history)
+SampledOscillator::SampledOscillator(const History& history) : SampledOscillator(history, drive_steps(history)) {}
+
+SampledOscillator::SampledOscillator(const History& history, std::vector<std::size_t> steps)
     : count_(history.x.size()),
       rate_(history.sample_rate),
-      y_(interpolate(history.y, count_)),
-      force_(interpolate(history.force, count_)) {}
+      steps_(std::move(steps)),
+      y_(history.y, steps_, count_),
+      force_(history.force, steps_, count_) {}
 
 bool SampledOscillator::run(const Parameters& parameters, const std::vector<By>& by, Eigen::VectorXd& x,
                             Derivatives* derivatives, Eigen::VectorXd* v, const std::vector<Force>& forces) {
@@ -160,6 +94,7 @@ bool SampledOscillator::run(const Parameters& parameters, const std::vector<By>&
   x_ = p_.x0;
   v_ = p_.v0 / rate_;
   fastest_ = std::abs(v_);
+  next_step_ = 0;
   direction_ = (v_ > 0.0) - (v_ < 0.0);
   // A mass that moves at the start has slid far before the record began.
   constexpr double far = 1e3;
@@ -196,8 +131,9 @@ double SampledOscillator::acceleration(std::size_t sample) const {
   here.x = x_;
   here.v = v_ * rate_;
   here.direction = direction_;
-  here.y = value_at(y_[interval], nodes, at);
-  here.drive = p_.k * here.y + value_at(force_[interval], nodes, at);
+  const bool is_after = at > 0.0 && !steps_.empty() && steps_.back() == interval;
+  here.y = value_at(is_after ? y_.after_step(interval) : y_[interval], nodes, at);
+  here.drive = p_.k * here.y + value_at(is_after ? force_.after_step(interval) : force_[interval], nodes, at);
   here.path = std::abs(x_ - reversal_);
   here.course = static_cast<double>(sample) / static_cast<double>(count_ - 1);
   double force = here.drive - p_.k * x_ - p_.c * here.v - friction_at(x_);
@@ -208,19 +144,50 @@ double SampledOscillator::acceleration(std::size_t sample) const {
 /// From one sample to the next, through the events between them.
 bool SampledOscillator::walk_interval(std::size_t interval) {
   interval_ = interval;
-  for (std::size_t j = 0; j < nodes; ++j) drive_[j] = p_.k * y_[interval][j] + force_[interval][j];
-  constexpr int most_events = 32;  // more come from rounding at one instant
-  double at = 0.0;
+  y_piece_ = y_[interval];
+  for (std::size_t j = 0; j < nodes; ++j) drive_[j] = p_.k * y_piece_[j] + force_[interval][j];
   if (interval == 0 && direction_ == 0) settle(0.0);
-  for (int event = 0; at < 1.0; ++event) {
-    if (direction_ != 0) {
-      at = event < most_events ? yields() ? slip_or_yield(at, 1.0) : slip(at, 1.0) : 1.0;
-    } else {
-      at = rest(at, 1.0);
-      if (at < 1.0) direction_ = balance(at).pull > 0.0 ? 1 : -1;
-    }
+  if (next_step_ < steps_.size() && steps_[next_step_] == interval) {
+    const double at = place_of(next_step_);
+    walk(0.0, at);
+    pass_step(at);
+    walk(at, 1.0);
+  } else {
+    walk(0.0, 1.0);
   }
   return std::isfinite(x_) && std::isfinite(v_);
+}
+
+void SampledOscillator::walk(double begin, double end) {
+  constexpr int most_events = 32;  // more come from rounding at one instant
+  double at = begin;
+  for (int event = 0; at < end; ++event) {
+    if (direction_ != 0) {
+      at = event < most_events ? yields() ? slip_or_yield(at, end) : slip(at, end) : end;
+    } else {
+      at = rest(at, end);
+      if (at < end) direction_ = balance(at).pull > 0.0 ? 1 : -1;
+    }
+  }
+}
+
+/// The drive becomes that of the samples after the step. A mass at rest stays, or slides from now on: a later step
+/// leaves it so much less speed.
+void SampledOscillator::pass_step(double at) {
+  const double before = direction_ == 0 ? 0.0 : value_at(drive_, nodes, at);
+  y_piece_ = y_.after_step(interval_);
+  const Drive& force = force_.after_step(interval_);
+  for (std::size_t j = 0; j < nodes; ++j) drive_[j] = p_.k * y_piece_[j] + force[j];
+  double after = value_at(drive_, nodes, at);
+  if (direction_ == 0) {
+    const Balance here = balance(at);
+    after = std::copysign(std::max(0.0, std::abs(here.pull) - here.limit), here.pull);
+  }
+  std::size_t number = 0;
+  for (std::size_t i = 0; i < tangents_.by.size(); ++i)
+    if (tangents_.by[i] == By::place && number++ == next_step_)
+      tangents_.v[static_cast<Eigen::Index>(i)] += (before - after) / inertia_;
+  ++next_step_;
 }
 
 SampledOscillator::Balance SampledOscillator::balance(double at) const {
@@ -228,7 +195,7 @@ SampledOscillator::Balance SampledOscillator::balance(double at) const {
   if (acting_.empty()) return balance;
   Instant here;
   here.x = x_;
-  here.y = value_at(y_[interval_], nodes, at);
+  here.y = value_at(y_piece_, nodes, at);
   here.drive = value_at(drive_, nodes, at);
   here.path = std::abs(x_ - reversal_);
   here.course = course(at);
@@ -369,7 +336,7 @@ SampledOscillator::Drive SampledOscillator::push(const Force& force) const {
 /// Taylor series of the motion from `begin` within the interval.
 void SampledOscillator::expand(double begin) {
   const Drive drive = shifted(drive_, begin);
-  y_here_ = shifted(y_[interval_], begin);
+  y_here_ = shifted(y_piece_, begin);
   drive_here_ = drive;
   begin_ = begin;
   series_[0] = x_;

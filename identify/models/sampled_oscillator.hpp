@@ -2,11 +2,14 @@
 /// The motion of  m x'' + c x' + k x + F0 sgn x' = k y(t) + f(t)  where y and f are known by samples, and its
 /// derivatives with respect to the parameters and the initial state.
 ///
-/// Between samples y and f are polynomials through the eight nearest samples; through the twelve nearest, if those
-/// of eight miss a smooth drive, as with fewer than 12 samples in its period. Under a polynomial the motion is a
-/// Taylor series that converges. It is summed to double precision: nothing is integrated in steps. Reversals, stops
-/// and releases are roots of that series. The exact engine (`sim/`) is not used here, because it takes harmonic
-/// drives and ramps alone, and a measured base motion is neither.
+/// Between samples y and f are polynomials (drive_polynomials.hpp). Under a polynomial the motion is a Taylor
+/// series that converges. It is summed to double precision: nothing is integrated in steps. Reversals, stops and
+/// releases are roots of that series. The exact engine (`sim/`) is not used here, because it takes harmonic drives
+/// and ramps alone, and a measured base motion is neither.
+///
+/// A drive that steps between two samples (drive_steps.hpp) is that of the samples before up to its place, and that
+/// of the samples after from there on. The place is a parameter: there the acceleration of a mass that slides jumps
+/// from a- to a+, and S_v by a- - a+.
 ///
 /// Further forces, smooth within an interval, are approximated by polynomials along the motion. Force and motion
 /// are computed in three rounds.
@@ -26,13 +29,14 @@
 #include <functional>
 #include <vector>
 
+#include "identify/models/drive_polynomials.hpp"
 #include "identify/record.hpp"
 
 namespace dualdamp::identify {
 
 class SampledOscillator {
  public:
-  static constexpr int nodes = 8;  ///< coefficients of a polynomial of y or f
+  static constexpr int nodes = DrivePolynomials::nodes;
   struct Parameters {
     double m = 1.0;   ///< kg, > 0
     double c = 0.0;   ///< N.s/m
@@ -43,6 +47,8 @@ class SampledOscillator {
     /// Coefficients of the `forces` of `run`; empty: all zero.
     std::vector<double> further = {};
     double yield = 0.0;  ///< of the contact before it slides [m]; 0: it is rigid
+    /// Where in its interval each step of the drive is, from 0 to 1; empty: in the middle.
+    std::vector<double> places = {};
   };
   /// State of the motion that a further force depends on.
   struct Instant {
@@ -56,9 +62,9 @@ class SampledOscillator {
   };
   /// A force on the mass, positive against its positive direction; smooth except at reversals; in any unit.
   using Force = std::function<double(const Instant&)>;
-  /// What the motion is differentiated by; `yield` only where it is not zero. For internal use: `force`, a further
-  /// force, and `constant`, a force of 1 N.
-  enum class By { mass, damping, stiffness, friction, position, velocity, yield, force, constant };
+  /// What the motion is differentiated by; `yield` only where it is not zero; the first `place` is that of the
+  /// first step. For internal use: `force`, a further force, and `constant`, a force of 1 N.
+  enum class By { mass, damping, stiffness, friction, position, velocity, place, yield, force, constant };
 
   /// From one sample to the next: how a small disturbance of (x, v) changes, and the effect of a force of 1 N.
   struct Step {
@@ -76,6 +82,10 @@ class SampledOscillator {
 
   /// The drive of a history: y and force, each zero when it was not measured. At least eight samples.
   explicit SampledOscillator(const History& history);
+  /// The same with steps in these intervals, those of a like drive.
+  SampledOscillator(const History& history, std::vector<std::size_t> steps);
+
+  [[nodiscard]] const std::vector<std::size_t>& steps() const { return steps_; }  ///< intervals with a step
 
   /// x at the samples. `derivatives`, if not null: those by `by` and `forces`. `v`, if not null: the velocity.
   /// False: the motion is too fast for the sample rate, or a value is not finite.
@@ -85,7 +95,7 @@ class SampledOscillator {
  private:
   static constexpr int side_by_side = 4;  ///< derivatives that are computed together
   static constexpr int most_terms = 28;
-  using Drive = std::array<double, nodes>;
+  using Drive = DrivePolynomials::Polynomial;
   using Series = std::array<double, most_terms>;
 
   /// Parameters that the motion is differentiated by, with the derivatives at the present time, v by the sample
@@ -113,6 +123,9 @@ class SampledOscillator {
   };
 
   bool walk_interval(std::size_t interval);
+  void walk(double begin, double end);
+  void pass_step(double at);
+  [[nodiscard]] double place_of(std::size_t step) const { return p_.places.empty() ? 0.5 : p_.places[step]; }
   double slip(double begin, double end);
   double slip_or_yield(double begin, double end);
   double rest(double begin, double end) const;
@@ -148,7 +161,8 @@ class SampledOscillator {
 
   std::size_t count_;
   double rate_;
-  std::vector<Drive> y_, force_;  ///< of each interval: coefficients of powers of time, in sample intervals
+  std::vector<std::size_t> steps_;
+  DrivePolynomials y_, force_;
 
   Parameters p_;
   double inertia_ = 0.0;  ///< m, and below c, with the sample interval as unit of time
@@ -156,6 +170,7 @@ class SampledOscillator {
   Series integration_{};  ///< factor from a coefficient of the force to the coefficient of x two powers higher
   int terms_ = 0;
   std::size_t interval_ = 0;
+  std::size_t next_step_ = 0;  ///< the first of `steps_` that is not passed
   int direction_ = 0;
   double x_ = 0.0;
   double v_ = 0.0;  ///< m per sample interval
@@ -165,9 +180,10 @@ class SampledOscillator {
   double contact_ = 0.0;   ///< its stiffness while it holds [N/m]; else 0
   double anchor_ = 0.0;    ///< position at which it has no force [m]
   double begin_ = 0.0;     ///< of the expansion, within the interval
+  Drive y_piece_{};        ///< y in the present interval, up to a step or from it on
+  Drive drive_{};          ///< the drive there
   Drive y_here_{};
   Drive drive_here_{};
-  Drive drive_{};
   Series series_{};
   std::array<Instant, nodes> along_{};  ///< the motion of that series at the points where forces are evaluated
   std::vector<Acting> acting_;

@@ -110,6 +110,7 @@ void SampledOscillator::force_tangent(std::size_t number) {
       break;
     case By::position:
     case By::velocity:
+    case By::place:
       break;
   }
   forcing[0] += contact_ * tangents_.anchor[row];

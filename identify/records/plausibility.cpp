@@ -10,6 +10,7 @@
 
 #include "core/constants.hpp"
 #include "core/numbers.hpp"
+#include "identify/records/faults/drive_gain.hpp"
 #include "identify/records/faults/drive_work.hpp"
 #include "identify/records/faults/frequency_unit.hpp"
 #include "identify/records/faults/phase_checks.hpp"
@@ -192,6 +193,7 @@ class Check {
     check_force(amplitude(history.force, history, omega), x, omega);
     if (faults_.empty()) check_agreement(history);
     if (faults_.empty()) check_work(history, omega);
+    if (faults_.empty()) check_gain(history);
   }
 
   /// Checks that x, v and a are of one motion, by their sizes and signs. A single swing tells.
@@ -254,6 +256,21 @@ class Check {
                  " for the motion x, which needs " + shown(needed) + unit("N"),
              "both in their units, and the mass and the stiffness stated: " + in_unit("force", "kN") + ", " +
                  in_unit("x", "mm"));
+  }
+
+  /// Checks that a motion is not that of a drive of another size.
+  void check_gain(const History& history) {
+    const std::optional<double> gain = gain_of_drive(history, constants_);
+    if (!gain || !is_gross(*gain)) return;
+    const std::string name = history.force.empty() ? "y" : "force";
+    const auto exactly = [](double value) { return core::format_number(value, digits + 1); };
+    refuse(
+        "column " + name + " is about " + exactly(std::max(*gain, 1.0 / *gain)) + " times too " +
+            (*gain > 1.0 ? "large" : "small") +
+            " for the motion x of the stated mass and stiffness: its gain, left free in the balance of forces, is " +
+            exactly(*gain),
+        "the unit or the range of its amplifier: " + in_unit(name, name == "y" ? "mm" : "mN") + ", or " +
+            words_(core::Setting::scale, name, exactly(1.0 / *gain)) + "; mass and stiffness in their units");
   }
 
   /// Reports that the motion needs more force than the drive gives. Near resonance, a mass needs little force, so a

@@ -12,6 +12,7 @@
 ///   them has a wrong sign. Without a phase, the line x(Y) is checked: swapped columns give zeta > 1 and F0 < 0;
 /// * the work of the force or base of a history, less the energy that the motion begins with
 ///   (identify/records/faults/drive_work.hpp);
+/// * the balance of forces of a history with the gain of the drive free (identify/records/faults/drive_gain.hpp);
 /// * the phase in the balance of forces, k Y cos(phase) = (k - m w^2) x. Finds degrees read as radians;
 /// * speeds above 50 m/s and accelerations above 10,000 m/s^2, if no unit was stated.
 /// The limits are wide: factors of 5 and more, in most of the pairs. Smaller faults are left to the verdict.

@@ -12,6 +12,7 @@
 #include "core/random.hpp"
 #include "identify/models/sampled_oscillator.hpp"
 #include "identify/statistics/decompositions.hpp"
+#include "identify/statistics/drive_steps.hpp"
 #include "identify/statistics/lasting_part.hpp"
 #include "identify/statistics/noise_level.hpp"
 
@@ -93,16 +94,18 @@ class SyntheticHistory {
         law_(law),
         offset_(offset),
         steering_(steered ? Steering(measured, law.m) : Steering()),
+        steps_(drive_steps(measured)),
         at_{law.m, law.c + steering_.damping, law.k + steering_.stiffness, law.F0, 0.0, 0.0},
         starts_(start != nullptr) {
     if (start == nullptr) return;
     at_.x0 = start->x0;
     at_.v0 = start->v0;
+    at_.places = start->places;
   }
 
   /// The history with all of x, v and a, under the measured drive. Nothing if the motion cannot be computed.
   [[nodiscard]] std::optional<History> history() {
-    SampledOscillator model(drive_of(measured_, law_, steering_, offset_));
+    SampledOscillator model(drive_of(measured_, law_, steering_, offset_), steps_);
     Eigen::VectorXd x;
     Eigen::VectorXd v;
     if ((!starts_ && !meet(model)) || !model.run(at_, {}, x, nullptr, &v)) return std::nullopt;
@@ -127,14 +130,15 @@ class SyntheticHistory {
 
   /// x of the same mass under another drive.
   [[nodiscard]] std::optional<std::vector<double>> motion_under(const History& drive) const {
-    SampledOscillator model(drive_of(drive, law_, steering_, offset_));
+    SampledOscillator model(drive_of(drive, law_, steering_, offset_), steps_);
     Eigen::VectorXd x;
     if (!model.run(at_, {}, x, nullptr)) return std::nullopt;
     return vector_of(x);
   }
 
  private:
-  /// Sets the initial state that brings the motion closest to the record, by Gauss-Newton steps.
+  /// Sets the initial state, and the places of steps of the drive, that bring the motion closest to the record, by
+  /// Gauss-Newton steps.
   bool meet(SampledOscillator& model) {
     using By = SampledOscillator::By;
     const Eigen::Map<const Eigen::VectorXd> x_measured(measured_.x.data(),
@@ -143,21 +147,26 @@ class SyntheticHistory {
     next.x0 = measured_.x.front();
     next.v0 = measured_.v.empty() ? central_difference(five_point_average(measured_.x), measured_.sample_rate)[2]
                                   : measured_.v.front();
+    next.places.assign(steps_.size(), 0.5);
+    std::vector<By> by{By::position, By::velocity};
+    by.resize(by.size() + steps_.size(), By::place);
     constexpr int steps = 3;
     double least = core::infinity;
     for (int step = 0; step < steps; ++step) {
       Eigen::VectorXd x;
       SampledOscillator::Derivatives of_motion;
-      if (!model.run(next, {By::position, By::velocity}, x, &of_motion)) return false;
+      if (!model.run(next, by, x, &of_motion)) return false;
       const Eigen::MatrixXd& derivatives = of_motion.x;
       const Eigen::VectorXd miss = x_measured - x;
       if (!(miss.squaredNorm() < least)) break;
       least = miss.squaredNorm();
       at_ = next;
-      const Eigen::Vector2d move = DefiniteMatrix(gram(derivatives)).solve(derivatives.transpose() * miss);
+      const Eigen::VectorXd move = pivoted_least_squares(derivatives, miss);
       if (!move.allFinite()) break;
       next.x0 += move[0];
       next.v0 += move[1];
+      for (std::size_t i = 0; i < next.places.size(); ++i)
+        next.places[i] = std::clamp(next.places[i] + move[static_cast<Eigen::Index>(i) + 2], 0.0, 1.0);
     }
     return std::isfinite(least);
   }
@@ -166,6 +175,7 @@ class SyntheticHistory {
   ForceParameters law_;
   double offset_;
   Steering steering_;
+  std::vector<std::size_t> steps_;  ///< of the measured drive
   SampledOscillator::Parameters at_;
   bool starts_;  ///< from a given state
 };

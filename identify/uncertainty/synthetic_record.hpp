@@ -44,10 +44,11 @@ struct SyntheticRecords {
   [[nodiscard]] Record record(int number) const;
 };
 
-/// Where a motion begins.
+/// Where a motion begins, and where between two samples its drive steps.
 struct MotionStart {
   double x0 = 0.0;  ///< m
   double v0 = 0.0;  ///< m/s
+  std::vector<double> places = {};
 };
 
 /// `starts`: the initial states of a fit of the motion, one for each history; the synthetic motion is that of the

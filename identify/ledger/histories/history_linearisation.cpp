@@ -23,7 +23,8 @@ HistoryLinearisation::HistoryLinearisation(const Record& record, const KnownCons
   start_.g = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(list_.relaxations.size()));
   for (const ForwardTest& test : fit_.tests()) {
     noise_.push_back(noise_levels(*test.history, force.k, scale_, sigma_x));
-    if (noise_.back().drive > 0.0) shaken_.emplace(noise_.size() - 1, with_noisier_drive(*test.history));
+    if (noise_.back().drive > 0.0)
+      shaken_.emplace(noise_.size() - 1, SampledOscillator(with_noisier_drive(*test.history), test.model.steps()));
   }
 }
 
@@ -53,7 +54,7 @@ Place HistoryLinearisation::stepped(Place at, const Eigen::VectorXd& step, const
     constexpr double least = 0.5;  // of a contact's yielding: no step makes it rigid
     g = is_contact(taken[j]) ? std::max(least * g, moved * (g > 0.0 ? 1.0 : 0.0)) : moved;
   }
-  at.p[1] = std::max(0.0, at.p[1]);
+  fit_.layout().bound(at.p);
   const ForceParameters after = force_at(at);
   if (after.m > 0.0 && after.k > 0.0) at.p[0] = zeta * critical_damping(after.m, after.k) / scale;
   return at;

@@ -260,7 +260,6 @@ std::variant<JointModel, std::string> history_model(const Record& record, const 
     return "the simulated motion, fitted with the mass and the stiffness as stated, grows beyond all numbers";
   model.refit = [histories](const Taken& numbers) { return histories->fitted(numbers); };
   model.of_histories = true;
-  model.step_interval = step_interval_of(fit.tests());
   model.data = std::to_string(fit.residuals().count()) + " samples of " + std::to_string(fit.tests().size()) +
                (fit.tests().size() == 1 ? " history" : " histories");
   for (const Exclusion& exclusion : exclusions.excluded)

@@ -130,29 +130,6 @@ std::vector<FreeZero> free_zeros(const std::vector<ForwardTest>& tests, const Mo
   return list;
 }
 
-double step_interval_of(const std::vector<ForwardTest>& tests) {
-  constexpr double share = 0.1;    // of the range
-  constexpr double clearly = 5.0;  // times the differences beside it
-  constexpr int most = 2;
-  int steps = 0;
-  double interval = 0.0;
-  for (const ForwardTest& test : tests) {
-    const History& history = *test.history;
-    for (const std::vector<double>* drive : {&history.y, &history.force}) {
-      if (drive->empty()) continue;
-      const auto [low, high] = std::ranges::minmax(*drive);
-      const auto difference = [&](std::size_t i) { return std::abs((*drive)[i + 1] - (*drive)[i]); };
-      for (std::size_t i = 1; i + 2 < drive->size(); ++i)
-        if (difference(i) > share * (high - low) &&
-            difference(i) > clearly * std::max(difference(i - 1), difference(i + 1))) {
-          ++steps;
-          interval = std::max(interval, 1.0 / history.sample_rate);
-        }
-    }
-  }
-  return steps > 0 && steps <= most ? interval : 0.0;
-}
-
 double share_of(const FreedPart& part, std::size_t test, std::size_t tests) {
   return part.history == test ? 1.0 : -1.0 / (static_cast<double>(tests) - 1.0);
 }

@@ -26,10 +26,6 @@ struct FreeZero {
 
 [[nodiscard]] std::vector<FreeZero> free_zeros(const std::vector<ForwardTest>& tests, const MotionScale& scale);
 
-/// The distance of two samples between which a measured drive steps, if all drives step once or twice; else 0. A
-/// step is at least a tenth of the range, and five times the differences beside it.
-[[nodiscard]] double step_interval_of(const std::vector<ForwardTest>& tests);
-
 /// What a relaxation sets free.
 struct FreedPart {
   enum class Kind {

@@ -20,7 +20,7 @@ namespace dualdamp::identify {
 using By = SampledOscillator::By;
 
 ForwardTest::ForwardTest(const NumberedHistory& item)
-    : number(item.number), history(item.history), model(*item.history) {
+    : number(item.number), history(item.history), model(*item.history), places(model.steps().size(), 0.5) {
   constexpr std::size_t samples = 8;
   const std::vector<double> begin(history->x.begin(), history->x.begin() + samples);
   x0 = begin[0];
@@ -48,7 +48,16 @@ ForwardLayout::ForwardLayout(const std::vector<ForwardTest>& tests, const KnownC
   count_ = static_cast<Eigen::Index>(shared_.size());
   for (const ForwardTest& test : tests) {
     first_.push_back(count_);
-    count_ += test.starts_at_rest ? 1 : 2;
+    count_ += (test.starts_at_rest ? 1 : 2) + static_cast<Eigen::Index>(test.places.size());
+  }
+  constexpr double far = 1e3;  // in units of the scales
+  low_ = Eigen::VectorXd::Constant(count_, -far);
+  high_ = Eigen::VectorXd::Constant(count_, far);
+  low_[1] = 0.0;  // friction must not be negative
+  for (std::size_t t = 0; t < tests.size(); ++t) {
+    const auto places = static_cast<Eigen::Index>(tests[t].places.size());
+    low_.segment(first_place(t, tests[t]), places).setZero();
+    high_.segment(first_place(t, tests[t]), places).setOnes();
   }
   length_ = length(tests);
   speed_ = length_ * start.natural_frequency();
@@ -62,6 +71,7 @@ Eigen::VectorXd ForwardLayout::pack(const ForceParameters& force, const std::vec
   for (std::size_t t = 0; t < tests.size(); ++t) {
     p[first_[t]] = tests[t].x0 / length_;
     if (!tests[t].starts_at_rest) p[first_[t] + 1] = tests[t].v0 / speed_;
+    std::ranges::copy(tests[t].places, p.data() + first_place(t, tests[t]));
   }
   return p;
 }
@@ -294,10 +304,8 @@ LeastSquaresProblem ForwardFit::set_up(const KnownConstants& constants, const Fo
   residuals_ = std::make_unique<ForwardResiduals>(tests_, *layout_);
   LeastSquaresProblem problem;
   problem.residuals = residuals_->count();
-  constexpr double far = 1e3;  // in units of the scales
-  problem.low = Eigen::VectorXd::Constant(layout_->count(), -far);
-  problem.high = Eigen::VectorXd::Constant(layout_->count(), far);
-  problem.low[1] = 0.0;  // friction must not be negative
+  problem.low = layout_->low();
+  problem.high = layout_->high();
   problem.evaluate = [this](const Eigen::VectorXd& p, Eigen::VectorXd& r, Eigen::MatrixXd* jacobian) {
     return residuals_->evaluate(p, r, jacobian);
   };
@@ -312,8 +320,11 @@ void ForwardFit::free_speeds(const KnownConstants& constants) {
   const LeastSquaresFit at_rest = std::move(found_);
   std::unique_ptr<ForwardLayout> layout = std::move(layout_);
   std::unique_ptr<ForwardResiduals> residuals = std::move(residuals_);
-  for (std::size_t t = 0; t < tests_.size(); ++t)
-    tests_[t].x0 = layout->parameters(at_rest.parameters, t, tests_[t]).x0;
+  for (std::size_t t = 0; t < tests_.size(); ++t) {
+    const SampledOscillator::Parameters found = layout->parameters(at_rest.parameters, t, tests_[t]);
+    tests_[t].x0 = found.x0;
+    tests_[t].places = found.places;
+  }
   for (ForwardTest* test : resting) test->starts_at_rest = false;
   const ForceParameters force = layout->force(at_rest.parameters);
   LeastSquaresProblem problem = set_up(constants, force);
@@ -336,6 +347,7 @@ Eigen::VectorXd ForwardFit::as_start(const ForwardLayout& layout, std::vector<Fo
     const SampledOscillator::Parameters begin = layout_->parameters(found_.parameters, t, tests_[t]);
     tests[t].x0 = begin.x0;
     tests[t].v0 = begin.v0;
+    if (tests[t].places.size() == begin.places.size()) tests[t].places = begin.places;
   }
   return layout.pack(layout_->force(found_.parameters), tests);
 }

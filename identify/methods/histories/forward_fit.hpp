@@ -4,8 +4,8 @@
 ///
 ///   min sum [x_i - x(t_i; c, F0, x(0), v(0))]^2,   m x'' + c x' + k x + F0 sgn x' = k y + f
 ///
-/// Mass and stiffness are fitted if they are not known. Cost: tens of runs of the forward model
-/// (sampled_oscillator.hpp).
+/// Mass and stiffness are fitted if they are not known, and where between two samples a drive steps. Cost: tens of
+/// runs of the forward model (sampled_oscillator.hpp).
 
 #include <Eigen/Core>
 #include <memory>
@@ -28,12 +28,13 @@ struct ForwardTest {
   double x0 = 0.0;
   double v0 = 0.0;
   bool starts_at_rest = false;  ///< its initial velocity is zero and not fitted
+  std::vector<double> places;   ///< of the steps of the drive, each within its interval
 
   explicit ForwardTest(const NumberedHistory& item);
 };
 
-/// The parameters of the fit, each divided by a scale: c, F0, then mass and stiffness where unknown, then the
-/// initial states of each test.
+/// The parameters of the fit, each divided by a scale: c, F0, then mass and stiffness where unknown, then of each
+/// test the initial state and the places of the steps of its drive.
 class ForwardLayout {
  public:
   ForwardLayout(const std::vector<ForwardTest>& tests, const KnownConstants& constants,
@@ -61,8 +62,17 @@ class ForwardLayout {
   [[nodiscard]] SampledOscillator::Parameters parameters(const Eigen::VectorXd& p, std::size_t t,
                                                          const ForwardTest& test) const {
     const ForceParameters f = force(p);
-    return {f.m, f.c, f.k, f.F0, p[first_[t]] * length_, test.starts_at_rest ? 0.0 : p[first_[t] + 1] * speed_};
+    SampledOscillator::Parameters parameters{f.m, f.c, f.k, f.F0, p[first_[t]] * length_, 0.0};
+    if (!test.starts_at_rest) parameters.v0 = p[first_[t] + 1] * speed_;
+    const Eigen::VectorXd places = p.segment(first_place(t, test), static_cast<Eigen::Index>(test.places.size()));
+    parameters.places = {places.begin(), places.end()};
+    return parameters;
   }
+
+  /// Moves the places of steps, and F0, to their bounds where they are beyond.
+  void bound(Eigen::VectorXd& p) const { p = p.cwiseMax(low_).cwiseMin(high_); }
+  [[nodiscard]] const Eigen::VectorXd& low() const { return low_; }
+  [[nodiscard]] const Eigen::VectorXd& high() const { return high_; }
 
   /// The parameters on which test t depends, with the column and the scale of each.
   struct Column {
@@ -76,6 +86,8 @@ class ForwardLayout {
       list.push_back({shared_[i].by, static_cast<Eigen::Index>(i), shared_[i].scale});
     list.push_back({SampledOscillator::By::position, first_[t], length_});
     if (!test.starts_at_rest) list.push_back({SampledOscillator::By::velocity, first_[t] + 1, speed_});
+    for (std::size_t i = 0; i < test.places.size(); ++i)
+      list.push_back({SampledOscillator::By::place, first_place(t, test) + static_cast<Eigen::Index>(i), 1.0});
     return list;
   }
 
@@ -91,8 +103,13 @@ class ForwardLayout {
   }
 
  private:
+  [[nodiscard]] Eigen::Index first_place(std::size_t t, const ForwardTest& test) const {
+    return first_[t] + (test.starts_at_rest ? 1 : 2);
+  }
+
   std::vector<Entry> shared_;
   std::vector<Eigen::Index> first_;
+  Eigen::VectorXd low_, high_;
   Eigen::Index count_ = 0;
   double length_ = 1.0;
   double speed_ = 1.0;

@@ -68,7 +68,7 @@ std::optional<BootstrapSpread> spread_of(const std::vector<ForwardTest>& tests, 
   for (std::size_t t = 0; t < tests.size(); ++t) {
     histories.push_back({tests[t].number, tests[t].history});
     const SampledOscillator::Parameters begin = layout.parameters(found.parameters, t, tests[t]);
-    starts.push_back({begin.x0, begin.v0});
+    starts.push_back({begin.x0, begin.v0, begin.places});
   }
   ForceParameters truth = layout.force(found.parameters);
   const std::optional<SyntheticRecords> synthetic = synthetic_records(histories, truth, 0.0, starts);
@@ -78,7 +78,8 @@ std::optional<BootstrapSpread> spread_of(const std::vector<ForwardTest>& tests, 
     for (std::size_t t = 0; t < tests.size(); ++t) {
       const History& history = drawn.histories[t];
       Eigen::VectorXd x;
-      if (!SampledOscillator(history).run(layout.parameters(found.parameters, t, tests[t]), {}, x, nullptr))
+      if (!SampledOscillator(history, tests[t].model.steps())
+               .run(layout.parameters(found.parameters, t, tests[t]), {}, x, nullptr))
         return std::nullopt;
       misses.segment(residuals.blocks()[t], x.size()) =
           (x - Eigen::Map<const Eigen::VectorXd>(history.x.data(), x.size())) / layout.length();

@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include "tests/identify/ledger/rig.hpp"
 
@@ -156,4 +157,35 @@ TEST_CASE("Derivatives beside a contact that yields, from rest and from a slow s
     const Eigen::VectorXd slope = (moved(1.0) - moved(-1.0)) / (2.0 * step);
     CHECK((derivatives.x.col(static_cast<Eigen::Index>(j)) - slope).norm() < 1e-3 * slope.norm());
   }
+}
+
+TEST_CASE("A drive that is cut between two samples drives up to the place of its step, and differentiates by it") {
+  constexpr double place = 0.3;
+  constexpr double end = (403.0 + place) / rate;
+  const auto cut = [](double t) { return t < end ? drive(t) : 0.0; };
+  constexpr std::size_t finer = 50;
+  const Motion fine = motion_of(rig(), cut, 3.0, finer * rate);
+  Motion motion;
+  for (std::size_t i = 0; i < fine.x.size(); i += finer) {
+    motion.x.push_back(fine.x[i]);
+    motion.drive.push_back(fine.drive[i]);
+  }
+  SampledOscillator oscillator(history_of(motion));
+  REQUIRE(oscillator.steps() == std::vector<std::size_t>{403});
+  SampledOscillator::Parameters at = parameters_of(rig());
+  at.places = {place};
+  Eigen::VectorXd x;
+  SampledOscillator::Derivatives derivatives;
+  REQUIRE(oscillator.run(at, {SampledOscillator::By::place}, x, &derivatives));
+  const Eigen::Map<const Eigen::VectorXd> true_x(motion.x.data(), x.size());
+  CHECK((x - true_x).lpNorm<Eigen::Infinity>() < 1e-4 * true_x.lpNorm<Eigen::Infinity>());
+  constexpr double step = 1e-4;
+  Eigen::VectorXd above;
+  at.places = {place + step};
+  REQUIRE(oscillator.run(at, {}, above, nullptr));
+  at.places = {place - step};
+  Eigen::VectorXd below;
+  REQUIRE(oscillator.run(at, {}, below, nullptr));
+  const Eigen::VectorXd slope = (above - below) / (2.0 * step);
+  CHECK((derivatives.x.col(0) - slope).lpNorm<Eigen::Infinity>() < 1e-3 * slope.lpNorm<Eigen::Infinity>());
 }
