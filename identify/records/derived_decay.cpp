@@ -84,7 +84,7 @@ class DecayReader {
     return turns;
   }
 
-  /// Ripple and noise together may turn back by more than the band where the mass rests.
+  /// Ripple and noise together may turn back by more than the band about the position of rest.
   void leave_out_rest(std::vector<std::size_t>& turns) {
     const std::size_t rest = begin_of_rest(x_, 2.0 * band_);
     const bool is_short = static_cast<double>(x_.size() - rest) < 2.0 * half_period_;
