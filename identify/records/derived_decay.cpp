@@ -50,6 +50,7 @@ class DecayReader {
       slow.warnings.push_back("no extremes are read: " + slow.fault);
       return slow;
     }
+    leave_out_rest(turns);
     width_ = std::max(half_period_ / 4.0, narrowest);
 
     const std::size_t held = held_until();
@@ -81,6 +82,14 @@ class DecayReader {
     if (turns.size() >= 3) turns = without_ripple(x_, turns, half_period_of(turns));
     if (turns.size() >= 3) half_period_ = half_period_of(turns);
     return turns;
+  }
+
+  /// Ripple and noise together may turn back by more than the band about the position of rest.
+  void leave_out_rest(std::vector<std::size_t>& turns) {
+    const std::size_t rest = begin_of_rest(x_, 2.0 * band_);
+    const bool is_short = static_cast<double>(x_.size() - rest) < 2.0 * half_period_;
+    if (!is_short && leave_out_irregular(x_, turns, rest, too_short * half_period_, too_long * half_period_))
+      rest_ = rest;
   }
 
   /// Swings below this are noise.
@@ -276,6 +285,7 @@ class DecayReader {
   void add_last(DerivedDecay& result, std::size_t turn) const {
     std::size_t first = x_.size();
     while (first > 0 && std::abs(x_[first - 1] - x_.back()) < band_) --first;
+    first = std::min(first, rest_);
     const bool rests = static_cast<double>(x_.size() - first) > half_period_;
     if (!rests || first == 0 || turn + 1 < first) return;
     const Mean mean = mean_of(first, x_.size());
@@ -330,8 +340,6 @@ class DecayReader {
     const auto swing = [&extremes](std::size_t i) { return std::abs(extremes[i] - extremes[i - 1]); };
     const std::size_t steady = steady_swings(extremes, result.standard_errors);
     const std::size_t largest = first_of_largest(extremes, result.standard_errors, steady + 1);
-    constexpr double too_short = 0.7;
-    constexpr double too_long = 1.4;
     const auto is_fast = [&](std::size_t i) { return lasting(result, i) < too_short * half_period_; };
     // Largest share of the swings that may be left where they grow again. Above it, there is another release or a
     // drive.
@@ -412,16 +420,18 @@ class DecayReader {
   // The error of an extreme is 4e-6 of the swing down to 32 samples a period, 1e-4 at 20 and 2e-4 at 16. Below, a
   // fit has too few samples.
   static constexpr double fewest_in_half_period = 8.0;
+  static constexpr double too_short = 0.7, too_long = 1.4;  ///< for a swing, in half periods
   static constexpr double narrowest = 4.0;  ///< a side of a fit has three unknowns and its share of the place
   static constexpr Eigen::Index start_columns = 5;
   static constexpr Eigen::Index turn_columns = 7;
 
   const History& history_;
   std::span<const double> x_;
-  double band_ = 0.0;         ///< differences below it are noise [m]
-  double noise_ = 0.0;        ///< deviation [m]
-  double half_period_ = 0.0;  ///< in samples
-  double width_ = 0.0;        ///< half the number of samples of a local fit
+  double band_ = 0.0;                                           ///< differences below it are noise [m]
+  double noise_ = 0.0;                                          ///< deviation [m]
+  double half_period_ = 0.0;                                    ///< in samples
+  std::size_t rest_ = std::numeric_limits<std::size_t>::max();  ///< sample at which a rest with ripple begins
+  double width_ = 0.0;                                          ///< half the number of samples of a local fit
 };
 
 }  // namespace

@@ -63,4 +63,30 @@ std::vector<std::size_t> without_ripple(std::span<const double> x, std::vector<s
   return turns;
 }
 
+std::size_t begin_of_rest(std::span<const double> x, double range) {
+  std::size_t rest = x.size();
+  for (double low = x.back(), high = low; rest > 0; --rest) {
+    low = std::min(low, x[rest - 1]);
+    high = std::max(high, x[rest - 1]);
+    if (high - low >= range) break;
+  }
+  return rest;
+}
+
+bool leave_out_irregular(std::span<const double> x, std::vector<std::size_t>& turns, std::size_t from, double least,
+                         double most) {
+  const auto first = static_cast<std::size_t>(std::ranges::upper_bound(turns, from) - turns.begin());
+  if (first < 2) return false;
+  const auto has_length = [&](std::size_t end) {
+    const auto lasts = static_cast<double>(turns[end] - turns[end - 1]);
+    return lasts > least && lasts < most;
+  };
+  std::size_t i = first;
+  while (i + 1 < turns.size() && has_length(i)) ++i;
+  if (i + 1 >= turns.size()) return false;
+  turns.resize(first);
+  turns.push_back(x.size() - 1);
+  return true;
+}
+
 }  // namespace dualdamp::identify

@@ -21,4 +21,12 @@ namespace dualdamp::identify {
 [[nodiscard]] std::vector<std::size_t> without_ripple(std::span<const double> x, std::vector<std::size_t> turns,
                                                       double half_period);
 
+/// The first sample from which on x stays within this range.
+[[nodiscard]] std::size_t begin_of_rest(std::span<const double> x, double range);
+
+/// Leaves the end of x in place of the turning points behind the sample `from`, if they are not all farther apart
+/// than `least` and nearer than `most`, as the swings of a decay are. True if they were not.
+[[nodiscard]] bool leave_out_irregular(std::span<const double> x, std::vector<std::size_t>& turns, std::size_t from,
+                                       double least, double most);
+
 }  // namespace dualdamp::identify

@@ -293,6 +293,8 @@ class Reader {
       fault = " is empty";
     else if (variable.class_type == MAT_C_CHAR)
       fault = " is text";
+    else if (variable.class_type == MAT_C_STRUCT)
+      fault = " is a struct: fields of one level are read, as run.x";
     else if (!numeric)
       fault = " is not a vector of numbers";
     else if (variable.isComplex != 0)

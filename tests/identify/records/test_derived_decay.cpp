@@ -252,6 +252,27 @@ TEST_CASE("The noise of a long rest adds no extremes") {
   }
 }
 
+TEST_CASE("Ripple about the position of rest is no swing of the decay, and no zero of the sensor") {
+  constexpr double sigma = 5e-5;
+  const std::vector<double> exact = sim::analytic::free_decay_extremes(soft_zeta, soft_x_f, 60e-3, 20);
+  const History clean = released(60e-3, 4.0, 1000.0);
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    History history = clean;
+    testing::Normal normal(seed);
+    for (std::size_t i = 0; i < history.x.size(); ++i)
+      history.x[i] += 3.0 * sigma * std::sin(8.1 * natural * static_cast<double>(i) / 1000.0) + sigma * normal();
+    const DerivedDecay decay = decay_of(history);
+    CAPTURE(seed, decay.fault);
+    REQUIRE(decay.record.extremes.size() + 1 >= exact.size());
+    CHECK(decay.record.extremes.size() <= exact.size());
+    CHECK(decay.record.times.back() < 1.5);
+    Record record;
+    record.histories = {history};
+    for (const std::string& warning : complete(record))
+      CHECK(warning.find("the zero of the sensor") == std::string::npos);
+  }
+}
+
 TEST_CASE("Swings that shrink by less than the noise of their extremes are a free decay") {
   sim::Model model = soft_bearing();
   model.oscillator.damping = 2.0 * 0.002 * std::sqrt(mass * stiffness);
