@@ -94,7 +94,7 @@ struct JointModel {
   /// Of a channel that is estimated beside one that is stated and decides about friction.
   double other_freedom = core::infinity;
   ParameterSet value;        ///< of the fit
-  bool is_possible = true;   ///< friction takes work in either direction
+  bool is_possible = true;   ///< friction takes work in either direction, and sensors are nearly linear
   KnownConstants constants;  ///< as stated, or as fitted
   /// The model fitted again with these relaxations free, and linearised there; empty: no such fit is needed.
   std::function<JointModel(const Taken& taken)> refit;

@@ -143,8 +143,12 @@ class Histories {
     const ForceParameters force = motion_.force_at(at);
     model.value = parameters(force);
     model.is_possible = std::ranges::all_of(taken, [&](std::size_t number) {
-      const HistoryTerm* term = motion_.list().parts[number].term;
+      const FreedPart& part = motion_.list().parts[number];
+      const HistoryTerm* term = part.term;
       const double g = at.g[static_cast<Eigen::Index>(number)];
+      constexpr double most_bent = 0.05;  // of half the range: a sensor that is sold as linear bends less
+      if (part.kind == FreedPart::Kind::square || part.kind == FreedPart::Kind::cube)
+        return std::abs(g) < most_bent;
       return term == nullptr || !term->is_constant || std::abs(g) * motion_.unit_force() <= force.F0;
     });
     if (model.residuals.size() == 0) return model;

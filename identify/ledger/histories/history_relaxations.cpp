@@ -146,6 +146,9 @@ HistoryRelaxations history_relaxations(const std::vector<ForwardTest>& tests, co
   if (beside_x) add_reading(list, "x", MotionSensor::x);
   add(list, Assumption::sensors, "corner frequency of x free", {.kind = Kind::corner});
   list.relaxations.back().sign = 1;
+  add(list, Assumption::sensors, "square term of the sensor of x", {.kind = Kind::square});
+  // In a decay of x alone a cubic term is friction over speed.
+  if (beside_x) add(list, Assumption::sensors, "cubic term of the sensor of x", {.kind = Kind::cube});
   add(list, Assumption::sensors, "zero of x free", {.kind = Kind::zero});
   add(list, Assumption::stationarity, "zero of x that drifts", {.kind = Kind::zero_drift});
   if (has(&History::v)) add_reading(list, "v", MotionSensor::v);
@@ -167,6 +170,8 @@ Eigen::MatrixXd HistoryReader::operator()(MotionSensor sensor, const std::vector
     if (kind == FreedPart::Kind::gain) errors.gain += g;
     if (kind == FreedPart::Kind::delay) errors.delay = g;
     if (kind == FreedPart::Kind::corner) errors.corner = g;
+    if (kind == FreedPart::Kind::square) errors.square = g / length;
+    if (kind == FreedPart::Kind::cube) errors.cube = g / (length * length);
     if (kind == FreedPart::Kind::zero) errors.zero = g * length;
     if (kind == FreedPart::Kind::zero_drift) errors.drift = g * length;
   });
@@ -176,14 +181,16 @@ Eigen::MatrixXd HistoryReader::operator()(MotionSensor sensor, const std::vector
   if (zero != zeros.end()) errors.zero = zero->unit * at.zeros[place];
   Eigen::MatrixXd rows = reading_rows(measured, motion, errors, columns, slopes);
   if (zero != zeros.end()) rows.col(1 + at.p.size() + place).setConstant(zero->unit);
+  const Eigen::ArrayXd u = as_read(motion.value, motion.slope, errors, motion.rate).array();
+  const Eigen::ArrayXd slope = errors.gain * errors.slope(u);
   own([&](FreedPart::Kind kind, double, Eigen::Index j) {
     auto to = rows.col(1 + at.p.size() + at.zeros.size() + j);
-    if (kind == FreedPart::Kind::gain) to = as_read(motion.value, motion.slope, errors, motion.rate);
+    if (kind == FreedPart::Kind::gain) to = errors.reading(u);
     if (kind == FreedPart::Kind::delay)
-      to = -errors.gain * as_read(motion.slope, motion.curvature, errors, motion.rate);
-    if (kind == FreedPart::Kind::corner)
-      to = errors.gain *
-           by_corner(as_read(motion.value, motion.slope, errors, motion.rate), motion.rate, errors.corner);
+      to = -slope * as_read(motion.slope, motion.curvature, errors, motion.rate).array();
+    if (kind == FreedPart::Kind::corner) to = slope * by_corner(u.matrix(), motion.rate, errors.corner).array();
+    if (kind == FreedPart::Kind::square) to = errors.gain * u.square() / length;
+    if (kind == FreedPart::Kind::cube) to = errors.gain * u.cube() / (length * length);
     if (kind == FreedPart::Kind::zero) to.setConstant(length);
     if (kind == FreedPart::Kind::zero_drift) to = length * course_of(rows.rows());
   });

@@ -36,6 +36,8 @@ struct FreedPart {
     gain,
     delay,
     corner,
+    square,  ///< of the motion over its length, in the readings
+    cube,
     zero,
     zero_drift
   } kind = Kind::constant;

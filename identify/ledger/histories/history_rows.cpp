@@ -117,10 +117,12 @@ Eigen::MatrixXd reading_rows(const std::vector<double>& measured, const SensorMo
                              const Eigen::MatrixXd& slopes) {
   const Eigen::Index count = motion.value.size();
   Eigen::MatrixXd rows(count, columns.cols() + 1);
-  rows.col(0) = Eigen::Map<const Eigen::VectorXd>(measured.data(), count) -
-                errors.gain * as_read(motion.value, motion.slope, errors, motion.rate);
+  const Eigen::ArrayXd u = as_read(motion.value, motion.slope, errors, motion.rate).array();
+  rows.col(0) = Eigen::Map<const Eigen::VectorXd>(measured.data(), count);
+  rows.col(0) -= errors.gain * errors.reading(u).matrix();
   rows.col(0) -= Eigen::VectorXd::Constant(count, errors.zero) + errors.drift * course_of(count);
-  rows.rightCols(columns.cols()) = errors.gain * as_read(columns, slopes, errors, motion.rate);
+  rows.rightCols(columns.cols()) = as_read(columns, slopes, errors, motion.rate);
+  rows.rightCols(columns.cols()).array().colwise() *= errors.gain * errors.slope(u);
   return rows;
 }
 

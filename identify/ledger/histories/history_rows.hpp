@@ -36,14 +36,24 @@ struct WhiteRows {
 [[nodiscard]] WhiteRows made_white(const Channel& channel, Eigen::Index columns,
                                    const Autoregression* known = nullptr, bool is_unit = false);
 
-/// Errors of a sensor. It reads gain x(t - delay) + zero + drift s, where s is the share of the record that is
-/// over. With a corner frequency, a high-pass of the first order reads x, as that of an AC coupling does.
+/// Errors of a sensor. It reads gain (u + square u^2 + cube u^3) + zero + drift s of u = x(t - delay), where s is
+/// the share of the record that is over. With a corner frequency, a high-pass of the first order reads x, as that
+/// of an AC coupling does.
 struct SensorErrors {
   double gain = 1.0;
   double delay = 0.0;   ///< s
   double corner = 0.0;  ///< rad/s
   double zero = 0.0;
   double drift = 0.0;  ///< of the zero, from the beginning to the end
+  double square = 0.0;
+  double cube = 0.0;
+
+  [[nodiscard]] Eigen::ArrayXd reading(const Eigen::ArrayXd& u) const {
+    return u * (1.0 + u * (square + cube * u));
+  }
+  [[nodiscard]] Eigen::ArrayXd slope(const Eigen::ArrayXd& u) const {  ///< of the reading over u
+    return 1.0 + u * (2.0 * square + 3.0 * cube * u);
+  }
 };
 
 /// What a sensor reads, and its first two derivatives over time.

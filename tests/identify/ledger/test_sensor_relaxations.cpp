@@ -83,3 +83,23 @@ TEST_CASE("Delayed and high-passed readings and their derivatives are those of c
       (high_passed(x, rate, g + little) - high_passed(x, rate, g - little)) / (2.0 * little);
   CHECK((by_corner(passed, rate, g) - difference).cwiseAbs().maxCoeff() < 1e-3 * difference.cwiseAbs().maxCoeff());
 }
+
+TEST_CASE("A sensor of x whose line is bent is charged, and friction is not") {
+  for (const int order : {2, 3}) {
+    CAPTURE(order);
+    Measured m = measured(Kind::ramp, sensor_seed);
+    const double most = largest_deflection(m);
+    for (double& x : m.record.histories.front().x) x += 0.01 * most * std::pow(x / most, order);
+    const Ledger ledger = ledger_of(m.record, m.constants);
+    const LedgerEntry& sensors = ledger.entry(Assumption::sensors);
+    CHECK(sensors.test == (order == 2 ? "square term of the sensor of x" : "cubic term of the sensor of x"));
+    CHECK(sensors.p_value.value_or(1.0) < 1e-3);
+    for (const LedgerEntry& entry : ledger.entries) {
+      CAPTURE(entry.test, entry.reason);
+      CHECK((entry.assumption == Assumption::sensors || entry.standing != Standing::violated));
+    }
+    REQUIRE(ledger.joint);
+    CHECK(ledger.joint->value.zeta == Approx(m.rig.zeta).epsilon(0.03));
+    CHECK(ledger.joint->value.F0 == Approx(m.rig.F0).epsilon(0.03));
+  }
+}
