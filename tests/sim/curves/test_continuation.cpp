@@ -12,6 +12,7 @@
 #include "friction_models/laws/coulomb.hpp"
 #include "friction_models/laws/free_play.hpp"
 #include "sim/analytic/den_hartog.hpp"
+#include "tests/support/make_law.hpp"
 
 using namespace dualdamp;
 using sim::BranchParameter;
@@ -259,6 +260,25 @@ TEST_CASE("a branch jumps where a slip continues, and not to and fro between two
     model.excitation.frequency = behind->parameter;
     const sim::SteadyState swept = sim::steady_state(model, {.from = std::prev(behind)->state.start});
     CHECK(swept.amplitude == Approx(behind->state.amplitude).epsilon(1e-9));
+  }
+}
+
+TEST_CASE("a branch goes on where sliders slip for the first time, one after the other") {
+  // Each of them turns the tangent in its own coordinate, from a slider that never slips to one that follows x.
+  for (const double sliders : {20.0, 40.0}) {
+    sim::Model model;
+    model.oscillator = {.mass = 1.3, .stiffness = 120.0, .damping = 1.1};
+    model.excitation = {.type = sim::ExcitationType::base_harmonic, .amplitude = 0.005, .frequency = 8.168};
+    model.friction = test::laws_of("iwan", {{"stiffness", 300.0}, {"limit", 3.0}, {"count", sliders}});
+    const sim::Branch branch = continue_branch(model, BranchParameter::amplitude, 0.005, 0.02);
+    REQUIRE(branch.outcome.ok());
+    CHECK(branch.end == sim::BranchEnd::range);
+    CHECK(branch.points.size() < 300);
+    CHECK(count(branch, ChangeKind::sequence) > 5);
+    for (std::size_t i = 1; i < branch.points.size(); ++i) {
+      CHECK(branch.points[i].parameter > branch.points[i - 1].parameter);
+      CHECK(branch.points[i].state.amplitude > branch.points[i - 1].state.amplitude);
+    }
   }
 }
 
