@@ -134,8 +134,8 @@ Branch Continuation::run() {
       return ended(BranchEnd::step,
                    "the branch is not complete: it stops where no step converges to an orbit" + parting_at(node));
     if (!next) {
-      add_change(ChangeKind::end, branch_.points.back(), branch_.points.back());
-      return ended(BranchEnd::orbit, ends_inside);
+      if (!jumps_on(node, step)) return ended(BranchEnd::orbit, ends_inside);
+      continue;
     }
     if (was_passed(*next)) {
       add_change(ChangeKind::end, branch_.points.back(), branch_.points.back());
@@ -148,7 +148,10 @@ Branch Continuation::run() {
         return ended(BranchEnd::edge, "the branch ends short of the end of the range: no orbit found there");
       next = std::move(last);
     }
-    if (!record(node, *next)) return ended(BranchEnd::orbit, ends_inside);
+    if (!record(node, *next)) {
+      if (!jumps_on(node, step)) return ended(BranchEnd::orbit, ends_inside);
+      continue;
+    }
     if (left && next->parameter == from_ && from_ != to_)
       return ended(BranchEnd::range, "the branch turns back and leaves the range where it began" + meeting());
     if (left) return std::move(branch_);
@@ -159,6 +162,18 @@ Branch Continuation::run() {
   }
   return ended(BranchEnd::points,
                "the branch is not complete: it stops after " + std::to_string(options_.max_points) + " points");
+}
+
+/// Whether the branch goes on beyond the last orbit, with another one at `node`; else it ends there.
+bool Continuation::jumps_on(Node& node, double& step) {
+  std::optional<Node> landed = after_jump(node);
+  if (!landed) {
+    add_change(ChangeKind::end, branch_.points.back(), branch_.points.back());
+    return false;
+  }
+  node = std::move(*landed);
+  step = 0.1 * options_.largest_step;
+  return true;
 }
 
 /// Words that say so if the last orbit of the branch is the mirror image of the first one.

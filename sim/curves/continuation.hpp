@@ -31,7 +31,7 @@ enum class ChangeKind {
   neimark_sacker,  ///< a complex pair leaves or enters the unit circle: a motion with a second frequency begins
   stability,  ///< orbits begin or cease to attract otherwise: a Floquet multiplier passes 1 and the branch does
               ///< not turn, or it jumps
-  jump,       ///< the sequence changes, and the motion jumps to another orbit that attracts, as in a sweep
+  jump,       ///< no orbit continues the branch, and the motion jumps to another that attracts, as in a sweep
   rest,       ///< the mass ceases to move: beyond, any rest position that friction can hold is an orbit
   end,        ///< no orbit continues the branch
 };

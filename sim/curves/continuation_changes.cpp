@@ -207,9 +207,41 @@ bool Continuation::record(const Node& before, const Node& after) {
     const BranchPoint& last = goes_on ? point : low;
     if (first.state.stable() != last.state.stable()) locate_stability(before, first, last);
   }
-  if (!goes_on) add_change(ChangeKind::end, low, low);
   branch_.points.push_back(goes_on ? point : low);
   return goes_on;
+}
+
+/// Where no orbit continues the last one, and that one attracts: the orbit to which the motion goes on just beyond,
+/// as in a sweep. It is added with the change.
+std::optional<Node> Continuation::after_jump(const Node& node) {
+  constexpr double small = 1e-3;   // change of the amplitude, relative
+  constexpr double steep = 100.0;  // that change over that of the parameter, both relative
+  const BranchPoint last = branch_.points.back();
+  if (!last.state.stable() || node.tangent.size() == 0) return std::nullopt;
+  const double sense = node.tangent.tail<1>()[0] < 0.0 ? -1.0 : 1.0;
+  for (const double beyond : {1e-8, 1e-7, 1e-6, 1e-5, 1e-4}) {
+    const double parameter =
+        last.parameter + sense * std::max(beyond, options_.location) * parameter_scale(last.parameter);
+    if (!inside(parameter) || is_exhausted()) return std::nullopt;
+    const SteadyState state = steady_state(at(parameter), {.tolerance = options_.tolerance,
+                                                           .detail = OrbitDetail::extremes,
+                                                           .others = false,
+                                                           .from = last.state.start});
+    effort_.count += state.certificate;
+    effort_.work += state.work;
+    if (!state.outcome.ok() || !state.stable() || state.never_moves() || state.period_ratio != ratio_) continue;
+    std::optional<Node> landed = node_at(parameter, state.start);
+    if (!landed) continue;
+    const BranchPoint point = describe(*landed);
+    const double change = std::abs(point.state.amplitude - last.state.amplitude) / last.state.amplitude;
+    if (!are_apart(last, point) && change <= std::max(small, steep * beyond)) continue;
+    const VectorXd onward = sense * VectorXd::Unit(node.tangent.size(), node.tangent.size() - 1);
+    landed->tangent = tangent(*landed, onward).value_or(onward);
+    add_change(ChangeKind::jump, last, point);
+    branch_.points.push_back(point);
+    return landed;
+  }
+  return std::nullopt;
 }
 
 }  // namespace dualdamp::sim

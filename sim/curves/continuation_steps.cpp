@@ -350,14 +350,16 @@ VectorXd Continuation::arc(const Node& from, const Node& node) const {
 }
 
 /// Whether the branch turns so far between both points that the direction of the tangent is uncertain: a step over
-/// a bend could reverse it.
+/// a bend could reverse it. The states of laws do not count: where a slider slips for the first time, its own
+/// coordinate turns the tangent by any angle, at one place.
 bool Continuation::turns_too_far(const Node& from, const Node& node, const VectorXd& tangent) const {
   constexpr double least = 0.5;  // cosine of the angle
-  const VectorXd way = arc(from, node).normalized();
-  const Index n = way.size() - 1;
+  const Eigen::Vector3d along = way(from, node).normalized();
+  const Eigen::Vector3d before = common_part(from.tangent).normalized();
+  const Eigen::Vector3d after = common_part(tangent).normalized();
   // A piece along which the parameter goes against both tangents has two folds, or leads to another branch.
-  if (way[n] * tangent[n] < 0.0 && way[n] * from.tangent[n] < 0.0) return true;
-  return tangent.dot(from.tangent) < least || tangent.dot(way) < least || from.tangent.dot(way) < least;
+  if (along[2] * after[2] < 0.0 && along[2] * before[2] < 0.0) return true;
+  return after.dot(before) < least || after.dot(along) < least || before.dot(along) < least;
 }
 
 /// Derivative of the tangent from the last node to this one, in the sizes of this one.

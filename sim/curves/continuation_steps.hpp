@@ -131,6 +131,8 @@ class Continuation {
   [[nodiscard]] Branch at_rest(const Node& node, double place);
   [[nodiscard]] Branch ended(BranchEnd end, const std::string& warning);
   [[nodiscard]] bool record(const Node& before, const Node& after);
+  [[nodiscard]] std::optional<Node> after_jump(const Node& node);
+  [[nodiscard]] bool jumps_on(Node& node, double& step);
   void locate_stability(const Node& before, BranchPoint low, BranchPoint high);
   template <class Changed>
   [[nodiscard]] bool bisect(BranchPoint& low, BranchPoint& high, const State& guess, const Changed& changed);

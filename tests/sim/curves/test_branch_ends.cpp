@@ -9,6 +9,7 @@
 
 #include "friction_models/laws/contact_compliance.hpp"
 #include "friction_models/laws/coulomb.hpp"
+#include "friction_models/laws/free_play.hpp"
 #include "sim/curves/continuation.hpp"
 #include "tests/support/base_driven.hpp"
 
@@ -187,4 +188,23 @@ TEST_CASE("a branch that stops because neighbouring motions part too fast says h
   CHECK(branch.end == sim::BranchEnd::step);
   REQUIRE(branch.warnings.size() == 1);
   CHECK_THAT(branch.warnings[0], Catch::Contains("largest Floquet multiplier is"));
+}
+
+TEST_CASE(
+    "Where an orbit ceases to exist and the motion goes on to one far away, the branch jumps as a sweep does") {
+  sim::Model model;
+  model.oscillator = {.mass = 1.3, .stiffness = 120.0, .damping = 1.1};
+  model.excitation = {.type = sim::ExcitationType::base_harmonic, .amplitude = 0.04, .frequency = 3.2};
+  model.friction.emplace_back(friction::FreePlay(2.0, 3.0, 0.02));
+  const sim::Branch branch = sim::continue_branch(model, BranchParameter::frequency, 3.2, 3.6);
+  REQUIRE(branch.outcome.ok());
+  CHECK(branch.end == sim::BranchEnd::range);
+  CHECK(branch.points.back().parameter == 3.6);
+  REQUIRE(changes_of(branch, ChangeKind::jump) == 1);
+  const auto jump = std::ranges::find(branch.changes, ChangeKind::jump, &sim::BranchChange::kind);
+  CHECK(jump->parameter == Approx(3.349576).epsilon(1e-6));
+  CHECK(jump->stable_before);
+  CHECK(jump->stable_after);
+  // A sweep with levels 5e-5 rad/s apart: 23.190 mm before, 22.237 mm after the jump.
+  CHECK(jump->amplitude == Approx(0.022237).epsilon(1e-3));
 }

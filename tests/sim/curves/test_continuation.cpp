@@ -12,6 +12,7 @@
 #include "friction_models/laws/coulomb.hpp"
 #include "friction_models/laws/free_play.hpp"
 #include "sim/analytic/den_hartog.hpp"
+#include "tests/support/make_law.hpp"
 
 using namespace dualdamp;
 using sim::BranchParameter;
@@ -227,27 +228,58 @@ TEST_CASE("a complex pair that leaves the unit circle is no flip and no fold") {
   CHECK(count(branch, ChangeKind::flip) == 0);
 }
 
-TEST_CASE("a branch that ends says so once, and does not jump to and fro between two branches") {
-  // The first folds, and its unstable part then meets a grazing; the other two end where a slip continues because
-  // static friction is above kinetic. A branch that jumped back to a passed part would fold again and again.
-  std::vector<sim::Branch> branches;
-  branches.push_back(continue_branch(compliant(0.05144051, 1.0, 0.10326303, 2.20485448, 5.0238030),
-                                     BranchParameter::frequency, 0.317, 0.2));
+TEST_CASE("a branch that ends says so once") {
+  // It folds, and its unstable part then meets a grazing.
+  const sim::Branch branch = continue_branch(compliant(0.05144051, 1.0, 0.10326303, 2.20485448, 5.0238030),
+                                             BranchParameter::frequency, 0.317, 0.2);
+  REQUIRE(branch.outcome.ok());
+  CHECK(branch.end == sim::BranchEnd::orbit);
+  REQUIRE(branch.warnings.size() == 1);
+  CHECK(count(branch, ChangeKind::end) == 1);
+  CHECK(branch.changes.back().kind == ChangeKind::end);
+  CHECK(count(branch, ChangeKind::fold) == 1);
+  CHECK(branch.changes.size() < 40);
+}
+
+TEST_CASE("a branch jumps where a slip continues, and not to and fro between two branches") {
+  // Static friction is above kinetic. A branch that jumped back to a passed part would jump again and again.
   for (const double ratio : {1.03153634, 1.089}) {
     sim::Model model = coulomb_driven(0.0168831, 0.15343084, 1.0, 0.2257);
     model.friction = {friction::Law(friction::Coulomb(0.15343084, ratio * 0.15343084))};
-    branches.push_back(continue_branch(model, BranchParameter::frequency, 0.2257, 0.05));
-  }
-  for (const sim::Branch& branch : branches) {
+    const sim::Branch branch = continue_branch(model, BranchParameter::frequency, 0.2257, 0.05);
     REQUIRE(branch.outcome.ok());
-    CHECK(branch.end == sim::BranchEnd::orbit);
-    REQUIRE(branch.warnings.size() == 1);
-    CHECK(count(branch, ChangeKind::end) == 1);
-    CHECK(branch.changes.back().kind == ChangeKind::end);
-    CHECK(count(branch, ChangeKind::fold) <= 1);
     CHECK(branch.changes.size() < 40);
+    REQUIRE(count(branch, ChangeKind::jump) > 0);
+    for (std::size_t i = 1; i < branch.points.size(); ++i)
+      CHECK(branch.points[i].parameter < branch.points[i - 1].parameter);
+    // The motion from the last orbit before the first jump settles on the orbit behind it.
+    const sim::BranchChange& jump = *first(branch, ChangeKind::jump);
+    const auto behind = std::ranges::find_if(
+        branch.points, [&](const sim::BranchPoint& point) { return point.parameter < jump.parameter; });
+    REQUIRE(behind != branch.points.begin());
+    model.excitation.frequency = behind->parameter;
+    const sim::SteadyState swept = sim::steady_state(model, {.from = std::prev(behind)->state.start});
+    CHECK(swept.amplitude == Approx(behind->state.amplitude).epsilon(1e-9));
   }
-  CHECK(count(branches[0], ChangeKind::fold) == 1);
+}
+
+TEST_CASE("a branch goes on where sliders slip for the first time, one after the other") {
+  // Each of them turns the tangent in its own coordinate, from a slider that never slips to one that follows x.
+  for (const double sliders : {20.0, 40.0}) {
+    sim::Model model;
+    model.oscillator = {.mass = 1.3, .stiffness = 120.0, .damping = 1.1};
+    model.excitation = {.type = sim::ExcitationType::base_harmonic, .amplitude = 0.005, .frequency = 8.168};
+    model.friction = test::laws_of("iwan", {{"stiffness", 300.0}, {"limit", 3.0}, {"count", sliders}});
+    const sim::Branch branch = continue_branch(model, BranchParameter::amplitude, 0.005, 0.02);
+    REQUIRE(branch.outcome.ok());
+    CHECK(branch.end == sim::BranchEnd::range);
+    CHECK(branch.points.size() < 300);
+    CHECK(count(branch, ChangeKind::sequence) > 5);
+    for (std::size_t i = 1; i < branch.points.size(); ++i) {
+      CHECK(branch.points[i].parameter > branch.points[i - 1].parameter);
+      CHECK(branch.points[i].state.amplitude > branch.points[i - 1].state.amplitude);
+    }
+  }
 }
 
 TEST_CASE("a branch that is cut short says so") {
