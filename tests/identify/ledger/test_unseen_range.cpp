@@ -130,12 +130,15 @@ TEST_CASE("Constants and gains that a record tests sharply, or of stated uncerta
 
 TEST_CASE("States that determine neither zeta nor F0 leave no answer where the fit is negative") {
   // The range of zeta was 0 to 7.3, that of F0 0 to 800 N, and the verdict spoke of no contradiction.
-  const Measured m = measured(Kind::response, 77'005, nullptr, {.stiffness = 0.05, .states = 4});
-  Ledger ledger = ledger_of(m.record, m.constants);
-  REQUIRE(ledger.joint);
-  REQUIRE(ledger.joint->value.zeta < 0.0);
-  const Estimate joint = *ledger.joint;
-  const Identification found = concluded({joint, joint}, std::move(ledger));
-  CHECK_FALSE(found.answer);
-  CHECK(found.reason.find("they determine neither zeta nor F0") != std::string::npos);
+  for (const std::uint64_t seed : {77'005, 77'010}) {
+    CAPTURE(seed);
+    const Measured m = measured(Kind::response, seed, nullptr, {.stiffness = 0.05, .states = 4});
+    Ledger ledger = ledger_of(m.record, m.constants);
+    REQUIRE(ledger.joint);
+    REQUIRE(std::min(ledger.joint->value.zeta, ledger.joint->value.F0) < 0.0);
+    const Estimate joint = *ledger.joint;
+    const Identification found = concluded({joint, joint}, std::move(ledger));
+    CHECK_FALSE(found.answer);
+    CHECK(found.reason.find("they determine neither zeta nor F0") != std::string::npos);
+  }
 }
