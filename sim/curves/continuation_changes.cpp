@@ -235,7 +235,7 @@ std::optional<Node> Continuation::after_jump(const Node& node) {
     const BranchPoint point = describe(*landed);
     const double change = std::abs(point.state.amplitude - last.state.amplitude) / last.state.amplitude;
     if (!are_apart(last, point) && change <= std::max(small, steep * beyond)) continue;
-    const VectorXd onward = sense * VectorXd::Unit(node.tangent.size(), node.tangent.size() - 1);
+    const Eigen::VectorXd onward = sense * Eigen::VectorXd::Unit(node.tangent.size(), node.tangent.size() - 1);
     landed->tangent = tangent(*landed, onward).value_or(onward);
     add_change(ChangeKind::jump, last, point);
     branch_.points.push_back(point);
