@@ -130,7 +130,7 @@ TEST_CASE("Constants and gains that a record tests sharply, or of stated uncerta
 
 TEST_CASE("States that determine neither zeta nor F0 leave no answer where the fit is negative") {
   // The range of zeta was 0 to 7.3, that of F0 0 to 800 N, and the verdict spoke of no contradiction.
-  for (const std::uint64_t seed : {77'005, 77'010}) {
+  for (const std::uint64_t seed : {77'005U, 77'010U}) {
     CAPTURE(seed);
     const Measured m = measured(Kind::response, seed, nullptr, {.stiffness = 0.05, .states = 4});
     Ledger ledger = ledger_of(m.record, m.constants);

@@ -132,7 +132,7 @@ void print_uncertain_rates(Kind kind, double deviation, int records, std::uint64
   for (const auto& [name, number] : rates.named) std::printf(" %s %d", name.c_str(), number);
   std::printf("\n");
   for (const auto& [name, c] : rates.of) {
-    const auto share = [&c = c](int part) { return 100.0 * part / std::max(1, c.intervals); };
+    const auto share = [&counted = c](int part) { return 100.0 * part / std::max(1, counted.intervals); };
     std::printf(
         "uncertain %.1f %%, %-15s %-34s n %3d outcomes %3d usable %3d intervals %3d zeta %5.1f c %5.1f F0 %5.1f | "
         "zeta below %2d above %2d, F0 below %2d above %2d\n",

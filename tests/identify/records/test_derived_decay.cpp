@@ -329,7 +329,7 @@ TEST_CASE("A motion that something drives is no free vibration, whose swings shr
 TEST_CASE("A free vibration begins where a steady drive is taken away") {
   constexpr double zeta = 0.02;
   constexpr double rate = 200.0;
-  for (const std::uint64_t seed : {1, 2, 3, 4, 5, 6, 7, 8}) {
+  for (const std::uint64_t seed : {1U, 2U, 3U, 4U, 5U, 6U, 7U, 8U}) {
     testing::Normal normal(seed);
     History history{.sample_rate = rate};
     constexpr double stop = 1.5;

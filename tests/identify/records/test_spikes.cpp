@@ -40,7 +40,7 @@ TEST_CASE("A spike of one sample is found and replaced") {
     const std::vector<std::string> said = treat_spikes(histories, true);
     REQUIRE(said.size() == 1);
     CHECK(said[0].starts_with("x holds 3 spikes, the first at t = 0.015 s"));
-    for (const std::size_t i : {3, 700, 1997}) CHECK(std::abs(histories[0].x[i] - clean[i]) < 0.01);
+    for (const std::size_t i : {3U, 700U, 1997U}) CHECK(std::abs(histories[0].x[i] - clean[i]) < 0.01);
     CHECK(histories[0].x[4] == clean[4]);
   }
 }

@@ -122,7 +122,7 @@ TEST_CASE("Intervals with stated uncertainties hold the truth as often as they s
     Normal normal(static_cast<std::uint64_t>(5000 + seed));
     const KnownConstants stated{mass * (1.0 + 0.1 * normal()), stiffness * (1.0 + 0.1 * normal()), unknown};
     const double gain = 1.0 + 0.05 * normal();
-    Record record = decay(R, x_f, 3e-6, static_cast<std::uint64_t>(9000 + seed));
+    Record record = decay(R, x_f, 3e-6, 9000U + static_cast<std::uint64_t>(seed));
     for (double& extreme : record.decay->extremes) extreme *= gain;
     const Estimate estimate = with_uncertainties(by_free_decay, record, stated, uncertainties);
     REQUIRE(estimate.interval95);

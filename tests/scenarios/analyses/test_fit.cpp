@@ -94,7 +94,7 @@ TEST_CASE("fit: the scenario of steady states gives their points", "[scenarios][
   const File data("fit_response.csv", text);
   const nlohmann::json result =
       result_of_text(fit_scenario("mass: 1 kg, friction: {law: coulomb}", "data: fit_response.csv"));
-  for (const auto& [i, truth] : {std::pair{0, 100.0}, {1, 4.0}, {2, 2.0}})
+  for (const auto& [i, truth] : {std::pair{0U, 100.0}, {1U, 4.0}, {2U, 2.0}})
     CHECK(result.at("parameters").at(i).at("value").get<double>() == Approx(truth).epsilon(1e-5));
   const nlohmann::json again =
       testing::result_of(scenarios::run(parse_scenario(result.at("scenario").get<std::string>(), "fitted.yaml")));
