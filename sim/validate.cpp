@@ -18,7 +18,7 @@ using friction::Range;
 constexpr int max_order = 1000;
 constexpr Range any{};
 constexpr Range phases{.low = -friction::largest_phase, .high = friction::largest_phase};
-constexpr Range tolerances{.low = 1e-15, .high = 1e-3};
+constexpr Range tolerances{.low = least_tolerance, .high = 1e-3};
 
 std::string with_unit(double value, std::string_view unit) {
   constexpr int digits = 6;

@@ -19,6 +19,9 @@ namespace dualdamp::sim {
 /// (`iwan`). The cost of a motion grows with the square of this number.
 inline constexpr std::size_t max_laws = 256;
 
+/// Least `SolverOptions::tolerance`: steps are not computed more exactly than rounding lets them.
+inline constexpr double least_tolerance = 1e-15;
+
 /// All problems of the model; empty if it is valid.
 [[nodiscard]] std::vector<core::Diagnostic> validate(const Model& model);
 

@@ -368,8 +368,26 @@ long Approach::longer_period() {
   return 0;
 }
 
+/// That a pendulum turns over and over, so that its angle has no period; ok if it does not.
+core::Outcome Approach::rotation() {
+  const Oscillator& o = model_.oscillator;
+  const bool turns_freely =
+      o.gravity_stiffness > 0.0 && o.gravity_stiffness == o.stiffness && o.cubic_stiffness == 0.0;
+  if (!turns_freely || !map_.outcome().ok() || !(size_ > core::two_pi)) return {};
+  const double begin = map_.engine().position();
+  PeriodMap& map = solver_.patient_map_over(1);
+  State state = map_.engine().state();
+  for (std::size_t n = 0; n < longest_period; ++n) state = map.from(state, Monodromy::without).end;
+  const double turns = (state.x - begin) / core::two_pi;
+  if (!map.outcome().ok() || !(std::abs(turns) >= 1.0)) return {};
+  return {core::OutcomeKind::no_steady_state,
+          "no steady state: the pendulum rotates, by " + core::format_number(turns, 4) + " turns in " +
+              std::to_string(longest_period) + " forcing periods: its angle has no period"};
+}
+
 /// Why the integration found no orbit.
 core::Outcome Approach::failure() {
+  if (core::Outcome rotates = rotation(); !rotates.ok()) return rotates;
   const core::Outcome& followed = map_.outcome();
   // Work grows with the amplitude, so it may end before the growth is certain.
   const bool is_cut_short = is_followed_enough() || followed.kind == core::OutcomeKind::event_limit;

@@ -57,6 +57,7 @@ class Approach {
   [[nodiscard]] bool needs_divergence() const;
   [[nodiscard]] long next_after(long least) const;
   [[nodiscard]] long longer_period();
+  [[nodiscard]] core::Outcome rotation();
   [[nodiscard]] core::Outcome failure();
 
   const Model& model_;

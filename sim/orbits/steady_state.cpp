@@ -22,6 +22,7 @@
 #include "sim/orbits/newton.hpp"
 #include "sim/orbits/orbit_account.hpp"
 #include "sim/orbits/orbit_solver.hpp"
+#include "sim/orbits/orbit_warnings.hpp"
 #include "sim/orbits/period_map.hpp"
 #include "sim/orbits/structural_damping.hpp"
 #include "sim/validate.hpp"
@@ -121,8 +122,6 @@ class OrbitFinder {
   [[nodiscard]] bool is_mirror_image(const SteadyState& a, const SteadyState& b) const;
   [[nodiscard]] std::optional<SteadyState> mirror_image(const SteadyState& of, OrbitSolver& solver);
   void add_mirror_images(SteadyState& result);
-  void warn_of_distance(const ForcingPeriod& period, SteadyState& result);
-  [[nodiscard]] std::optional<double> error_of_steps(const Orbit& orbit);
   void warn_of_steps(const Orbit& orbit, SteadyState& result);
 
   const Model& model_;
@@ -288,63 +287,15 @@ void OrbitFinder::add_mirror_images(SteadyState& result) {
   add_cost(solver);
 }
 
-/// "3 %", for a distance relative to the size of the motion.
-std::string share_of_size(double distance) {
-  return distance < 1.0 ? core::percent(distance, 1) : "more than its size";
-}
-
-/// Relative error of a steady state above which a warning states it.
-constexpr double least_warned = 1e-4;
-
-/// Under weak damping a motion closes within the tolerance long before it has reached its orbit. What is left to
-/// it, and what errors of steps add up to, is measured by the monodromy matrix.
-void OrbitFinder::warn_of_distance(const ForcingPeriod& period, SteadyState& result) {
-  constexpr double usual = 1e-9;
-  const double rest = 1.0 - period.radius();
-  if (options_.tolerance <= usual || !(rest > neutral_margin)) return;
-  double distance = std::max(correction_left(period, model_.excitation.frequency), map_.engine().accuracy() / rest);
-  if (!(distance > least_warned)) return;
-  result.warnings.emplace_back(
-      "the steady state may be off by " + share_of_size(distance) +
-      ": at this tolerance a motion counts as closed while it is still that far from it; a smaller "
-      "'numerics.tolerance' finds it more exactly");
-}
-
-/// How far the period of the orbit moves if its steps are computed ten times as exactly, relative to its size. A
-/// creep may multiply an error of a step by 1e8, and a later stick erase it, so that the monodromy matrix of the
-/// whole period does not show it. Nothing if such steps have not ended.
-std::optional<double> OrbitFinder::error_of_steps(const Orbit& orbit) {
-  constexpr double finer = 0.1;
-  Model model = model_;
-  model.solver.tolerance *= finer;
-  PeriodMap map(model, orbit.period_ratio);
-  map.limit(patience_with(map.engine().accuracy(), options_.most_work).work);
-  const ForcingPeriod again = map.from(orbit.period.begin, Monodromy::without);
-  add_cost(map.engine());
-  if (!map.outcome().ok()) return std::nullopt;
-  const ForcingPeriod& period = orbit.period;
-  const double omega = model_.excitation.frequency;
-  return std::max({std::abs(again.peak - period.peak), std::abs(again.trough - period.trough),
-                   std::abs(again.end.x - period.end.x), std::abs(again.end.v - period.end.v) / omega}) /
-         period.size;
-}
-
 void OrbitFinder::warn_of_steps(const Orbit& orbit, SteadyState& result) {
   const bool is_exact = map_.engine().accuracy() == 0.0;
   // One of many points of a curve: a second period for each would double its cost.
   const bool is_outline = options_.detail == OrbitDetail::extremes && orbit.period_ratio == 1;
   if (is_exact || !orbit.period.moves || is_outline) return;
-  const std::optional<double> error = error_of_steps(orbit);
-  if (error && !(*error > least_warned)) return;
-  if (!error)
-    result.warnings.emplace_back(
-        "the error of the steady state is not known: with a tenth of 'numerics.tolerance' its period was not "
-        "computed to its end");
-  else
-    result.warnings.emplace_back(
-        "the steady state may be off by " + share_of_size(*error) +
-        ": with a tenth of 'numerics.tolerance' its period differs by that, because errors "
-        "of steps grow within it");
+  PeriodMap other(with_other_steps(model_), orbit.period_ratio);
+  other.limit(patience_with(other.engine().accuracy(), options_.most_work).work);
+  sim::warn_of_steps(orbit.period, other, model_, result);
+  add_cost(other.engine());
 }
 
 void OrbitFinder::find(SteadyState& result) {
@@ -382,7 +333,8 @@ void OrbitFinder::find(SteadyState& result) {
   result.start = orbit->period.begin;
   if (has_past) return;
   result.multipliers = orbit->period.multipliers();
-  warn_of_distance(orbit->period, result);
+  warn_of_distance(orbit->period, options_.tolerance, map_.engine().accuracy(), model_.excitation.frequency,
+                   result);
   warn_of_steps(*orbit, result);
 }
 

@@ -1,6 +1,7 @@
 // A motion approaches an orbit: when it counts as having come back, and that it goes to the orbit that is reported.
 
 #include <catch2/catch.hpp>
+#include <string>
 #include <vector>
 
 #include "friction_models/laws/contact_compliance.hpp"
@@ -160,4 +161,19 @@ TEST_CASE("a panel of many guards under many harmonics counts as several units o
   };
   CHECK(units_of_a_count(plain) == 1.0);
   CHECK(units_of_a_count(rich) > 3.0);
+}
+
+TEST_CASE("a pendulum that turns over and over is said to rotate") {
+  sim::Model model;
+  model.oscillator = {.mass = 0.3, .stiffness = 3.0, .damping = 0.02};
+  model.oscillator.gravity_stiffness = 3.0;
+  model.friction = {test::law("coulomb", {{"kinetic", 0.05}})};
+  // An independent integration advances by exactly two turns in two forcing periods.
+  model.excitation = {.type = sim::ExcitationType::force_harmonic, .amplitude = 2.0, .frequency = 2.0};
+  const std::string reason = sim::steady_state(model).outcome.reason;
+  CAPTURE(reason);
+  CHECK(reason.find("the pendulum rotates, by 64 turns in 64 forcing periods") != std::string::npos);
+  // Below, it swings.
+  model.excitation.amplitude = 0.5;
+  CHECK(sim::steady_state(model).outcome.ok());
 }
