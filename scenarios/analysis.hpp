@@ -138,8 +138,10 @@ struct Analysis {
   MainChart chart = {};
   bool uses_uncertainties = false;  ///< it uses the uncertainties of the system's constants and of the frequency
   bool seeks_laws = false;          ///< numbers that laws of the system lack are fitted; the model has no friction
-  bool steady_vibrations = false;   ///< the result is about steady vibrations only: structural damping is allowed
-  bool verifiable = false;          ///< the result follows from the model: another engine can compute it again
+  /// Structural damping is allowed: the result is about steady vibrations only, or the analysis refuses other
+  /// records.
+  bool steady_vibrations = false;
+  bool verifiable = false;  ///< the result follows from the model: another engine can compute it again
   /// Adds problems to the file and completes its values; may be absent.
   void (*check)(CheckedFile& file) = nullptr;
   std::unique_ptr<const Question> (*ask)(CheckedValues&& values) = nullptr;

@@ -17,26 +17,6 @@ using friction::Parameter;
 using friction::ParameterKind;
 using friction::ParameterValues;
 
-struct RecordParameterEntry {
-  RecordParameter which;
-  std::string_view name;
-  std::string_view unit;  ///< SI
-};
-
-constexpr std::array<RecordParameterEntry, record_parameter_count> record_parameters = {
-    {{RecordParameter::position, "position", "m"},
-     {RecordParameter::velocity, "velocity", "m/s"},
-     {RecordParameter::offset, "offset", "m"},
-     {RecordParameter::release, "release", "s"},
-     {RecordParameter::offset_v, "offset_v", "m/s"},
-     {RecordParameter::offset_a, "offset_a", "m/s^2"},
-     {RecordParameter::travel, "travel", "m"},
-     {RecordParameter::offset_force, "offset_force", "N"}}};
-
-const RecordParameterEntry& entry_of(RecordParameter which) {
-  return *std::ranges::find(record_parameters, which, &RecordParameterEntry::which);
-}
-
 /// The number at `path` of the values. A missing number on the last level is created as `unknown`; nullptr if a
 /// record or an item on the way is missing.
 double* number_at(ParameterValues& values, std::string_view path) {
@@ -139,6 +119,8 @@ const std::vector<SystemNumber>& system_numbers() {
       plain<&Model::oscillator, &Oscillator::stiffness>("stiffness", "N/m", Owner::stiffness, friction::positive),
       plain<&Model::oscillator, &Oscillator::cubic_stiffness>("cubic_stiffness", "N/m^3", Owner::cubic_stiffness,
                                                               {}),
+      plain<&Model::oscillator, &Oscillator::loss_factor>("loss_factor", "1", Owner::loss_factor,
+                                                          friction::not_negative),
       plain<&Model::oscillator, &Oscillator::damping>("damping", "N.s/m", Owner::damping, friction::not_negative),
       {"damping_ratio", "1", Owner::damping_ratio, friction::not_negative,
        [](const Model& model) { return sim::damping_ratio(model.oscillator); },
@@ -243,15 +225,6 @@ double over_force_at(double speed, const FitParameter& parameter, const Eigen::V
   const auto& [v0, power, sought_at] = *parameter.at_speed;
   constexpr double largest = 1e300;
   return std::clamp(std::pow(v0.value(values) / speed, power.value(values)), 1.0 / largest, largest);
-}
-
-std::string name_of(RecordParameter which) { return std::string(entry_of(which).name); }
-
-std::string unit_of(RecordParameter which) { return std::string(entry_of(which).unit); }
-
-std::optional<RecordParameter> find_record_parameter(std::string_view name) {
-  const auto* const found = std::ranges::find(record_parameters, name, &RecordParameterEntry::name);
-  return found == record_parameters.end() ? std::nullopt : std::optional(found->which);
 }
 
 std::vector<FitParameter> parameters_of(const Rig& rig) {

@@ -2,13 +2,13 @@
 /// The rig of a fit: an oscillator and its friction laws. Some of their parameters are known, others are sought.
 ///
 /// A parameter that is sought has a name. The names of the oscillator and its drive are mass, stiffness,
-/// cubic_stiffness, damping, damping_ratio, phase, force_offset. The names of a law are those of its table, with a
-/// path into lists and records ("elements[1].stiffness", "warming.power"). If two parameters have the same name,
-/// "system." or "friction." ("friction[1]." for laws in parallel) is put before it. Each record adds its own
-/// parameters: position and velocity at its first sample, offset, offset_v and offset_a (the readings of x, v and a
-/// at rest), offset_force (the reading of the force without one), release (the time of the first extreme), travel
-/// (the path of the mass that has loaded the contacts before the first sample). A law's parameter with such a name
-/// also gets "friction." before it.
+/// cubic_stiffness, loss_factor, damping, damping_ratio, phase, force_offset. The names of a law are those of its
+/// table, with a path into lists and records ("elements[1].stiffness", "warming.power"). If two parameters have the
+/// same name, "system." or "friction." ("friction[1]." for laws in parallel) is put before it. Each record adds its
+/// own parameters: position and velocity at its first sample, offset, offset_v and offset_a (the readings of x, v
+/// and a at rest), offset_force (the reading of the force without one), release (the time of the first extreme),
+/// travel (the path of the mass that has loaded the contacts before the first sample). A law's parameter with such
+/// a name also gets "friction." before it.
 ///
 /// Ranges are those of the laws' tables. The last `share` of a list of elements is 1 minus the sum of the others.
 
@@ -23,6 +23,7 @@
 
 #include "friction_models/law_entry.hpp"
 #include "friction_models/parameters.hpp"
+#include "identify/experiments/record_parameter.hpp"
 #include "identify/record.hpp"
 #include "sim/model.hpp"
 
@@ -33,39 +34,12 @@ struct RigLaw {
   friction::ParameterValues values;  ///< those that are stated
 };
 
-/// The parameters of a single record.
-enum class RecordParameter { position, velocity, offset, release, offset_v, offset_a, travel, offset_force };
-inline constexpr auto record_parameter_count = static_cast<std::size_t>(RecordParameter::offset_force) + 1;
-[[nodiscard]] std::string name_of(RecordParameter which);
-[[nodiscard]] std::string unit_of(RecordParameter which);  ///< SI
-/// The parameter with this name; nothing if no record has such a parameter.
-[[nodiscard]] std::optional<RecordParameter> find_record_parameter(std::string_view name);
-
-/// The zero of a sensor among the parameters of a record.
-struct SensorZero {
-  RecordParameter which;
-  std::string_view signal;  ///< that it shifts
-};
-inline constexpr std::array<SensorZero, 4> sensor_zeros = {{{RecordParameter::offset, "x"},
-                                                            {RecordParameter::offset_v, "v"},
-                                                            {RecordParameter::offset_a, "a"},
-                                                            {RecordParameter::offset_force, "force"}}};
-
-/// A value of each parameter of a single record [SI]; zero until it is set.
-class RecordValues {
- public:
-  [[nodiscard]] double& operator[](RecordParameter which) { return values_[static_cast<std::size_t>(which)]; }
-  [[nodiscard]] double operator[](RecordParameter which) const { return values_[static_cast<std::size_t>(which)]; }
-
- private:
-  std::array<double, record_parameter_count> values_{};
-};
-
 /// What a parameter belongs to.
 enum class Owner {
   mass,
   stiffness,
   cubic_stiffness,
+  loss_factor,
   damping,
   damping_ratio,
   phase,

@@ -92,6 +92,8 @@ Guess guess_of(const FitParameter& parameter, const DataScale& s) {
       return {0.1 * std::sqrt(s.mass * s.stiffness), 10.0};
     case Owner::damping_ratio:
       return {0.05, 10.0};
+    case Owner::loss_factor:
+      return {0.1, 10.0};
     case Owner::record:
       if (parameter.record_parameter == RecordParameter::travel) return {0.03 * s.length, 1.0};
       return {parameter.unit == "s"       ? time

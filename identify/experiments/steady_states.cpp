@@ -8,6 +8,7 @@
 #include "identify/experiments/balanced_states.hpp"
 #include "identify/experiments/experiment.hpp"
 #include "sim/orbits/steady_state_near.hpp"
+#include "sim/orbits/structural_damping.hpp"
 
 namespace dualdamp::identify {
 
@@ -23,7 +24,7 @@ sim::Model driven(const sim::Model& model, const Level& level, bool by_force) {
   result.excitation.type = by_force ? sim::ExcitationType::force_harmonic : sim::ExcitationType::base_harmonic;
   result.excitation.amplitude = level.Y;
   result.excitation.frequency = level.omega;
-  return result;
+  return result.oscillator.loss_factor == 0.0 ? result : sim::with_viscous_equivalent(std::move(result));
 }
 
 class SteadyStates final : public Experiment {

@@ -12,6 +12,7 @@
 #include "scenarios/analyses/shared/record_drive.hpp"
 #include "scenarios/analyses/shared/record_holds.hpp"
 #include "scenarios/analyses/shared/record_zeros.hpp"
+#include "scenarios/analyses/shared/structural_damping.hpp"
 #include "scenarios/format/excitations.hpp"
 #include "scenarios/format/values.hpp"
 #include "scenarios/measurements/measured_data.hpp"
@@ -87,6 +88,10 @@ FitQuestion::Setup setup_of(const Json& analysis, const Json& system, const Json
   for (std::size_t i = 0; i < laws.size(); ++i) {
     std::vector<identify::FitParameter> parameters =
         parameters_for(rigs[i], setup.data, sought_of_law(sought, laws, laws[i]), faults);
+    if (i == 0) {
+      check_structural_damping(rigs[i], parameters, setup.data, "data", faults);
+      check_structural_damping(rigs[i], parameters, setup.validation, "validate", faults);
+    }
     setup.candidates.push_back({std::move(rigs[i]), std::move(parameters)});
   }
   const auto is_loaded = [](const FitQuestion::Candidate& candidate) {
@@ -264,6 +269,7 @@ const Analysis& fit_analysis() {
                         {{"verdict", "", "verdict of the validation"}}),
       .chart = {.overlay = "fit"},
       .seeks_laws = true,
+      .steady_vibrations = true,
       .check = check_fit,
       .ask = ask_fit};
   return analysis;

@@ -14,6 +14,7 @@
 #include "scenarios/analyses/shared/record_drive.hpp"
 #include "scenarios/analyses/shared/record_holds.hpp"
 #include "scenarios/analyses/shared/record_zeros.hpp"
+#include "scenarios/analyses/shared/structural_damping.hpp"
 #include "scenarios/format/excitations.hpp"
 #include "scenarios/format/law_values.hpp"
 #include "scenarios/format/values.hpp"
@@ -228,6 +229,7 @@ std::unique_ptr<const Question> ask_predict(CheckedValues&& values) {
   std::vector<std::string> warnings = leave_out_holds(items, values.model, false);
   std::ranges::move(remove_zeros(items, values.model, {}), std::back_inserter(warnings));
   identify::Experiments data = experiments_from(items, "data", values.model, {}, faults);
+  check_structural_damping(rig, {}, data, "data", faults);
   // The drive of the fit is not assumed for a record that seems to hold another.
   const bool assumes_base = values.analysis.value("drive_of_fit", false) && values.model.excitation.moves_base();
   for (const DataItem& item : items)
@@ -289,6 +291,7 @@ const Analysis& predict_analysis() {
       .results = joined(validation_fields("validation."), {{"verdict", "", "what that means"}}),
       .chart = {.overlay = "prediction"},
       .seeks_laws = true,
+      .steady_vibrations = true,
       .check = check_predict,
       .ask = ask_predict};
   return analysis;

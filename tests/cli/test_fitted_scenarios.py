@@ -4,6 +4,7 @@
 usage: test_fitted_scenarios.py PROGRAM [TEST...]
 """
 
+import cmath
 import csv
 import json
 import math
@@ -235,6 +236,36 @@ class FittedScenarios(case.Case):
         self.assert_gives_the_fitted_curve("fit", "fitted.yaml", "fit_0_x.csv")
         self.write("named.yaml", scenario)
         self.assert_gives_the_fitted_curve(".", "named.yaml", "fit/fit_0_x.csv")
+
+    def test_of_a_loss_factor(self):
+        """The closed form of a complex stiffness gives the records; a motion in time is refused, and so is a second damper."""
+        def response(name, force):
+            rows = ["f [rad/s],Y [N],x [m],phase [rad]"]
+            for i in range(13):
+                omega = 50.0 + 2.0 * i
+                x = force / (8000.0 * (1.0 + 0.05j) - 2.0 * omega ** 2)
+                rows.append(f"{omega!r},{force!r},{abs(x)!r},{-cmath.phase(x)!r}")
+            return self.write(name, "\n".join(rows) + "\n")
+
+        response("response.csv", 3.0)
+        response("other.csv", 5.0)
+        rig = ("--mass", "2 kg", "--stiffness", "8000 N/m", "--damping", "0 N.s/m", "--set", "system.friction.kinetic=0 N", "--free", "loss_factor")
+        force = ("--set", "excitation={type: force_harmonic}")
+        self.run_program("fit", "coulomb", "response.csv", *rig, *force, "--no-profile", "--out", "fit")
+        result = json.loads((self.folder / "fit/result.json").read_text())["result"]
+        values = {each["name"]: each["value"] for each in result["parameters"]}
+        self.assertAlmostEqual(values["loss_factor"], 0.05, delta=1e-6)
+        self.run_program("run", "fit/fitted.yaml", "--out", "again")
+        fitted, again = self.table("fit/fit_0_x.csv"), self.table("again/curve.csv")
+        for a, b in zip(fitted["fitted"], again["x"]):
+            self.assertAlmostEqual(a / b, 1.0, delta=1e-9)
+        self.assertIn("describes this record", self.run_program("predict", "fit", "other.csv", "--out", "predicted").stdout)
+        self.write("decay.csv", "t [s],x [m]\n" + "\n".join(f"{i / 100!r},{0.01 * math.exp(-0.02 * i) * math.cos(0.6324 * i)!r}" for i in range(200)) + "\n")
+        refused = self.run_program("fit", "coulomb", "decay.csv", *rig, "--out", "none", status=3)
+        self.assertIn("no motion in time", refused.stderr)
+        self.write("base.csv", (self.folder / "response.csv").read_text().replace("Y [N]", "Y [m]"))
+        refused = self.run_program("fit", "coulomb", "base.csv", "--mass", "2 kg", "--stiffness", "8000 N/m", "--free", "loss_factor", "--out", "none", status=3)
+        self.assertIn("the system has one damper", refused.stderr)
 
     def test_of_a_driving_torque(self):
         path = self.record("data/turn.csv", 4.0, "coordinate: angle, ", "force [N.m]", 5.0)
