@@ -136,10 +136,7 @@ void check_predict(CheckedFile& file) {
   take_recorded_drives(file, assumes_drive || leaves_drive_open(file));
   check_laws(file);
   // A loop compares forces: a constant that the fit lacked has no part in them.
-  const auto is_loop = [&](const DataItem& item) {
-    return item.keys.is_object() && item.keys.value("loop", false);
-  };
-  if (std::ranges::all_of(items_of(file.values().at("analysis"), file.files, "data"), is_loop)) return;
+  if (std::ranges::all_of(items_of(file.values().at("analysis"), file.files, "data"), &DataItem::is_loop)) return;
   std::string lacking;
   for (const char* key : {"mass", "stiffness", "damping"})
     if (!file.has("system", key)) lacking += (lacking.empty() ? "" : ", ") + std::string(key);
@@ -165,7 +162,7 @@ std::string assumed_drive(const CheckedValues& values, const std::vector<DataIte
   if (!values.analysis.value("drive_of_fit", false)) return {};
   const sim::Excitation& drive = values.model.excitation;
   const bool is_assumed = std::ranges::any_of(items, [&](const DataItem& item) {
-    if (item.keys.is_object() && item.keys.value("loop", false)) return false;
+    if (item.is_loop()) return false;
     const std::vector<identify::History>& histories = item.data.record.histories;
     for (std::size_t h = 0; h < histories.size(); ++h) {
       if (item.drive_of(h) != nullptr) continue;

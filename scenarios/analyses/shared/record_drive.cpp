@@ -105,7 +105,7 @@ void refuse_other_drives(const std::vector<DataItem>& items, const std::string& 
       std::ranges::any_of(free, [](const std::string& name) { return name == "phase" || name == "system.phase"; });
   for (std::size_t i = 0; i < items.size(); ++i) {
     const DataItem& item = items[i];
-    if (item.keys.is_object() && item.keys.value("loop", false)) continue;
+    if (item.is_loop()) continue;
     const std::string place = key + (items.size() > 1 ? "[" + std::to_string(i) + "]" : "");
     for (std::size_t h = 0; h < item.data.record.histories.size(); ++h) {
       if (item.drive_of(h) != nullptr) continue;
