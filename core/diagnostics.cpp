@@ -46,6 +46,10 @@ std::string format(const Diagnostic& diagnostic) {
 }
 
 std::string joined(const std::vector<std::string>& words, std::string_view last) {
+  return joined(std::vector<std::string_view>(words.begin(), words.end()), last);
+}
+
+std::string joined(std::span<const std::string_view> words, std::string_view last) {
   std::string text;
   for (std::size_t i = 0; i < words.size(); ++i) {
     if (i > 0) text += i + 1 < words.size() ? ", " : last;

@@ -57,12 +57,6 @@ constexpr std::array<std::string_view, 9> column_names = {"case",   "zeta",    "
                                                           "F0_low", "F0_high", "p_value", "usable"};
 enum class Column : std::size_t { number, zeta, F0, zeta_low, zeta_high, F0_low, F0_high, p_value, usable };
 
-std::string all_columns() {
-  std::string text;
-  for (const std::string_view name : column_names) text += (text.empty() ? "" : ", ") + std::string(name);
-  return text;
-}
-
 /// Reads a file of answers line by line.
 class EntryReader {
  public:
@@ -86,7 +80,7 @@ class EntryReader {
                        std::to_string(columns_.size()), std::to_string(fields.size()));
       read_row(fields, seen);
     }
-    if (!has_header) refuse_answers(path_, 0, "the file holds no header", all_columns());
+    if (!has_header) refuse_answers(path_, 0, "the file holds no header", core::joined(column_names));
   }
 
  private:
@@ -94,14 +88,15 @@ class EntryReader {
     for (const std::string& field : fields) {
       const auto known = std::ranges::find(column_names, field);
       if (known == column_names.end())
-        refuse_answers(path_, line_, "there is no column of this name in a file of answers", all_columns(), field);
+        refuse_answers(path_, line_, "there is no column of this name in a file of answers",
+                       core::joined(column_names), field);
       const auto column = static_cast<Column>(known - column_names.begin());
       if (std::ranges::find(columns_, column) != columns_.end())
         refuse_answers(path_, line_, "a column is there twice", "distinct columns", field);
       columns_.push_back(column);
     }
     if (std::ranges::find(columns_, Column::number) == columns_.end())
-      refuse_answers(path_, line_, "the column 'case' is missing", all_columns());
+      refuse_answers(path_, line_, "the column 'case' is missing", core::joined(column_names));
   }
 
   /// NaN for an empty field, `nan`, `NA` or `none`.

@@ -76,12 +76,9 @@ void check_names(const ReadOptions& options, Problems& problems) {
                       {}});
       const KnownColumn* known = known_column(name);
       if (known != nullptr && !(numbers_only && known->unit.empty())) continue;
-      std::string names;
-      for (const std::string_view column : column_names(numbers_only))
-        names += (names.empty() ? "" : ", ") + std::string(column);
       problems.add({{options.name, 0, 0, {}},
                     std::string(option) + ": there is no column '" + name + "' that could be used",
-                    names,
+                    core::joined(column_names(numbers_only)),
                     {},
                     {}});
     }
@@ -260,8 +257,9 @@ ColumnUnits ColumnFactors::take_units() {
     names.push_back(assumption.name);
     units.push_back(assumption.name + " in " + assumption.unit);
   }
-  warnings_.push_back("no unit is stated for " + listed(names) + ": read " + listed(units) +
-                      "; state another one as " + options_.words(core::Setting::unit, names.back(), "UNIT"));
+  warnings_.push_back("no unit is stated for " + core::joined(names, " and ") + ": read " +
+                      core::joined(units, " and ") + "; state another one as " +
+                      options_.words(core::Setting::unit, names.back(), "UNIT"));
   return {std::move(names), std::move(stated_)};
 }
 

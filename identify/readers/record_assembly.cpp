@@ -10,6 +10,7 @@
 #include <span>
 #include <utility>
 
+#include "core/diagnostics.hpp"
 #include "identify/readers/channel_checks.hpp"
 #include "identify/readers/signal_checks.hpp"
 #include "identify/readers/time_base.hpp"
@@ -241,7 +242,7 @@ class Assembly {
                     words_(core::Setting::scale, "Y", "0.0005 m/N")
               : std::string(allowed_columns) + "; or samples of one rate, with " +
                     words_(core::Setting::sample_rate, {}, "1 kHz"),
-          "columns " + listed(names));
+          "columns " + core::joined(names, " and "));
     }
     if (!check_signals()) return {};
     drop_doubled_rows();

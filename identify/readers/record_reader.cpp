@@ -171,7 +171,7 @@ void refuse_unused(const TableFile& file, const ReadOptions& options, Problems& 
       problems.add(
           {{options.name, 0, 0, {}},
            std::string("a ") + option + " is stated for column " + column + ", and the file has no such column",
-           "the columns that were read: " + core::joined(there, ", ") + "; or one of another name, as " +
+           "the columns that were read: " + core::joined(there) + "; or one of another name, as " +
                options.words(core::Setting::column, column, "NAME"),
            column + "=" + text,
            {}});

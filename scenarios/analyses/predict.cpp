@@ -137,11 +137,12 @@ void check_predict(CheckedFile& file) {
   check_laws(file);
   // A loop compares forces: a constant that the fit lacked has no part in them.
   if (std::ranges::all_of(items_of(file.values().at("analysis"), file.files, "data"), &DataItem::is_loop)) return;
-  std::string lacking;
+  std::vector<std::string> lacking;
   for (const char* key : {"mass", "stiffness", "damping"})
-    if (!file.has("system", key)) lacking += (lacking.empty() ? "" : ", ") + std::string(key);
+    if (!file.has("system", key)) lacking.emplace_back(key);
   if (!lacking.empty())
-    file.complain("system", "the prediction of a motion needs the whole rig, and 'system' lacks " + lacking,
+    file.complain("system",
+                  "the prediction of a motion needs the whole rig, and 'system' lacks " + core::joined(lacking),
                   "mass, stiffness, damping, such as " + file.words()(core::Setting::value, "system.mass", "2 kg"));
 }
 

@@ -158,7 +158,7 @@ std::vector<std::string> warnings_about(const LawIntervals& laws, const AnyLawOp
   }
   if (!bounded.empty())
     warnings.push_back("the range may be wider: these laws fit best at the largest severity that was tried: " +
-                       core::joined(bounded, ", ") +
+                       core::joined(bounded) +
                        (stated ? "; without 'largest_severity' they are followed on where they can be" : ""));
   return warnings;
 }

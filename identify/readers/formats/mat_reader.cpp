@@ -185,7 +185,7 @@ class Reader {
       if (!found && !known->unit.empty())
         complain("there is no variable '" + called + "' to be used as " + column,
                  "a vector of the file, a field of its struct, or a part of a matrix such as 'data(:,2)'",
-                 excerpt(listed(listing_)));
+                 excerpt(core::joined(listing_, " and ")));
     }
   }
 
@@ -238,7 +238,7 @@ class Reader {
                 "vectors named like the columns, or one struct that holds them: " + std::string(allowed_columns) +
                     "; others by " + column_words("NAME") + ", " + column_words("'data(:,2)'") + ", " +
                     column_words("run.x"),
-                listing_.empty() ? "no variables" : excerpt(listed(listing_)));
+                listing_.empty() ? "no variables" : excerpt(core::joined(listing_, " and ")));
   }
 
   [[nodiscard]] static std::vector<Scope> elements_of(const matvar_t& variable) {

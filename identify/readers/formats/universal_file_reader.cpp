@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "core/diagnostics.hpp"
 #include "core/units.hpp"
 #include "identify/readers/column_factors.hpp"
 #include "identify/readers/formats/universal_file.hpp"
@@ -40,7 +41,7 @@ class Mapping {
       std::vector<std::string> names;
       for (const Function& f : functions) names.push_back("'" + name_of(f) + "'");
       refuse_file(file_, "no data set of the file is a signal that could be used", allowed(),
-                  "the data sets " + excerpt(listed(names)));
+                  "the data sets " + excerpt(core::joined(names, " and ")));
     }
     for (std::size_t i = 0; tests.size() > 1 && i < tests.size(); ++i) tests[i].label = std::to_string(i + 1);
     DataTable table = join(file_, tests);

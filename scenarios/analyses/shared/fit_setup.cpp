@@ -406,9 +406,9 @@ std::vector<FitParameter> parameters_for(const identify::Rig& rig, const identif
     std::vector<FitParameter> found = identify::named(all, name, fault);
     if (found.empty() && take_of_record(name, experiments, of_records)) continue;
     if (!fault.empty()) {
-      std::string names;
-      for (const FitParameter& parameter : all) names += (names.empty() ? "" : ", ") + parameter.name;
-      faults.push_back({"free", fault + "; there are " + names +
+      std::vector<std::string> names;
+      for (const FitParameter& parameter : all) names.push_back(parameter.name);
+      faults.push_back({"free", fault + "; there are " + core::joined(names) +
                                     ", position, velocity, travel, offset, offset_v, offset_a, "
                                     "offset_force"});
     }
