@@ -11,7 +11,6 @@
 #include <string_view>
 #include <vector>
 
-#include "core/constants.hpp"
 #include "core/coordinate.hpp"
 
 namespace dualdamp::identify {
@@ -57,9 +56,6 @@ struct Pair {
 [[nodiscard]] inline double frequency_of(const Pair& pair, const KnownConstants& constants) {
   return std::isnan(pair.omega) ? constants.frequency : pair.omega;
 }
-
-/// The angle in [-pi, pi] with the same sine and cosine.
-[[nodiscard]] inline double wrapped(double angle) { return std::remainder(angle, core::two_pi); }
 
 /// Whether two frequencies, or ratios of frequencies, are equal. Generators hold theirs to 1e-6, and a frequency
 /// from a record is not better than 1e-5.

@@ -5,6 +5,7 @@
 #include <span>
 #include <utility>
 
+#include "core/angle.hpp"
 #include "core/numbers.hpp"
 #include "identify/records/derived_records.hpp"
 #include "identify/records/sine_fit.hpp"
@@ -195,7 +196,7 @@ class PairReader {
     pair.x = half_peak_to_peak(x);
     pair.omega = drive.omega;
     pair.fundamental = x.harmonics[0].amplitude;
-    pair.phase = wrapped(y.harmonics[0].phase - x.harmonics[0].phase);
+    pair.phase = core::wrapped(y.harmonics[0].phase - x.harmonics[0].phase);
     pair.mean_square_speed = mean_square_speed(x, cut);
     pair.sweep = sweep_of(history_.sweep);
     diagnose(y, *steady, drive.omega);

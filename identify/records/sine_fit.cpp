@@ -8,6 +8,7 @@
 #include <numeric>
 #include <optional>
 
+#include "core/angle.hpp"
 #include "identify/statistics/decompositions.hpp"
 
 namespace dualdamp::identify {
@@ -176,7 +177,7 @@ void describe(SineFit& fit, const Basis& basis, const Trial& trial, std::size_t 
     const double amplitude = std::hypot(a, b);
     // a cos + b sin = A cos(k theta tau - psi); the first sample is at tau = -middle.
     const double phase = -std::atan2(b, a) - k * middle * basis.theta();
-    Harmonic harmonic{amplitude, std::remainder(phase, two_pi), 0.0};
+    Harmonic harmonic{amplitude, core::wrapped(phase), 0.0};
     if (amplitude > 0.0) {
       const double cos = a / amplitude;
       const double sin = b / amplitude;

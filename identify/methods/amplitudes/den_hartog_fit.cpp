@@ -7,6 +7,7 @@
 #include <numbers>
 #include <utility>
 
+#include "core/angle.hpp"
 #include "core/constants.hpp"
 #include "core/numbers.hpp"
 #include "identify/conclusion.hpp"
@@ -277,7 +278,7 @@ void judge_phases(const Record& record, const AmplitudeLaw& law, const ExactFit&
     const auto state = analytic::non_sticking_state(analytic::den_hartog(fit.p[0], datum.r * std::exp(-fit.p[2])),
                                                     datum.Y, std::max(fit.p[1], 0.0));
     if (!state) continue;
-    sum += std::remainder(pair->phase - state->phase, core::two_pi);
+    sum += core::wrapped(pair->phase - state->phase);
     ++count;
   }
   constexpr double largest = 0.03;  // rad
