@@ -16,13 +16,14 @@ namespace dualdamp::identify {
 void refuse(Estimate& estimate, std::string reason);
 
 /// Diagnostic of one parameter that cannot be negative: it came out negative, or cannot be distinguished from zero.
-/// A reason not to use the estimate is appended to `faults`, a lesser one to the estimate's warnings. `least`: what
-/// rounding alone makes of a parameter that is zero. `interval`: of 95 %; nullptr: there is none.
-void judge_sign(double value, double least, const Interval* interval, const std::string& name, Estimate& estimate,
+/// A reason not to use the estimate is appended to `faults`, a lesser one to the estimate's warnings. `scale`: size
+/// of the parameter that the data could show; a share of it is taken for rounding, 0: none. `interval`: of 95 %;
+/// nullptr: there is none.
+void judge_sign(double value, double scale, const Interval* interval, const std::string& name, Estimate& estimate,
                 std::vector<std::string>& faults);
 
-/// The diagnostics of zeta and of the Coulomb friction, by x_f; `least_x_f` in m.
-void judge_signs(Estimate& estimate, double least_x_f, std::vector<std::string>& faults);
+/// The diagnostics of zeta, whose scale is 1, and of the Coulomb friction, by x_f; `scale_x_f` in m.
+void judge_signs(Estimate& estimate, double scale_x_f, std::vector<std::string>& faults);
 
 /// Sets `sound`, `usable` and `reason`. The estimate is usable if there are neither `faults` nor findings; `basis`
 /// is then the reason.

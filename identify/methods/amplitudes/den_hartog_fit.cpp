@@ -366,7 +366,7 @@ Estimate den_hartog_fit(const Record& record, const KnownConstants& constants, c
   if (scatter) warn_of_scatter(scatter->ratio, freedom, estimate);
 
   std::vector<std::string> faults;
-  judge_signs(estimate, 1e-9 * law.pairs().front().Y * data->unit, faults);
+  judge_signs(estimate, law.pairs().front().Y * data->unit, faults);
   test_fit(law, *fit, estimate);
   judge_phases(record, law, *fit, estimate);
   if (options.profile && scatter)

@@ -61,7 +61,7 @@ TEST_CASE("A parameter whose corrected interval lies below zero is no estimate, 
   const auto faults_of = [](double value, const Interval& interval) {
     Estimate estimate;
     std::vector<std::string> faults;
-    judge_sign(value, 1e-9, &interval, "the Coulomb friction", estimate, faults);
+    judge_sign(value, 1.0, &interval, "the Coulomb friction", estimate, faults);
     return faults.size();
   };
   CHECK(faults_of(3.5, {-43.0, -38.0}) == 1);  // corrected for a bias that is larger than it
@@ -75,7 +75,7 @@ TEST_CASE("A parameter whose interval contains zero, its ends included, is said 
   const auto warnings_of = [](double value, const Interval& interval) {
     Estimate estimate;
     std::vector<std::string> faults;
-    judge_sign(value, 1e-9, &interval, "the Coulomb friction", estimate, faults);
+    judge_sign(value, 1.0, &interval, "the Coulomb friction", estimate, faults);
     CHECK(faults.empty());
     return estimate.warnings.size();
   };
