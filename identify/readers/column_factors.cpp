@@ -246,16 +246,16 @@ double ColumnFactors::scaled(const KnownColumn& known, const std::string& scale,
 
 /// Adds the column to the assumed ones, once for all tests.
 void ColumnFactors::assume(const std::string& name, const std::string& unit) {
-  if (std::ranges::find(assumed_, name, &Assumption::name) == assumed_.end()) assumed_.push_back({name, unit});
+  if (std::ranges::find(assumed_, name, &AssumedUnit::name) == assumed_.end()) assumed_.push_back({name, unit});
 }
 
 ColumnUnits ColumnFactors::take_units() {
   if (assumed_.empty()) return {{}, std::move(stated_)};
   std::vector<std::string> names;
   std::vector<std::string> units;
-  for (const Assumption& assumption : assumed_) {
-    names.push_back(assumption.name);
-    units.push_back(assumption.name + " in " + assumption.unit);
+  for (const AssumedUnit& assumed : assumed_) {
+    names.push_back(assumed.name);
+    units.push_back(assumed.name + " in " + assumed.unit);
   }
   warnings_.push_back("no unit is stated for " + core::joined(names, " and ") + ": read " +
                       core::joined(units, " and ") + "; state another one as " +
