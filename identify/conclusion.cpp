@@ -15,7 +15,7 @@ constexpr double rounding_share = 1e-9;
 
 }  // namespace
 
-std::string fault_of(const KnownConstants& constants) {
+std::string lacks_constants(const KnownConstants& constants) {
   const auto positive = [](double value) { return value > 0.0 && std::isfinite(value); };
   if (std::isnan(constants.mass)) return "the method needs the mass";
   if (std::isnan(constants.stiffness)) return "the method needs the stiffness";

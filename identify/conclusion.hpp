@@ -10,7 +10,7 @@
 namespace dualdamp::identify {
 
 /// Why constants cannot be used; empty if they can. Mass and stiffness must be positive and finite.
-[[nodiscard]] std::string fault_of(const KnownConstants& constants);
+[[nodiscard]] std::string lacks_constants(const KnownConstants& constants);
 
 /// Marks that there is no estimate: `outcome` becomes not_identifiable, with the reason.
 void refuse(Estimate& estimate, std::string reason);

@@ -222,7 +222,7 @@ JointModel amplitude_model_of(const AmplitudeFit& fit, const AmplitudeStates& st
 
 std::variant<JointModel, std::string> amplitude_model(const Record& record, const KnownConstants& constants,
                                                       const KnownDeviations& known) {
-  if (std::string fault = fault_of(constants); !fault.empty()) return fault;
+  if (std::string fault = lacks_constants(constants); !fault.empty()) return fault;
   Estimate taken;
   const std::optional<std::vector<Pair>> pairs = take_states(record, constants, false, taken);
   if (!pairs) return taken.reason;

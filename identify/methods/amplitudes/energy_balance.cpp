@@ -143,7 +143,7 @@ std::vector<EnergyTerms> accounts_of_histories(const Record& record, const Known
 Estimate of_histories(const Record& record, const KnownConstants& constants, const FilterOptions& options,
                       Estimate estimate) {
   estimate.is_of_histories = true;
-  if (std::string fault = fault_of(constants); !fault.empty()) {
+  if (std::string fault = lacks_constants(constants); !fault.empty()) {
     refuse(estimate, std::move(fault));
     return estimate;
   }
