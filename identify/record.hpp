@@ -5,6 +5,7 @@
 /// produced it.
 
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <optional>
 #include <string>
@@ -96,6 +97,10 @@ struct History {
 
   /// A drive was measured; a history without one is of a free vibration, or of a drive that the constants state.
   [[nodiscard]] bool has_drive() const { return !y.empty() || !force.empty(); }
+
+  /// The drive at a sample: 0 for a part that was not measured.
+  [[nodiscard]] double y_at(std::size_t sample) const { return y.empty() ? 0.0 : y[sample]; }
+  [[nodiscard]] double force_at(std::size_t sample) const { return force.empty() ? 0.0 : force[sample]; }
 };
 
 /// All that was measured; kinds of data that were not measured are empty.
