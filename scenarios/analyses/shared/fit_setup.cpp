@@ -245,8 +245,9 @@ std::vector<std::string> drive_warnings(const std::vector<DataItem>& items, cons
   // to it.
   const std::vector<double>& y = samples->values();
   const double noise = identify::noise_level(y);
-  const double second = std::sqrt(6.0) * identify::noise_level(y, 2);
-  const double smooth = std::sqrt(std::max(0.0, second * second - 6.0 * noise * noise)) / 12.0;
+  const double second = std::sqrt(identify::second_difference_gain) * identify::noise_level(y, 2);
+  const double square_of_curve = second * second - identify::second_difference_gain * noise * noise;
+  const double smooth = std::sqrt(std::max(0.0, square_of_curve)) / 12.0;
   const double mean = std::reduce(y.begin(), y.end()) / static_cast<double>(y.size());
   double square = 0.0;
   for (const double value : y) square += (value - mean) * (value - mean) / static_cast<double>(y.size());
