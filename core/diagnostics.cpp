@@ -63,4 +63,8 @@ InputError::InputError(std::vector<Diagnostic> diagnostics)
 
 InputError::InputError(Diagnostic diagnostic) : InputError(std::vector<Diagnostic>{std::move(diagnostic)}) {}
 
+void refuse(SourcePlace place, std::string message, std::string allowed, std::string found) {
+  throw InputError(Diagnostic{std::move(place), std::move(message), std::move(allowed), std::move(found), {}});
+}
+
 }  // namespace dualdamp::core

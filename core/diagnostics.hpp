@@ -61,4 +61,7 @@ class InputError : public std::runtime_error {
   std::vector<Diagnostic> diagnostics_;
 };
 
+/// Throws an `InputError` with this one problem.
+[[noreturn]] void refuse(SourcePlace place, std::string message, std::string allowed = {}, std::string found = {});
+
 }  // namespace dualdamp::core

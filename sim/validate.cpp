@@ -189,7 +189,7 @@ void require_in(const Range& range, std::string_view path, std::span<const doubl
 }
 
 void refuse(std::string_view message, std::string_view allowed) {
-  throw core::InputError(Diagnostic{.message = std::string(message), .allowed = std::string(allowed)});
+  core::refuse({}, std::string(message), std::string(allowed));
 }
 
 void require(bool holds, std::string_view message, std::string_view allowed) {

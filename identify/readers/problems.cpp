@@ -68,9 +68,4 @@ void Problems::throw_if_any() const {
   if (!groups_.empty()) throw core::InputError(diagnostics());
 }
 
-void refuse_file(const std::string& file, std::string message, std::string allowed, std::string found) {
-  throw core::InputError(
-      core::Diagnostic{{file, 0, 0, {}}, std::move(message), std::move(allowed), std::move(found), {}});
-}
-
 }  // namespace dualdamp::identify

@@ -232,7 +232,7 @@ std::unique_ptr<const Question> ask_predict(CheckedValues&& values) {
     if (assumes_base && std::ranges::all_of(item.data.record.histories, [](const auto& h) { return h.y.empty(); }))
       if (std::string idle = idle_drive(item, {}); !idle.empty()) faults.push_back({"data", std::move(idle)});
   refuse_other_drives(items, "data", values.model, values.drive_start, {}, faults);
-  refuse(faults);
+  throw_if_any(faults);
   std::ranges::move(drive_warnings(items, values.model), std::back_inserter(warnings));
   for (const DataFile& file : values.files)
     for (const std::string& warning : file.data.warnings) warnings.push_back(file.name + ": " + warning);

@@ -302,7 +302,7 @@ void refuse_idle_noise(const std::vector<DataItem>& items, const std::string& ke
 
 }  // namespace
 
-void refuse(const std::vector<SetupFault>& faults) {
+void throw_if_any(const std::vector<SetupFault>& faults) {
   if (faults.empty()) return;
   std::vector<core::Diagnostic> problems;
   for (const SetupFault& fault : faults)

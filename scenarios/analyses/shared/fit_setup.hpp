@@ -71,7 +71,7 @@ struct SetupFault {
   std::string message;
 };
 /// Throws `core::InputError` if there are faults.
-void refuse(const std::vector<SetupFault>& faults);
+void throw_if_any(const std::vector<SetupFault>& faults);
 
 /// Experiments of all items; data that cannot be used are reported in `faults`.
 [[nodiscard]] identify::Experiments experiments_from(const std::vector<DataItem>& items, const std::string& key,
