@@ -342,7 +342,7 @@ class Motions {
 double duration_of(const Json& scenario, const sim::Model& model) {
   const Json& analysis = scenario.at("analysis");
   if (analysis.contains("duration")) return analysis.at("duration").get<double>();
-  const double natural = core::two_pi / sim::natural_frequency(model.oscillator);
+  const double natural = sim::natural_period(model.oscillator);
   const double forcing = core::two_pi / model.excitation.frequency;
   return std::min(3.0 * forcing + 10.0 * natural, 60.0 * std::min(natural, forcing));
 }
