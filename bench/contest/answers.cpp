@@ -143,7 +143,7 @@ class EntryReader {
       if (std::isnan(interval[0]) != std::isnan(interval[1]))
         core::refuse(here(), "an interval has one end", "both ends, or none");
       if (interval[0] > interval[1])
-        core::refuse(here(), "an interval ends below its begin", "low <= high",
+        core::refuse(here(), "an interval ends below its start", "low <= high",
                      core::format_number(interval[0]) + " > " + core::format_number(interval[1]));
     }
     const auto place = static_cast<std::size_t>(file) - 1;

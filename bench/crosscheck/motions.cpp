@@ -251,10 +251,10 @@ class Motions {
       findings_.push_back({"energy balance", Verdict::exception, 0.0, away});
       return;
     }
-    // If a walk is given up at its begin, all its energies are rounding.
+    // If a walk is given up at its start, all its energies are rounding.
     constexpr double begin = 1e-9;
     if (first_.ended_early && first_.end < begin * options_.duration) {
-      findings_.push_back({"energy balance", Verdict::not_compared, 0.0, "given up at its begin"});
+      findings_.push_back({"energy balance", Verdict::not_compared, 0.0, "given up at its start"});
       return;
     }
     const double defect = std::abs(first_.energy.defect) / first_.energy_scale;
