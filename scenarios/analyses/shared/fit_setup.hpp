@@ -61,10 +61,6 @@ struct Sought {
 /// "coulomb + viscous_power"
 [[nodiscard]] std::string laws_text(const identify::Rig& rig);
 
-/// Warning about a stated drive of histories that was sampled too coarsely for the straight lines or cubics between
-/// its samples.
-[[nodiscard]] std::vector<std::string> drive_warnings(const std::vector<DataItem>& items, const sim::Model& model);
-
 /// What is wrong with the statements of a fit.
 struct SetupFault {
   std::string path;  ///< below `analysis`
