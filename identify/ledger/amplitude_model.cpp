@@ -16,6 +16,7 @@
 #include "identify/ledger/stated_noise.hpp"
 #include "identify/methods/amplitudes/steady_states.hpp"
 #include "identify/statistics/decompositions.hpp"
+#include "identify/statistics/scatter.hpp"
 #include "identify/statistics/statistics.hpp"
 
 namespace dualdamp::identify {

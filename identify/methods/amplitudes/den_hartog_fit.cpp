@@ -19,6 +19,7 @@
 #include "identify/statistics/distributions.hpp"
 #include "identify/statistics/least_squares.hpp"
 #include "identify/statistics/profile_likelihood.hpp"
+#include "identify/statistics/scatter.hpp"
 #include "identify/statistics/statistics.hpp"
 #include "identify/statistics/unequal_errors.hpp"
 #include "sim/analytic/den_hartog.hpp"

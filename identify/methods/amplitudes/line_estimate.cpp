@@ -10,6 +10,7 @@
 #include "identify/methods/amplitudes/bootstrap.hpp"
 #include "identify/statistics/distributions.hpp"
 #include "identify/statistics/profile_likelihood.hpp"
+#include "identify/statistics/scatter.hpp"
 #include "identify/statistics/statistics.hpp"
 
 namespace dualdamp::identify {

@@ -10,6 +10,7 @@
 #include "identify/methods/amplitudes/bootstrap.hpp"
 #include "identify/methods/amplitudes/line_estimate.hpp"
 #include "identify/statistics/distributions.hpp"
+#include "identify/statistics/scatter.hpp"
 #include "identify/statistics/statistics.hpp"
 #include "sim/analytic/den_hartog.hpp"
 
