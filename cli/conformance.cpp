@@ -11,14 +11,10 @@ namespace dualdamp::cli {
 
 namespace {
 
-[[noreturn]] void refuse_option(const std::string& option, const std::string& message) {
-  throw core::InputError(core::Diagnostic{{.file = option}, message, {}, {}, {}});
-}
-
 double positive(const std::string& option, const std::string& text, const std::string& unit) {
   const core::QuantityText quantity = core::parse_quantity(text, unit);
-  if (!quantity.value) refuse_option(option, quantity.fault);
-  if (!(*quantity.value > 0.0)) refuse_option(option, "must be above 0");
+  if (!quantity.value) core::refuse({.file = option}, quantity.fault);
+  if (!(*quantity.value > 0.0)) core::refuse({.file = option}, "must be above 0");
   return *quantity.value;
 }
 
@@ -30,7 +26,7 @@ sim::LawCase case_of(const LawsCommand& command) {
     result.stroke_time = positive("--stroke-time", command.stroke_time, "s");
     return result;
   } catch (const std::invalid_argument& error) {
-    refuse_option("laws --check", error.what());
+    core::refuse({.file = "laws --check"}, error.what());
   }
 }
 

@@ -95,10 +95,6 @@ void add_stated(const std::string& laws, std::vector<std::string>& settings, sce
   if (!stated.empty()) options.set.push_back({"analysis.stated=[" + stated + "]", "--set"});
 }
 
-[[noreturn]] void refuse_result(const std::string& file, std::string message) {
-  throw core::InputError(core::Diagnostic{.place = {.file = file}, .message = std::move(message)});
-}
-
 /// Reads result.json of a fit.
 Json fitted_document(const std::string& path) {
   namespace fs = std::filesystem;
@@ -107,8 +103,8 @@ Json fitted_document(const std::string& path) {
   constexpr std::size_t largest = std::size_t{1} << 26U;
   Json document = scenarios::parse_json(scenarios::read_file(file.string(), largest));
   if (!document.is_object() || document.value("analysis", Json()) != "fit" || !document.contains("result"))
-    refuse_result(file.string(), "this is not the result of a fit");
-  if (!document.at("result").is_object()) refuse_result(file.string(), "the fit has no result");
+    core::refuse({.file = file.string()}, "this is not the result of a fit");
+  if (!document.at("result").is_object()) core::refuse({.file = file.string()}, "the fit has no result");
   return document;
 }
 
@@ -179,7 +175,7 @@ scenarios::Scenario scenario_of(const PredictCommand& command) {
   try {
     return prediction_by(document, command);
   } catch (const Json::exception&) {
-    refuse_result(command.result, "the result of the fit is damaged");
+    core::refuse({.file = command.result}, "the result of the fit is damaged");
   }
 }
 

@@ -1,8 +1,10 @@
 #include "cli/identify_scenario.hpp"
 
 #include <string>
+#include <vector>
 
 #include "cli/command_line/option_text.hpp"
+#include "core/diagnostics.hpp"
 
 namespace dualdamp::cli {
 
@@ -56,9 +58,9 @@ scenarios::Scenario scenario_of(const IdentifyCommand& command) {
            options);
   if (command.robust) options.set.push_back({"analysis.robust=true", "--robust"});
   if (!command.methods.empty()) {
-    std::string names;
-    for (const std::string& name : command.methods) names += (names.empty() ? "" : ", ") + in_quotes(name);
-    options.set.push_back({"analysis.methods=[" + names + "]", "--method"});
+    std::vector<std::string> names;
+    for (const std::string& name : command.methods) names.push_back(in_quotes(name));
+    options.set.push_back({"analysis.methods=[" + core::joined(names) + "]", "--method"});
   }
   return scenario_about(command.data, "identify", options);
 }

@@ -46,6 +46,10 @@ std::string format(const Diagnostic& diagnostic) {
 }
 
 std::string joined(const std::vector<std::string>& words, std::string_view last) {
+  return joined(std::vector<std::string_view>(words.begin(), words.end()), last);
+}
+
+std::string joined(std::span<const std::string_view> words, std::string_view last) {
   std::string text;
   for (std::size_t i = 0; i < words.size(); ++i) {
     if (i > 0) text += i + 1 < words.size() ? ", " : last;
@@ -58,5 +62,9 @@ InputError::InputError(std::vector<Diagnostic> diagnostics)
     : std::runtime_error(join(diagnostics)), diagnostics_(std::move(diagnostics)) {}
 
 InputError::InputError(Diagnostic diagnostic) : InputError(std::vector<Diagnostic>{std::move(diagnostic)}) {}
+
+void refuse(SourcePlace place, std::string message, std::string allowed, std::string found) {
+  throw InputError(Diagnostic{std::move(place), std::move(message), std::move(allowed), std::move(found), {}});
+}
 
 }  // namespace dualdamp::core

@@ -4,6 +4,7 @@
 /// Input faults are thrown as one `InputError` with every problem found, so that a user can correct a file in one
 /// pass. Numerical outcomes are not exceptions: see `core/outcome.hpp`.
 
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -46,6 +47,7 @@ struct Diagnostic {
 
 /// Words of a message: "a, b, c"; with `last` = " and ": "a, b and c".
 [[nodiscard]] std::string joined(const std::vector<std::string>& words, std::string_view last = ", ");
+[[nodiscard]] std::string joined(std::span<const std::string_view> words, std::string_view last = ", ");
 
 /// Thrown by the readers of scenario files, data files and the command line, with all problems found.
 class InputError : public std::runtime_error {
@@ -58,5 +60,8 @@ class InputError : public std::runtime_error {
  private:
   std::vector<Diagnostic> diagnostics_;
 };
+
+/// Throws an `InputError` with this one problem.
+[[noreturn]] void refuse(SourcePlace place, std::string message, std::string allowed = {}, std::string found = {});
 
 }  // namespace dualdamp::core

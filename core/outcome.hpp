@@ -13,7 +13,7 @@ enum class OutcomeKind {
   no_steady_state,   ///< the motion grows, or has not settled within the stated number of periods
   not_unique,        ///< a continuum of steady states and none is singled out by the initial state
   event_limit,       ///< more events than the stated limit
-  jump_cycle,        ///< a law's jumps did not end within 32 repeats
+  jump_cycle,        ///< a law's jumps did not end
   not_finite,        ///< a value left the range of double precision
   not_identifiable,  ///< the record does not allow an estimate
 };

@@ -11,8 +11,8 @@
 ///   guards      values that are > 0 while the law's mode holds; the mode ends when one reaches 0 from above.
 ///   jump        the mode change: at a guard of the law (`trigger` = its index), when the mass reverses, stops or
 ///               is released (`Trigger::direction_change`), or at a time of the law's own schedule. It is called
-///               again while a guard is violated in the new mode. It decides by the mode and the trigger, not by
-///               values.
+///               again while a guard is violated in the new mode, `max_repeats` times at most. It decides by the
+///               mode and the trigger, not by values.
 ///
 /// Sticking belongs to the driver. A law that can make the mass stick gives its static limit: how far its force can
 /// differ from its force of direction none. That force is 0 for a law that holds the mass equally in both
@@ -40,6 +40,9 @@
 #include "friction_models/law_model.hpp"
 
 namespace dualdamp::friction {
+
+/// Jumps in succession, at most: after them a mode change that did not come to an end is given up.
+inline constexpr int max_repeats = 32;
 
 /// Any law as a value, for choice at run time. Parameters are shared and immutable, so a copy is cheap. Functions
 /// of an ability that the law lacks return the value stated here, without a call.

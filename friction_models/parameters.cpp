@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "core/diagnostics.hpp"
 #include "core/numbers.hpp"
 
 namespace dualdamp::friction {
@@ -20,17 +21,10 @@ std::string with_unit(double value, std::string_view unit) {
   return text;
 }
 
-template <typename Names>
-std::string joined(const Names& names) {
-  std::string text;
-  for (const std::string_view name : names) text += (text.empty() ? "" : ", ") + std::string(name);
-  return text;
-}
-
 std::string names(const std::vector<Parameter>& table) {
   std::vector<std::string_view> list;
   for (const Parameter& parameter : table) list.push_back(parameter.name);
-  return list.empty() ? "no parameter" : joined(list);
+  return list.empty() ? "no parameter" : core::joined(list);
 }
 
 std::string shown(const Value& value, std::string_view unit) {
@@ -114,7 +108,7 @@ class Completion {
   }
 
   void complain_about_missing(const Parameter& parameter) {
-    const std::string others = joined(names_instead_of(table_, parameter.name));
+    const std::string others = core::joined(names_instead_of(table_, parameter.name));
     complain(parameter, "is missing",
              parameter.describe(values_.coordinate()) + (others.empty() ? "" : "; or " + others + " instead"), {});
     faults_.back().is_missing = true;
@@ -253,7 +247,7 @@ std::string Parameter::describe(core::Coordinate coordinate) const {
     case ParameterKind::seed:
       return "a whole number, " + allowed_range().describe(unit);
     case ParameterKind::choice:
-      return joined(words);
+      return core::joined(words);
     case ParameterKind::flag:
       return "true, false";
     case ParameterKind::record:
@@ -269,7 +263,7 @@ std::string describe_default(const std::vector<Parameter>& table, const Paramete
   if (!parameter.same_as.empty()) return "that of '" + std::string(parameter.same_as) + "'";
   if (parameter.is_optional) return {};
   if (!parameter.instead_of.empty()) return "required without '" + std::string(parameter.instead_of) + "'";
-  const std::string others = joined(names_instead_of(table, parameter.name));
+  const std::string others = core::joined(names_instead_of(table, parameter.name));
   return others.empty() ? "required" : "required, or " + others;
 }
 

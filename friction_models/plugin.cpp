@@ -40,7 +40,7 @@ class Refusal {
 
   [[noreturn]] void operator()(const std::string& why, const std::string& allowed = {},
                                const std::string& found = {}) const {
-    throw core::InputError(core::Diagnostic{{.file = file_}, "plugin refused: " + why, allowed, found, {}});
+    core::refuse({.file = file_}, "plugin refused: " + why, allowed, found);
   }
   void unless(bool holds, const std::string& why, const std::string& allowed = {},
               const std::string& found = {}) const {

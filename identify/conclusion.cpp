@@ -7,7 +7,15 @@
 
 namespace dualdamp::identify {
 
-std::string fault_of(const KnownConstants& constants) {
+namespace {
+
+/// What rounding alone makes of a parameter that is zero, by its scale: from exact data 1e-16 times the condition
+/// of the fit, with room for conditions up to a million; no sensor resolves as little.
+constexpr double rounding_share = 1e-9;
+
+}  // namespace
+
+std::string lacks_constants(const KnownConstants& constants) {
   const auto positive = [](double value) { return value > 0.0 && std::isfinite(value); };
   if (std::isnan(constants.mass)) return "the method needs the mass";
   if (std::isnan(constants.stiffness)) return "the method needs the stiffness";
@@ -22,8 +30,9 @@ void refuse(Estimate& estimate, std::string reason) {
   estimate.reason = std::move(reason);
 }
 
-void judge_sign(double value, double least, const Interval* interval, const std::string& name, Estimate& estimate,
+void judge_sign(double value, double scale, const Interval* interval, const std::string& name, Estimate& estimate,
                 std::vector<std::string>& faults) {
+  const double least = rounding_share * scale;
   const bool negative = value < -least;
   if (interval == nullptr) {
     if (negative) faults.push_back(name + " came out negative");
@@ -38,12 +47,11 @@ void judge_sign(double value, double least, const Interval* interval, const std:
   }
 }
 
-void judge_signs(Estimate& estimate, double least_x_f, std::vector<std::string>& faults) {
-  constexpr double least_zeta = 1e-9;
+void judge_signs(Estimate& estimate, double scale_x_f, std::vector<std::string>& faults) {
   const bool known = estimate.interval95.has_value();
-  judge_sign(estimate.value.zeta, least_zeta, known ? &estimate.interval95->zeta : nullptr, "the damping ratio",
-             estimate, faults);
-  judge_sign(estimate.value.x_f, least_x_f, known ? &estimate.interval95->x_f : nullptr, "the Coulomb friction",
+  judge_sign(estimate.value.zeta, 1.0, known ? &estimate.interval95->zeta : nullptr, "the damping ratio", estimate,
+             faults);
+  judge_sign(estimate.value.x_f, scale_x_f, known ? &estimate.interval95->x_f : nullptr, "the Coulomb friction",
              estimate, faults);
 }
 

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
+#include "identify/conclusion.hpp"
 #include "identify/validate.hpp"
 
 namespace dualdamp::identify {
@@ -51,11 +53,10 @@ OptionValues MethodEntry::own(const OptionValues& values) const {
 Estimate MethodEntry::run(const Record& record, const KnownConstants& constants, const OptionValues& values) const {
   if (std::vector<core::Diagnostic> faults = faults_of(values, options()); !faults.empty())
     throw core::InputError(std::move(faults));
-  if (const std::string fault = fault_of_input(record, constants); !fault.empty()) {
+  if (std::string fault = fault_of_input(record, constants); !fault.empty()) {
     Estimate estimate;
     estimate.method = name;
-    estimate.outcome = {core::OutcomeKind::not_identifiable, fault};
-    estimate.reason = fault;
+    refuse(estimate, std::move(fault));
     return estimate;
   }
   return call.run(record, constants, values);

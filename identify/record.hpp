@@ -5,13 +5,13 @@
 /// produced it.
 
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "core/constants.hpp"
 #include "core/coordinate.hpp"
 
 namespace dualdamp::identify {
@@ -58,9 +58,6 @@ struct Pair {
   return std::isnan(pair.omega) ? constants.frequency : pair.omega;
 }
 
-/// The angle in [-pi, pi] with the same sine and cosine.
-[[nodiscard]] inline double wrapped(double angle) { return std::remainder(angle, core::two_pi); }
-
 /// Whether two frequencies, or ratios of frequencies, are equal. Generators hold theirs to 1e-6, and a frequency
 /// from a record is not better than 1e-5.
 [[nodiscard]] inline bool is_same_frequency(double a, double b) {
@@ -100,6 +97,10 @@ struct History {
 
   /// A drive was measured; a history without one is of a free vibration, or of a drive that the constants state.
   [[nodiscard]] bool has_drive() const { return !y.empty() || !force.empty(); }
+
+  /// The drive at a sample: 0 for a part that was not measured.
+  [[nodiscard]] double y_at(std::size_t sample) const { return y.empty() ? 0.0 : y[sample]; }
+  [[nodiscard]] double force_at(std::size_t sample) const { return force.empty() ? 0.0 : force[sample]; }
 };
 
 /// All that was measured; kinds of data that were not measured are empty.

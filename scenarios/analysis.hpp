@@ -124,7 +124,7 @@ struct MainChart {
   std::string_view x_otherwise = {};  ///< column, where there is no column x
   bool is_by_x = false;               ///< the rows are in any order, and a line joins them in that of x
   std::string_view key = {};          ///< the key without which a run does not write the table
-  std::string_view overlay = {};      ///< instead of a list: begin of the names of the tables of such curves
+  std::string_view overlay = {};      ///< instead of a list: start of the names of the tables of such curves
 };
 
 struct Analysis {

@@ -8,6 +8,7 @@
 
 #include <cmath>
 
+#include "core/constants.hpp"
 #include "core/coordinate.hpp"
 
 namespace dualdamp::sim {
@@ -53,6 +54,9 @@ struct Oscillator {
 
 /// wn = sqrt(k/m) [rad/s]
 [[nodiscard]] inline double natural_frequency(const Oscillator& o) { return std::sqrt(o.stiffness / o.mass); }
+
+/// 2 pi/wn [s]
+[[nodiscard]] inline double natural_period(const Oscillator& o) { return core::two_pi / natural_frequency(o); }
 
 /// zeta = c / (2 sqrt(m k)) [-]
 [[nodiscard]] inline double damping_ratio(const Oscillator& o) {

@@ -23,15 +23,14 @@ SampledSignal::SampledSignal(std::vector<double> times, std::vector<double> valu
                              bool repeats)
     : times_(std::move(times)), values_(std::move(values)), interpolation_(interpolation), repeats_(repeats) {
   require(times_.size() == values_.size(), "a sampled signal has as many times as values", "equal numbers");
-  require(times_.size() >= 2, "a sampled signal has too few nodes: " + std::to_string(times_.size()),
-          "two or more");
+  if (times_.size() < 2)
+    refuse("a sampled signal has too few nodes: " + std::to_string(times_.size()), "two or more");
   require(times_.front() == 0.0, "the first time of a sampled signal is not 0", "0");
   for (std::size_t i = 0; i < times_.size(); ++i) {
-    const std::string which = "node " + std::to_string(i + 1) + " of a sampled signal";
-    if (!std::isfinite(times_[i]) || !std::isfinite(values_[i]))
-      require(false, which + " is not finite", "numbers");
+    const auto which = [i] { return "node " + std::to_string(i + 1) + " of a sampled signal"; };
+    if (!std::isfinite(times_[i]) || !std::isfinite(values_[i])) refuse(which() + " is not finite", "numbers");
     if (i > 0 && !(times_[i] > times_[i - 1]))
-      require(false, which + " is no later than the one before", "times that increase");
+      refuse(which() + " is no later than the one before", "times that increase");
     size_ = std::max(size_, std::abs(values_[i]));
   }
   if (interpolation_ == Interpolation::cubic) build_spline();

@@ -168,14 +168,14 @@ const Model& valid(const Model& model) {
 
 const Model& valid_harmonic(const Model& model, std::string_view analysis) {
   if (!model.excitation.is_harmonic()) [[unlikely]]
-    require(false, std::string(analysis) + " does not work with " + type_of(model.excitation),
-            "base_harmonic, force_harmonic");
+    refuse(std::string(analysis) + " does not work with " + type_of(model.excitation),
+           "base_harmonic, force_harmonic");
   return valid(model);
 }
 
 const Model& valid_free(const Model& model, std::string_view analysis) {
   if (model.excitation.type != ExcitationType::none) [[unlikely]]
-    require(false, std::string(analysis) + " does not work with " + type_of(model.excitation), "none");
+    refuse(std::string(analysis) + " does not work with " + type_of(model.excitation), "none");
   return valid(model);
 }
 
@@ -188,9 +188,13 @@ void require_in(const Range& range, std::string_view path, std::span<const doubl
   for (const double value : values) require_in(range, path, value, unit);
 }
 
+void refuse(std::string_view message, std::string_view allowed) {
+  core::refuse({}, std::string(message), std::string(allowed));
+}
+
 void require(bool holds, std::string_view message, std::string_view allowed) {
   if (!holds) [[unlikely]]
-    throw core::InputError(Diagnostic{.message = std::string(message), .allowed = std::string(allowed)});
+    refuse(message, allowed);
 }
 
 }  // namespace dualdamp::sim

@@ -38,7 +38,9 @@ const Model& valid_free(const Model& model, std::string_view analysis);
 void require_in(const friction::Range& range, std::string_view path, double value, std::string_view unit);
 void require_in(const friction::Range& range, std::string_view path, std::span<const double> values,
                 std::string_view unit);
-/// Throws with this message if `holds` is false.
+/// Throws with this message.
+[[noreturn]] void refuse(std::string_view message, std::string_view allowed);
+/// The same if `holds` is false. For a message that is ready: one that is put together costs time at each call.
 void require(bool holds, std::string_view message, std::string_view allowed);
 
 }  // namespace dualdamp::sim

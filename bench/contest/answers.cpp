@@ -22,12 +22,6 @@ namespace {
 
 constexpr std::size_t most_bytes = std::size_t{1} << 28U;
 
-[[noreturn]] void refuse_answers(const std::string& path, int line, std::string message, std::string allowed = {},
-                                 std::string found = {}) {
-  throw core::InputError(
-      core::Diagnostic{{path, line, 0, {}}, std::move(message), std::move(allowed), std::move(found), {}});
-}
-
 /// Without the quotation marks around it.
 std::string unquoted(std::string_view text) {
   text = core::trimmed(text);
@@ -57,12 +51,6 @@ constexpr std::array<std::string_view, 9> column_names = {"case",   "zeta",    "
                                                           "F0_low", "F0_high", "p_value", "usable"};
 enum class Column : std::size_t { number, zeta, F0, zeta_low, zeta_high, F0_low, F0_high, p_value, usable };
 
-std::string all_columns() {
-  std::string text;
-  for (const std::string_view name : column_names) text += (text.empty() ? "" : ", ") + std::string(name);
-  return text;
-}
-
 /// Reads a file of answers line by line.
 class EntryReader {
  public:
@@ -82,26 +70,29 @@ class EntryReader {
       }
       const std::vector<std::string> fields = fields_of(line);
       if (fields.size() != columns_.size())
-        refuse_answers(path_, line_, "the row has another number of fields than the header",
-                       std::to_string(columns_.size()), std::to_string(fields.size()));
+        core::refuse(here(), "the row has another number of fields than the header",
+                     std::to_string(columns_.size()), std::to_string(fields.size()));
       read_row(fields, seen);
     }
-    if (!has_header) refuse_answers(path_, 0, "the file holds no header", all_columns());
+    if (!has_header) core::refuse({.file = path_}, "the file holds no header", core::joined(column_names));
   }
 
  private:
+  [[nodiscard]] core::SourcePlace here() const { return {.file = path_, .line = line_}; }
+
   void read_header(const std::vector<std::string>& fields) {
     for (const std::string& field : fields) {
       const auto known = std::ranges::find(column_names, field);
       if (known == column_names.end())
-        refuse_answers(path_, line_, "there is no column of this name in a file of answers", all_columns(), field);
+        core::refuse(here(), "there is no column of this name in a file of answers", core::joined(column_names),
+                     field);
       const auto column = static_cast<Column>(known - column_names.begin());
       if (std::ranges::find(columns_, column) != columns_.end())
-        refuse_answers(path_, line_, "a column is there twice", "distinct columns", field);
+        core::refuse(here(), "a column is there twice", "distinct columns", field);
       columns_.push_back(column);
     }
     if (std::ranges::find(columns_, Column::number) == columns_.end())
-      refuse_answers(path_, line_, "the column 'case' is missing", all_columns());
+      core::refuse(here(), "the column 'case' is missing", core::joined(column_names));
   }
 
   /// NaN for an empty field, `nan`, `NA` or `none`.
@@ -109,14 +100,13 @@ class EntryReader {
     if (text.empty() || text == "nan" || text == "NaN" || text == "NA" || text == "none") return not_stated;
     const std::optional<double> number = number_of(text);
     if (!number)
-      refuse_answers(path_, line_,
-                     "'" + std::string(column_names.at(static_cast<std::size_t>(column))) + "' is no number",
-                     "a number; nothing, nan, NA or none for no value", text);
+      core::refuse(here(), "'" + std::string(column_names.at(static_cast<std::size_t>(column))) + "' is no number",
+                   "a number; nothing, nan, NA or none for no value", text);
     // Larger numbers would overflow in products, and a motion with such damping cannot be computed.
     if (std::abs(*number) > core::most_magnitude)
-      refuse_answers(path_, line_, "a number is too large to compute with", "-1e60 to 1e60", text);
+      core::refuse(here(), "a number is too large to compute with", "-1e60 to 1e60", text);
     if (column == Column::p_value && !(*number >= 0.0 && *number <= 1.0))
-      refuse_answers(path_, line_, "'p_value' is out of range", "0 to 1", text);
+      core::refuse(here(), "'p_value' is out of range", "0 to 1", text);
     return *number;
   }
 
@@ -129,8 +119,8 @@ class EntryReader {
       if (lower == word) return yes;
     for (const char* word : {"0", "false", "no"})
       if (lower == word) return no;
-    refuse_answers(path_, line_, "'usable' says neither yes nor no",
-                   "1, true, yes, 0, false, no in small or capital letters, or nothing", text);
+    core::refuse(here(), "'usable' says neither yes nor no",
+                 "1, true, yes, 0, false, no in small or capital letters, or nothing", text);
   }
 
   void read_row(const std::vector<std::string>& fields, std::vector<bool>& seen) {
@@ -147,17 +137,17 @@ class EntryReader {
     }
     const auto most = static_cast<double>(key_.numbers.size());
     if (!(file >= 1.0 && file <= most && file == std::floor(file)))
-      refuse_answers(path_, line_, "there is no such case", "1 to " + std::to_string(key_.numbers.size()),
-                     core::format_number(file, 9));
+      core::refuse(here(), "there is no such case", "1 to " + std::to_string(key_.numbers.size()),
+                   core::format_number(file, 9));
     for (const auto& interval : {answer.zeta95, answer.F095}) {
       if (std::isnan(interval[0]) != std::isnan(interval[1]))
-        refuse_answers(path_, line_, "an interval has one end", "both ends, or none");
+        core::refuse(here(), "an interval has one end", "both ends, or none");
       if (interval[0] > interval[1])
-        refuse_answers(path_, line_, "an interval ends below its begin", "low <= high",
-                       core::format_number(interval[0]) + " > " + core::format_number(interval[1]));
+        core::refuse(here(), "an interval ends below its start", "low <= high",
+                     core::format_number(interval[0]) + " > " + core::format_number(interval[1]));
     }
     const auto place = static_cast<std::size_t>(file) - 1;
-    if (seen[place]) refuse_answers(path_, line_, "case " + std::to_string(place + 1) + " is answered twice");
+    if (seen[place]) core::refuse(here(), "case " + std::to_string(place + 1) + " is answered twice");
     seen[place] = true;
     entry_.answers[key_.numbers[place]] = answer;
   }

@@ -17,22 +17,16 @@ namespace dualdamp::bench {
 
 namespace {
 
-[[noreturn]] void refuse(const std::string& file, std::string message, std::string allowed,
-                         std::string found = {}) {
-  throw core::InputError(
-      core::Diagnostic{{file, 0, 0, {}}, std::move(message), std::move(allowed), std::move(found), {}});
-}
-
 /// Refuses a key of other cases, whose truth the answers do not refer to, and a changed key, which would assign
 /// answers wrongly.
 void check_key(const Key& key, const std::string& file, const scenarios::Scenario& scenario) {
   const Key exported = key_of(*stress_test_of(*scenario.question), scenarios::context_of(scenario, {}));
   if (key.scenario != exported.scenario)
-    refuse(file, "the key is that of another stress test",
-           "the scenario, with the same changes, that was exported");
+    core::refuse({.file = file}, "the key is that of another stress test",
+                 "the scenario, with the same changes, that was exported");
   if (key.numbers != exported.numbers)
-    refuse(file, "the key was changed after the export",
-           "key.json of the export, whose cases are " + std::to_string(exported.numbers.size()));
+    core::refuse({.file = file}, "the key was changed after the export",
+                 "key.json of the export, whose cases are " + std::to_string(exported.numbers.size()));
 }
 
 /// A name is printed, and written to tables.
@@ -54,8 +48,8 @@ scenarios::Scenario contest_scenario(const ContestLoader& load, const std::strin
                                      const std::string& origin) {
   const scenarios::Scenario scenario = load({});
   if (stress_test_of(*scenario.question) == nullptr)
-    refuse(scenario.file, "this scenario asks for no stress test", "analysis: {type: stress_test, ...}",
-           scenario.analysis_name);
+    core::refuse({.file = scenario.file}, "this scenario asks for no stress test",
+                 "analysis: {type: stress_test, ...}", scenario.analysis_name);
   // Set only now: for another analysis the reader would refuse the seed without the real reason.
   return load({{"analysis.seed=" + seed, origin}});
 }
@@ -70,9 +64,10 @@ scenarios::Scenario scored_scenario(const ContestLoader& load, const std::string
   for (std::size_t i = 0; i < question.methods.size(); ++i) names.insert(question.entrant(i));
   for (const Answers& entry : answers) {
     if (!is_printable(entry.name))
-      refuse(entry.file, "answers need a name", "visible characters, and blanks between them", entry.name);
+      core::refuse({.file = entry.file}, "answers need a name", "visible characters, and blanks between them",
+                   entry.name);
     if (!names.insert(entry.name).second)
-      refuse(entry.file, "two entries have the same name", "another name", entry.name);
+      core::refuse({.file = entry.file}, "two entries have the same name", "another name", entry.name);
     question.entries.push_back(read_entry(entry.name, entry.file, key));
   }
   scenario.question = question_of(std::move(question));

@@ -16,10 +16,6 @@ namespace {
 constexpr std::size_t most_key_bytes = std::size_t{1} << 26U;  // of eight million cases
 constexpr std::uint32_t order_stream = 128;                    // away from the draws of sensors and laws
 
-[[noreturn]] void refuse_key(const std::string& path, std::string message, std::string allowed = {}) {
-  throw core::InputError(core::Diagnostic{{path, 0, 0, {}}, std::move(message), std::move(allowed), {}, {}});
-}
-
 }  // namespace
 
 Key make_key(std::string scenario, std::int64_t seed, std::size_t cases) {
@@ -42,7 +38,7 @@ Key read_key(const std::string& path) {
   using scenarios::Json;
   const Json json = scenarios::parse_json(scenarios::read_file(path, most_key_bytes), most_key_bytes);
   const auto refuse_content = [&] {
-    refuse_key(path, "this is no key of a stress test", "key.json of 'dualdamp stress export'");
+    core::refuse({.file = path}, "this is no key of a stress test", "key.json of 'dualdamp stress export'");
   };
   // The conversions would drop fractions, and are undefined for numbers beyond the type.
   const auto is_whole = [](const Json& value) { return value.is_number_integer(); };
@@ -58,7 +54,8 @@ Key read_key(const std::string& path) {
   }
   std::vector<bool> there(key.numbers.size(), false);
   for (const std::size_t number : key.numbers) {
-    if (number >= there.size() || there[number]) refuse_key(path, "the key does not name each case once");
+    if (number >= there.size() || there[number])
+      core::refuse({.file = path}, "the key does not name each case once");
     there[number] = true;
   }
   return key;

@@ -251,10 +251,10 @@ class Motions {
       findings_.push_back({"energy balance", Verdict::exception, 0.0, away});
       return;
     }
-    // If a walk is given up at its begin, all its energies are rounding.
+    // If a walk is given up at its start, all its energies are rounding.
     constexpr double begin = 1e-9;
     if (first_.ended_early && first_.end < begin * options_.duration) {
-      findings_.push_back({"energy balance", Verdict::not_compared, 0.0, "given up at its begin"});
+      findings_.push_back({"energy balance", Verdict::not_compared, 0.0, "given up at its start"});
       return;
     }
     const double defect = std::abs(first_.energy.defect) / first_.energy_scale;
@@ -342,7 +342,7 @@ class Motions {
 double duration_of(const Json& scenario, const sim::Model& model) {
   const Json& analysis = scenario.at("analysis");
   if (analysis.contains("duration")) return analysis.at("duration").get<double>();
-  const double natural = core::two_pi / sim::natural_frequency(model.oscillator);
+  const double natural = sim::natural_period(model.oscillator);
   const double forcing = core::two_pi / model.excitation.frequency;
   return std::min(3.0 * forcing + 10.0 * natural, 60.0 * std::min(natural, forcing));
 }

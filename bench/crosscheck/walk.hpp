@@ -25,7 +25,7 @@ inline constexpr int walk_samples = 200;
 /// A part of an interval.
 struct Piece {
   double end = 0.0;    ///< s
-  double speed = 0.0;  ///< the largest |v| at its begin, middle and end [m/s]
+  double speed = 0.0;  ///< the largest |v| at its start, middle and end [m/s]
 };
 
 struct Walk {

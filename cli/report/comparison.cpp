@@ -30,13 +30,7 @@ namespace {
 
 using Json = StoredRun::Json;
 
-[[noreturn]] void refuse(const StoredRun& run, std::string message, std::string allowed, std::string found) {
-  throw core::InputError(core::Diagnostic{{(run.directory() / "result.json").string(), 0, 0, {}},
-                                          std::move(message),
-                                          std::move(allowed),
-                                          std::move(found),
-                                          {}});
-}
+core::SourcePlace place_of(const StoredRun& run) { return {.file = (run.directory() / "result.json").string()}; }
 
 /// A number of a resolved scenario, converted from SI to the unit that the user wrote, if there is one. `si` is
 /// empty where the format does not know the key: that of a law whose plugin is not loaded.
@@ -154,16 +148,17 @@ class Comparison {
   void take(const StoredRun& run, const StoredRun& first) {
     const Json& analysis = run.document().at("analysis");
     if (!draws_the_same(analysis, analysis_))
-      refuse(run, "this is the result of another analysis than " + (first.directory() / "result.json").string(),
-             analysis_.is_string() ? analysis_.get<std::string>() : "",
-             analysis.is_string() ? analysis.get<std::string>() : "none");
+      core::refuse(place_of(run),
+                   "this is the result of another analysis than " + (first.directory() / "result.json").string(),
+                   analysis_.is_string() ? analysis_.get<std::string>() : "",
+                   analysis.is_string() ? analysis.get<std::string>() : "none");
     std::optional<Chart> chart = main_chart(run, first);
     if (!chart) throw core::InputError(without_chart(run));
     if (chart->series.front().kind == SeriesKind::cells)
-      refuse(run, "maps cannot be laid over each other", "results with curves", {});
+      core::refuse(place_of(run), "maps cannot be laid over each other", "results with curves");
     if (!compared_.empty() && describe(*chart) != describe(compared_.front().chart))
-      refuse(run, "this curve is of other quantities than that of " + first.directory().string(),
-             describe(compared_.front().chart), describe(*chart));
+      core::refuse(place_of(run), "this curve is of other quantities than that of " + first.directory().string(),
+                   describe(compared_.front().chart), describe(*chart));
     const Json provenance = run.document().value("provenance", Json::object());
     const Json units = provenance.value("written_units", Json::object());
     Compared one{.directory = shown(run.directory()),

@@ -35,7 +35,7 @@ void make_readable(Chart& chart);
 
 /// The chart of a directory, with prefixes chosen. `units`: stated units, separated by commas. Errors:
 /// `core::InputError` if there is no result, or no chart.
-[[nodiscard]] Chart main_chart(const std::string& directory, const std::string& units = {});
+[[nodiscard]] Chart main_chart(const std::string& directory, const std::string& units);
 
 /// The title of the scenario, or the name of the result directory.
 [[nodiscard]] std::string title_of(const StoredRun& run);

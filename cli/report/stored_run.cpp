@@ -24,13 +24,6 @@ using Json = StoredRun::Json;
 
 constexpr const char* as_no_run_writes = "the file is not as a run wrote it: run the scenario again";
 
-[[noreturn]] void refuse(const fs::path& file, std::string message) {
-  core::Diagnostic problem;
-  problem.place.file = file.string();
-  problem.message = std::move(message);
-  throw core::InputError(std::move(problem));
-}
-
 /// A document with long lists cut off: the tables have all rows. The results of the points of a sweep are in its
 /// tables as well.
 class DocumentBuilder : public scenarios::JsonBuilder {
@@ -59,18 +52,21 @@ class ProvenanceBuilder : public scenarios::JsonBuilder {
 
 Json read_document(const fs::path& path) {
   if (std::error_code error; !fs::exists(path, error) && !error)
-    refuse(path, "there is no result here: the file cannot be opened");
+    core::refuse({.file = path.string()}, "there is no result here: the file cannot be opened");
   DocumentBuilder builder;
   if (!scenarios::parse_json_file(path.string(), builder))
-    refuse(path, builder.is_beyond_limits() ? "the file holds more, or nests deeper, than any result of a run"
-                                            : "the file is not a whole JSON document");
+    core::refuse({.file = path.string()}, builder.is_beyond_limits()
+                                              ? "the file holds more, or nests deeper, than any result of a run"
+                                              : "the file is not a whole JSON document");
   Json json = builder.take();
   for (const char* key : {"program", "analysis", "status", "result", "warnings", "checks", "errors"})
     if (!json.is_object() || !json.contains(key))
-      refuse(path, std::string("this is no result of dualdamp: there is no '") + key + "'");
+      core::refuse({.file = path.string()},
+                   std::string("this is no result of dualdamp: there is no '") + key + "'");
   if (!json["result"].is_object() || !json["result"].contains("sweep")) return json;
   const Json& points = json["result"]["sweep"];
-  if (!points.is_array() || !std::ranges::all_of(points, &Json::is_object)) refuse(path, as_no_run_writes);
+  if (!points.is_array() || !std::ranges::all_of(points, &Json::is_object))
+    core::refuse({.file = path.string()}, as_no_run_writes);
   for (Json& point : json["result"]["sweep"]) point.erase("result");  // a failed one is null
   return json;
 }
@@ -104,9 +100,10 @@ std::map<std::string, std::string> sums_of(const fs::path& directory, const Json
   const Json& provenance = document.value("provenance", Json());
   if (!provenance.is_object() || !provenance.contains("tables")) return {};
   std::map<std::string, std::string> sums;
-  if (!provenance["tables"].is_object()) refuse(directory / "result.json", as_no_run_writes);
+  if (!provenance["tables"].is_object())
+    core::refuse({.file = (directory / "result.json").string()}, as_no_run_writes);
   for (const auto& [name, sum] : provenance["tables"].items()) {
-    if (!sum.is_string()) refuse(directory / "result.json", as_no_run_writes);
+    if (!sum.is_string()) core::refuse({.file = (directory / "result.json").string()}, as_no_run_writes);
     sums[name] = sum.get<std::string>();
   }
   return sums;
@@ -232,10 +229,10 @@ void StoredRun::read(const std::function<void()>& work) const {
   try {
     work();
   } catch (const Json::exception&) {
-    refuse(directory_ / "result.json", as_no_run_writes);
+    core::refuse({.file = (directory_ / "result.json").string()}, as_no_run_writes);
   } catch (const ChangedResult& fault) {
-    refuse(directory_ / "result.json",
-           std::string("the file or a table beside it is not as a run wrote it: ") + fault.what());
+    core::refuse({.file = (directory_ / "result.json").string()},
+                 std::string("the file or a table beside it is not as a run wrote it: ") + fault.what());
   }
 }
 
@@ -243,7 +240,7 @@ std::string StoredRun::text_of(const fs::path& table) const {
   std::string text = scenarios::read_file(table.string(), std::numeric_limits<std::size_t>::max());
   const auto sum = sums_.find(table.filename().string());
   if (sum != sums_.end() && sum->second != core::sha256(text))
-    refuse(table, "the table is not as the run wrote it: run the scenario again");
+    core::refuse({.file = table.string()}, "the table is not as the run wrote it: run the scenario again");
   return text;
 }
 

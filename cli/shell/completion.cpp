@@ -42,7 +42,7 @@ Choices choices_of(const std::string& placeholder) {
   return {anything};
 }
 
-std::string joined(const std::vector<std::string>& words, const std::string& separator) {
+std::string separated_by(const std::vector<std::string>& words, const std::string& separator) {
   return fmt::format("{}", fmt::join(words, separator));
 }
 
@@ -123,11 +123,11 @@ _dualdamp() {
 std::string bash_proposal(const Choices& choices) {
   switch (choices.kind) {
     case Choices::Kind::words:
-      return "_dualdamp_propose words '" + joined(choices.list, " ") + "'";
+      return "_dualdamp_propose words '" + separated_by(choices.list, " ") + "'";
     case Choices::Kind::directories:
       return "_dualdamp_propose directories";
     case Choices::Kind::files:
-      return "_dualdamp_propose files '" + joined(choices.list, " ") + "'";
+      return "_dualdamp_propose files '" + separated_by(choices.list, " ") + "'";
     case Choices::Kind::anything:
       break;
   }
@@ -136,9 +136,9 @@ std::string bash_proposal(const Choices& choices) {
 
 std::string bash_script(const CommandTable& table) {
   std::string script(bash_begin);
-  script +=
-      "      " + joined(steps(table), " | ") + ") command=${command:+$command }${COMP_WORDS[i]} position=0 ;;\n";
-  script += "      *:" + joined(options_with_value(table), " | *:") + ") ((++i)) ;;\n";
+  script += "      " + separated_by(steps(table), " | ") +
+            ") command=${command:+$command }${COMP_WORDS[i]} position=0 ;;\n";
+  script += "      *:" + separated_by(options_with_value(table), " | *:") + ") ((++i)) ;;\n";
   script += "      *:-*) ;;\n      *) ((++position)) ;;\n    esac\n  done\n  case $command:$before in\n";
   std::string names;
   std::string positionals;
@@ -151,10 +151,10 @@ std::string bash_script(const CommandTable& table) {
         script += "    " + quoted(command.name + ":" + option.name, "") + ") " +
                   bash_proposal(choices_of(option.placeholder)) + "; return ;;\n";
     }
-    names += "      '" + command.name + "') _dualdamp_propose words '" + joined(own, " ") + "' ;;\n";
+    names += "      '" + command.name + "') _dualdamp_propose words '" + separated_by(own, " ") + "' ;;\n";
     if (!command.commands.empty())
-      positionals +=
-          "    '" + command.name + "':0) _dualdamp_propose words '" + joined(command.commands, " ") + "' ;;\n";
+      positionals += "    '" + command.name + "':0) _dualdamp_propose words '" +
+                     separated_by(command.commands, " ") + "' ;;\n";
     for_positionals(command, [&](const std::string& place, const OptionEntry& option) {
       const std::size_t colon = place.find(':');
       positionals += "    '" + place.substr(0, colon) + "'" + place.substr(colon) + ") " +
@@ -181,11 +181,11 @@ std::string zsh_text(const std::string& text) {
 std::string zsh_action(const Choices& choices) {
   switch (choices.kind) {
     case Choices::Kind::words:
-      return "(" + joined(choices.list, " ") + ")";
+      return "(" + separated_by(choices.list, " ") + ")";
     case Choices::Kind::directories:
       return "_files -/";
     case Choices::Kind::files:
-      return choices.list.empty() ? "_files" : "_files -g \"*." + joined(choices.list, " *.") + "\"";
+      return choices.list.empty() ? "_files" : "_files -g \"*." + separated_by(choices.list, " *.") + "\"";
     case Choices::Kind::anything:
       break;
   }
@@ -247,12 +247,12 @@ std::string zsh_script(const CommandTable& table) {
 std::string fish_choices(const Choices& choices) {
   switch (choices.kind) {
     case Choices::Kind::words:
-      return " -x -a '" + joined(choices.list, " ") + "'";
+      return " -x -a '" + separated_by(choices.list, " ") + "'";
     case Choices::Kind::directories:
       return " -x -a '(__fish_complete_directories)'";
     case Choices::Kind::files:
       if (choices.list.empty()) return " -r -F";
-      return " -x -a '(__dualdamp_files " + joined(choices.list, " ") + ")'";
+      return " -x -a '(__dualdamp_files " + separated_by(choices.list, " ") + ")'";
     case Choices::Kind::anything:
       break;
   }
@@ -284,10 +284,10 @@ function __dualdamp_at
 
 std::string fish_script(const CommandTable& table) {
   std::string script(fish_begin);
-  script += "            case '" + joined(steps(table), "' '") + "'\n";
+  script += "            case '" + separated_by(steps(table), "' '") + "'\n";
   script += "                set command (string trim -- \"$command $word\")\n                set position 0\n";
-  script +=
-      "            case '*:" + joined(options_with_value(table), "' '*:") + "'\n                set is_value yes\n";
+  script += "            case '*:" + separated_by(options_with_value(table), "' '*:") +
+            "'\n                set is_value yes\n";
   script += "            case '*:-*'\n            case '*'\n                set position (math $position + 1)\n";
   script +=
       "        end\n    end\n    string match -q -- $argv[1] \"$command:$position\"\nend\n\ncomplete -c dualdamp "

@@ -241,7 +241,7 @@ std::string why_preferred(const Identification& all) {
   else if (rivals > 1)
     text += ", and of " + std::to_string(rivals) + " such estimates its intervals are the narrowest";
   const std::vector<std::string> untested = names_of(all.ledger, Standing::untested);
-  if (!all.ledger.data.empty() && !untested.empty()) text += "; untested: " + core::joined(untested, ", ");
+  if (!all.ledger.data.empty() && !untested.empty()) text += "; untested: " + core::joined(untested);
   text += what_would_test_friction(all.ledger);
   if (has_terms) text += "; what would help further: " + what_would_help(all.ledger);
   if (all.estimates[*all.answer].laws && all.ledger.violates_law())
@@ -287,7 +287,7 @@ std::string verdict_of(const Identification& all) {
   const bool untested = all.ledger.data.empty();
   if (frees_law(all))
     text += " zeta and F0 are those of Coulomb and viscous friction beside what joint_fit has free: " +
-            core::joined(all.ledger.relaxed, ", ") + ".";
+            core::joined(all.ledger.relaxed) + ".";
   if (!all.ledger.departures.empty() && best.method == "joint_fit")
     if (const std::string& fitted = all.ledger.entry(Assumption::constants).fitted; !fitted.empty())
       text += " zeta and F0 are those of " + fitted + ".";

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <utility>
 
-#include "core/constants.hpp"
+#include "core/angle.hpp"
 #include "core/random.hpp"
 #include "identify/methods/any_law/decay_readings.hpp"
 #include "identify/methods/any_law/joined_readings.hpp"
@@ -135,7 +135,7 @@ class ContinuedRecord::Joint {
       const Outlook& of = planned ? of_plan : of_record;
       residuals[i] = model_->readings()[i] - of.readings[row];
       if (model_->channels()[static_cast<std::size_t>(i)] == phase_channel)
-        residuals[i] = std::remainder(residuals[i], core::two_pi);
+        residuals[i] = core::wrapped(residuals[i]);
       if (!planned || !released_) {
         slopes.row(i).head(own) = of.slopes.row(row).head(own);
       } else {

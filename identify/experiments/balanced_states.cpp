@@ -4,6 +4,7 @@
 #include <complex>
 #include <utility>
 
+#include "core/angle.hpp"
 #include "core/constants.hpp"
 
 namespace dualdamp::identify {
@@ -72,7 +73,7 @@ class BalancedStates final : public Experiment {
       if (phases == with_phase_.size() || with_phase_[phases] != i) continue;
       const double measured = signals[1].measured[phases];
       outputs[static_cast<Eigen::Index>(levels_.size() + phases)] =
-          measured + std::remainder(std::arg(needed / drive) - measured, core::two_pi);
+          measured + core::wrapped(std::arg(needed / drive) - measured);
       ++phases;
     }
     return outputs.allFinite();

@@ -3,7 +3,7 @@
 #include <numbers>
 #include <utility>
 
-#include "core/constants.hpp"
+#include "core/angle.hpp"
 #include "friction_models/law_fault.hpp"
 #include "identify/experiments/balanced_states.hpp"
 #include "identify/experiments/experiment.hpp"
@@ -171,8 +171,7 @@ class SteadyStates final : public Experiment {
       // motion dies out, when the friction reaches the largest pull: else the phase would jump there.
       const double measured = signals[1].measured[phases];
       const double lag = std::isnan(state.phase) ? lag_at_rest(model, levels_[i]) : state.phase;
-      outputs[static_cast<Eigen::Index>(levels_.size() + phases)] =
-          measured + std::remainder(lag - measured, core::two_pi);
+      outputs[static_cast<Eigen::Index>(levels_.size() + phases)] = measured + core::wrapped(lag - measured);
       ++phases;
     }
     return true;

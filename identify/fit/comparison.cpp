@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/constants.hpp"
 #include "core/numbers.hpp"
 #include "identify/fit/freedom.hpp"
 #include "identify/fit/residual_test.hpp"

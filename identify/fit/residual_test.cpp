@@ -17,7 +17,6 @@
 #include "identify/statistics/decompositions.hpp"
 #include "identify/statistics/distributions.hpp"
 #include "identify/statistics/median.hpp"
-#include "identify/statistics/statistics.hpp"
 
 namespace dualdamp::identify {
 

@@ -28,7 +28,7 @@
 #include <vector>
 
 #include "identify/fit/fit.hpp"
-#include "identify/statistics/statistics.hpp"
+#include "identify/statistics/scatter.hpp"
 
 namespace dualdamp::identify {
 

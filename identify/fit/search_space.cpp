@@ -1,5 +1,6 @@
 #include "identify/fit/search_space.hpp"
 
+#include "core/angle.hpp"
 #include "core/constants.hpp"
 
 namespace dualdamp::identify {
@@ -89,7 +90,7 @@ Eigen::VectorXd SearchSpace::within_one_turn(const Eigen::VectorXd& q) const {
   Eigen::VectorXd result = q;
   for (Eigen::Index i = 0; i < q.size(); ++i) {
     const FitParameter& parameter = parameters_[static_cast<std::size_t>(i)];
-    const double there = std::remainder(turned[i], core::two_pi);
+    const double there = core::wrapped(turned[i]);
     if (!is_phase(parameter) || std::abs(turned[i]) <= 0.5 * core::two_pi || !parameter.range.contains(there))
       continue;
     turned[i] = there;

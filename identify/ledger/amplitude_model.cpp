@@ -16,6 +16,7 @@
 #include "identify/ledger/stated_noise.hpp"
 #include "identify/methods/amplitudes/steady_states.hpp"
 #include "identify/statistics/decompositions.hpp"
+#include "identify/statistics/scatter.hpp"
 #include "identify/statistics/statistics.hpp"
 
 namespace dualdamp::identify {
@@ -222,7 +223,7 @@ JointModel amplitude_model_of(const AmplitudeFit& fit, const AmplitudeStates& st
 
 std::variant<JointModel, std::string> amplitude_model(const Record& record, const KnownConstants& constants,
                                                       const KnownDeviations& known) {
-  if (std::string fault = fault_of(constants); !fault.empty()) return fault;
+  if (std::string fault = lacks_constants(constants); !fault.empty()) return fault;
   Estimate taken;
   const std::optional<std::vector<Pair>> pairs = take_states(record, constants, false, taken);
   if (!pairs) return taken.reason;

@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "core/angle.hpp"
 #include "identify/statistics/statistics.hpp"
 
 namespace dualdamp::identify {
@@ -129,7 +130,7 @@ void AmplitudeStates::add_state(std::size_t i, SteadyParameters& at, const Devia
   const State state{point, xi, drive(point, at, xi)};
   const Asked model = asked(state.drive);
   const Asked by_x = slope([&](double h) { return drive(point, at, xi + h); }, state.drive, small);
-  Asked residual(point.Y - model[0], has_phase ? wrapped(point.phase - model[1]) : 0.0);
+  Asked residual(point.Y - model[0], has_phase ? core::wrapped(point.phase - model[1]) : 0.0);
   residual -= by_x * (point.x - xi);
   if (!has_phase) residual[1] = 0.0;
 

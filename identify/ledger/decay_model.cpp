@@ -10,6 +10,7 @@
 #include "identify/ledger/stated_noise.hpp"
 #include "identify/methods/decays/free_decay.hpp"
 #include "identify/statistics/decompositions.hpp"
+#include "identify/statistics/scatter.hpp"
 #include "identify/statistics/statistics.hpp"
 
 namespace dualdamp::identify {

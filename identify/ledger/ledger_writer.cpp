@@ -211,14 +211,15 @@ bool LedgerWriter::is_as_stated(const RelaxationTest& test) const {
 }
 
 std::string LedgerWriter::alternatives(const FoundDeparture& departure, const RelaxationTest& own) const {
-  std::string text;
   std::vector<Assumption> said = {assumption_of(own)};
+  std::vector<std::string_view> others;
   for (const RelaxationTest& other : departure.explanations) {
     if (std::ranges::find(said, assumption_of(other)) != said.end()) continue;
     said.push_back(assumption_of(other));
-    text += (text.empty() ? "" : ", ") + std::string(name_of(said.back()));
+    others.push_back(name_of(said.back()));
   }
-  return text.empty() ? "no other assumption explains it as well" : "explained as well by: " + text;
+  return others.empty() ? "no other assumption explains it as well"
+                        : "explained as well by: " + core::joined(others);
 }
 
 /// What else of the same assumption explains the departure as well.
@@ -227,7 +228,7 @@ std::string LedgerWriter::other_forms(const FoundDeparture& departure, const Rel
   for (const RelaxationTest& other : departure.explanations)
     if (other.index != own.index && assumption_of(other) == assumption_of(own) && is_of_law(assumption_of(own)))
       forms.push_back(model_.relaxations[other.index].test);
-  return forms.empty() ? "" : "; it may also be: " + core::joined(forms, ", ");
+  return forms.empty() ? "" : "; it may also be: " + core::joined(forms);
 }
 
 /// The entry of an assumption shows that of its relaxations which has the least p-value.

@@ -10,7 +10,7 @@
 
 #include "identify/ledger/joint_model.hpp"
 #include "identify/options.hpp"
-#include "identify/statistics/statistics.hpp"
+#include "identify/statistics/scatter.hpp"
 
 namespace dualdamp::identify {
 

@@ -54,11 +54,11 @@ FurtherParameter further(std::string name, std::string unit, double value, doubl
   return {std::move(name), std::move(unit), value, std, around(value, half_width * std)};
 }
 
-void judge_force_signs(Estimate& estimate, double least_c, double least_F0, std::vector<std::string>& faults) {
+void judge_force_signs(Estimate& estimate, double scale_c, double scale_F0, std::vector<std::string>& faults) {
   const bool known = estimate.interval95.has_value();
-  judge_sign(estimate.value.c, least_c, known ? &estimate.interval95->c : nullptr, "the viscous damping", estimate,
+  judge_sign(estimate.value.c, scale_c, known ? &estimate.interval95->c : nullptr, "the viscous damping", estimate,
              faults);
-  judge_sign(estimate.value.F0, least_F0, known ? &estimate.interval95->F0 : nullptr, "the Coulomb friction",
+  judge_sign(estimate.value.F0, scale_F0, known ? &estimate.interval95->F0 : nullptr, "the Coulomb friction",
              estimate, faults);
 }
 

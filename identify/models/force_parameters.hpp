@@ -31,8 +31,8 @@ void set_estimate(Estimate& estimate, const ForceParameters& force, const Eigen:
 [[nodiscard]] FurtherParameter further(std::string name, std::string unit, double value, double variance,
                                        double half_width);
 
-/// Diagnostics of c and F0 by their signs, as `judge_signs` does for zeta and x_f. `least_c`, `least_F0`: values
-/// that rounding alone may give.
-void judge_force_signs(Estimate& estimate, double least_c, double least_F0, std::vector<std::string>& faults);
+/// Diagnostics of c and F0 by their signs, as `judge_signs` does for zeta and x_f. `scale_c`, `scale_F0`: the
+/// scales of the two.
+void judge_force_signs(Estimate& estimate, double scale_c, double scale_F0, std::vector<std::string>& faults);
 
 }  // namespace dualdamp::identify

@@ -76,12 +76,9 @@ void check_names(const ReadOptions& options, Problems& problems) {
                       {}});
       const KnownColumn* known = known_column(name);
       if (known != nullptr && !(numbers_only && known->unit.empty())) continue;
-      std::string names;
-      for (const std::string_view column : column_names(numbers_only))
-        names += (names.empty() ? "" : ", ") + std::string(column);
       problems.add({{options.name, 0, 0, {}},
                     std::string(option) + ": there is no column '" + name + "' that could be used",
-                    names,
+                    core::joined(column_names(numbers_only)),
                     {},
                     {}});
     }
@@ -249,19 +246,20 @@ double ColumnFactors::scaled(const KnownColumn& known, const std::string& scale,
 
 /// Adds the column to the assumed ones, once for all tests.
 void ColumnFactors::assume(const std::string& name, const std::string& unit) {
-  if (std::ranges::find(assumed_, name, &Assumption::name) == assumed_.end()) assumed_.push_back({name, unit});
+  if (std::ranges::find(assumed_, name, &AssumedUnit::name) == assumed_.end()) assumed_.push_back({name, unit});
 }
 
 ColumnUnits ColumnFactors::take_units() {
   if (assumed_.empty()) return {{}, std::move(stated_)};
   std::vector<std::string> names;
   std::vector<std::string> units;
-  for (const Assumption& assumption : assumed_) {
-    names.push_back(assumption.name);
-    units.push_back(assumption.name + " in " + assumption.unit);
+  for (const AssumedUnit& assumed : assumed_) {
+    names.push_back(assumed.name);
+    units.push_back(assumed.name + " in " + assumed.unit);
   }
-  warnings_.push_back("no unit is stated for " + listed(names) + ": read " + listed(units) +
-                      "; state another one as " + options_.words(core::Setting::unit, names.back(), "UNIT"));
+  warnings_.push_back("no unit is stated for " + core::joined(names, " and ") + ": read " +
+                      core::joined(units, " and ") + "; state another one as " +
+                      options_.words(core::Setting::unit, names.back(), "UNIT"));
   return {std::move(names), std::move(stated_)};
 }
 

@@ -62,10 +62,10 @@ class ColumnFactors {
   const ReadOptions& options_;
   Problems& problems_;
   std::vector<std::string>& warnings_;
-  struct Assumption {
+  struct AssumedUnit {
     std::string name, unit;
   };
-  std::vector<Assumption> assumed_;
+  std::vector<AssumedUnit> assumed_;
   std::map<std::string, std::string> stated_;
 };
 

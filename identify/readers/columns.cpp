@@ -286,18 +286,11 @@ std::vector<std::string> all_ignored(std::string_view what, const std::vector<st
   const std::size_t count = plain.size();
   if (count > most_names) plain.resize(most_names);
   const std::string more = count > most_names
-                               ? core::joined(plain, ", ") + " and " + std::to_string(count - most_names) + " more"
-                               : listed(plain);
+                               ? core::joined(plain) + " and " + std::to_string(count - most_names) + " more"
+                               : core::joined(plain, " and ");
   warnings.push_back(std::to_string(count) + " " + std::string(what) + (count == 1 ? " is" : "s are") +
                      " not known and " + (count == 1 ? "is" : "are") + " ignored: " + more);
   return warnings;
-}
-
-std::string listed(const std::vector<std::string>& names) {
-  std::string text;
-  for (std::size_t i = 0; i < names.size(); ++i)
-    text += (i == 0 ? "" : i + 1 == names.size() ? " and " : ", ") + names[i];
-  return text;
 }
 
 }  // namespace dualdamp::identify

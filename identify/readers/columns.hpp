@@ -88,7 +88,4 @@ void split_unit(Heading& heading, const KnownColumn& known);
 [[nodiscard]] std::vector<std::string> all_ignored(std::string_view what, const std::vector<std::string>& names,
                                                    const core::SettingWords& words);
 
-/// "a, b and c"
-[[nodiscard]] std::string listed(const std::vector<std::string>& names);
-
 }  // namespace dualdamp::identify

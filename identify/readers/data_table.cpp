@@ -21,10 +21,10 @@ void refuse_not_finite(const std::string& file, const DataColumn& column) {
     return std::isfinite(value) || (column.known->may_lack && std::isnan(value));
   });
   if (bad == column.values.end()) return;
-  refuse_file(file,
-              "element " + std::to_string(bad - column.values.begin() + 1) + " of " +
-                  std::string(column.known->name) + " leaves the range of double precision in SI",
-              "finite numbers, and a step or rate of samples that makes finite times");
+  core::refuse({.file = file},
+               "element " + std::to_string(bad - column.values.begin() + 1) + " of " +
+                   std::string(column.known->name) + " leaves the range of double precision in SI",
+               "finite numbers, and a step or rate of samples that makes finite times");
 }
 
 /// A column without any number is a fault of the program that wrote it, not a record without phases.
@@ -32,8 +32,9 @@ void refuse_without_numbers(const DataTable& table) {
   for (const DataColumn& column : table.columns)
     if (column.known->may_lack &&
         std::ranges::all_of(column.values, [](double value) { return std::isnan(value); }))
-      refuse_file(table.file, "element 1 of " + std::string(column.known->name) + " is not a finite number",
-                  "a finite number in one row or more; NaN where it was not measured");
+      core::refuse({.file = table.file},
+                   "element 1 of " + std::string(column.known->name) + " is not a finite number",
+                   "a finite number in one row or more; NaN where it was not measured");
 }
 
 }  // namespace
@@ -92,11 +93,13 @@ DataTable join(const std::string& file, const std::vector<TestColumns>& tests) {
       const DataColumn* whole = table.find(column.known->name);
       alike = alike && whole != nullptr;
       if (!alike)
-        refuse_file(file, "the tests of the file do not hold the same signals: test '" + test.label + "'");
+        core::refuse({.file = file},
+                     "the tests of the file do not hold the same signals: test '" + test.label + "'");
       auto& values = table.columns[static_cast<std::size_t>(whole - table.columns.data())].values;
       values.insert(values.end(), column.values.begin(), column.values.end());
     }
-    if (!alike) refuse_file(file, "the tests of the file do not hold the same signals: test '" + test.label + "'");
+    if (!alike)
+      core::refuse({.file = file}, "the tests of the file do not hold the same signals: test '" + test.label + "'");
   }
   refuse_without_numbers(table);
   table.show = [file](std::size_t row, const KnownColumn& known) {

@@ -51,12 +51,12 @@ std::vector<core::Diagnostic> Problems::diagnostics() const {
   for (const Group& group : groups_) {
     all.push_back(group.first);
     if (group.others == 0) continue;
-    std::string lines;
-    for (const int line : group.lines) lines += (lines.empty() ? "" : ", ") + std::to_string(line);
+    std::vector<std::string> lines;
+    for (const int line : group.lines) lines.push_back(std::to_string(line));
     all.back().message +=
         "; the same in " + std::to_string(group.others) + " more row" + (group.others == 1 ? "" : "s");
     if (group.first.place.line > 0 && !group.lines.empty())
-      all.back().message += " (line" + std::string(group.others == 1 ? " " : "s ") + lines +
+      all.back().message += " (line" + std::string(group.others == 1 ? " " : "s ") + core::joined(lines) +
                             (group.others > group.lines.size() ? ", ...)" : ")");
   }
   std::ranges::sort(all, {},
@@ -66,11 +66,6 @@ std::vector<core::Diagnostic> Problems::diagnostics() const {
 
 void Problems::throw_if_any() const {
   if (!groups_.empty()) throw core::InputError(diagnostics());
-}
-
-void refuse_file(const std::string& file, std::string message, std::string allowed, std::string found) {
-  throw core::InputError(
-      core::Diagnostic{{file, 0, 0, {}}, std::move(message), std::move(allowed), std::move(found), {}});
 }
 
 }  // namespace dualdamp::identify

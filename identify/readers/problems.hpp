@@ -46,7 +46,4 @@ class Problems {
   std::vector<Group> groups_;
 };
 
-[[noreturn]] void refuse_file(const std::string& file, std::string message, std::string allowed = {},
-                              std::string found = {});
-
 }  // namespace dualdamp::identify

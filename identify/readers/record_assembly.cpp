@@ -167,8 +167,8 @@ class Assembly {
   void refuse_response_without_Y() const {
     for (const std::string_view name : {"omega", "phase", "fundamental", "mean_square_speed"})
       if (values(name) != nullptr)
-        refuse_file(
-            table_.file,
+        core::refuse(
+            {.file = table_.file},
             "there is a column " + std::string(name) + " and no column Y: pairs need the amplitude of the base",
             std::string(allowed_columns));
   }
@@ -201,9 +201,10 @@ class Assembly {
     const std::string often =
         back == 0 ? "never turns back"
                   : "turns back at " + std::to_string(back) + " of " + std::to_string(x.size()) + " rows";
-    refuse_file(table_.file, "x is the only column and " + often + ": extremes of a free vibration alternate",
-                "signed extremes such as 5, -4, 3; or samples with their times t, or with their rate, as " +
-                    words_(core::Setting::sample_rate, {}, "1 kHz"));
+    core::refuse({.file = table_.file},
+                 "x is the only column and " + often + ": extremes of a free vibration alternate",
+                 "signed extremes such as 5, -4, 3; or samples with their times t, or with their rate, as " +
+                     words_(core::Setting::sample_rate, {}, "1 kHz"));
   }
 
   DecayRecord decay() {
@@ -230,8 +231,8 @@ class Assembly {
       std::vector<std::string> names;
       for (const DataColumn& column : table_.columns) names.emplace_back(column.known->name);
       const bool are_amplitudes = values("omega") != nullptr || values("phase") != nullptr;
-      refuse_file(
-          table_.file,
+      core::refuse(
+          {.file = table_.file},
           are_amplitudes ? "amplitudes need that of the base: there is no column Y"
                          : "signals need their times: there is no column t",
           are_amplitudes && values("force") != nullptr
@@ -241,7 +242,7 @@ class Assembly {
                     words_(core::Setting::scale, "Y", "0.0005 m/N")
               : std::string(allowed_columns) + "; or samples of one rate, with " +
                     words_(core::Setting::sample_rate, {}, "1 kHz"),
-          "columns " + listed(names));
+          "columns " + core::joined(names, " and "));
     }
     if (!check_signals()) return {};
     drop_doubled_rows();

@@ -70,9 +70,9 @@ std::string_view content_of(std::string_view beginning) {
 void refuse_at_sight(std::string_view beginning, const std::string& name) {
   for (const Foreign& format : foreign_formats)
     if (beginning.starts_with(format.magic))
-      refuse_file(name, std::string(format.message), std::string(format.advice));
+      core::refuse({.file = name}, std::string(format.message), std::string(format.advice));
   if (content_of(beginning).starts_with("schema: dualdamp/"))
-    refuse_file(name, "the file is a scenario", "a data file; 'dualdamp run' takes a scenario");
+    core::refuse({.file = name}, "the file is a scenario", "a data file; 'dualdamp run' takes a scenario");
   const bool is_binary = beginning.find('\0') != std::string_view::npos;
   if (is_binary && !is_mat(beginning) && !is_universal_file(beginning) && !is_utf16(beginning))
     refuse_binary(beginning, name);
@@ -94,11 +94,11 @@ class LineLength {
 /// All bytes of a file or a pipe.
 std::string load(const std::string& path, const std::string& name) {
   std::error_code error;
-  if (fs::is_directory(path, error)) refuse_file(name, "cannot be read: it is a directory, not a file");
+  if (fs::is_directory(path, error)) core::refuse({.file = name}, "cannot be read: it is a directory, not a file");
   if (const auto size = fs::is_regular_file(path, error) ? fs::file_size(path, error) : 0;
       !error && size > largest_file)
-    refuse_file(name, "the file is larger than 1 GiB: " + std::to_string(size >> 20U) + " MiB",
-                "fewer rows or columns; a record of 20 million rows fits");
+    core::refuse({.file = name}, "the file is larger than 1 GiB: " + std::to_string(size >> 20U) + " MiB",
+                 "fewer rows or columns; a record of 20 million rows fits");
   const auto close = [](std::FILE* file) { std::fclose(file); };
   const std::unique_ptr<std::FILE, decltype(close)> file(std::fopen(path.c_str(), "rb"), close);
   if (!file) core::fail_to_read(name, "cannot be opened", errno);
@@ -107,11 +107,12 @@ std::string load(const std::string& path, const std::string& name) {
   LineLength line;
   while (const std::size_t count = std::fread(buffer.data(), 1, buffer.size(), file.get())) {
     bytes.append(buffer.data(), count);
-    if (bytes.size() > largest_file) refuse_file(name, "the file is larger than 1 GiB");
+    if (bytes.size() > largest_file) core::refuse({.file = name}, "the file is larger than 1 GiB");
     if (bytes.size() <= sample_size) refuse_at_sight(bytes, name);
     line.add({buffer.data(), count});
     if (line.is_too_long() && !is_mat(bytes) && !is_universal_file(bytes))
-      refuse_file(name, "a line has more than a million characters", "a row of numbers for each reading");
+      core::refuse({.file = name}, "a line has more than a million characters",
+                   "a row of numbers for each reading");
   }
   if (std::ferror(file.get()) != 0) core::fail_to_read(name, "cannot be read", errno);
   return bytes;
@@ -120,8 +121,9 @@ std::string load(const std::string& path, const std::string& name) {
 /// Refuses what is stated about the text of a CSV file and would be ignored here. `format`: of the file.
 void refuse_statements_on_text(const ReadOptions& options, const std::string& format) {
   const auto refuse = [&](core::Setting setting, const std::string& value) {
-    refuse_file(options.name, options.words(setting, {}, value) + " is stated, and the file is " + format,
-                "no such statement: it is about the text of a CSV file");
+    core::refuse({.file = options.name},
+                 options.words(setting, {}, value) + " is stated, and the file is " + format,
+                 "no such statement: it is about the text of a CSV file");
   };
   if (options.decimal != '.') refuse(core::Setting::decimal, std::string(1, options.decimal));
   if (options.no_header) refuse(core::Setting::no_header, {});
@@ -154,7 +156,7 @@ TableFile read_table(const std::string& path, const ReadOptions& options, Proble
   if (!is_mat(bytes)) return parse_table(bytes, options, problems, warnings);
   std::error_code error;
   if (!fs::is_regular_file(path, error))
-    refuse_file(options.name, "a MATLAB file cannot be read from a pipe", "the name of a file");
+    core::refuse({.file = options.name}, "a MATLAB file cannot be read from a pipe", "the name of a file");
   refuse_statements_on_text(options, "a MATLAB file");
   check_mat(bytes, options.name);
   return {read_mat(path, options, problems, warnings), nullptr, core::sha256(bytes)};
@@ -171,7 +173,7 @@ void refuse_unused(const TableFile& file, const ReadOptions& options, Problems& 
       problems.add(
           {{options.name, 0, 0, {}},
            std::string("a ") + option + " is stated for column " + column + ", and the file has no such column",
-           "the columns that were read: " + core::joined(there, ", ") + "; or one of another name, as " +
+           "the columns that were read: " + core::joined(there) + "; or one of another name, as " +
                options.words(core::Setting::column, column, "NAME"),
            column + "=" + text,
            {}});
@@ -201,8 +203,8 @@ void add_stated_times(DataTable& table, const ReadOptions& options) {
   if (options.sample_rate == 0.0 || table.columns.empty()) return;
   for (const auto& [name, what] : {std::pair{"t", "times t"}, {"Y", "amplitudes Y, which are no samples"}})
     if (table.find(name) != nullptr)
-      refuse_file(
-          options.name,
+      core::refuse(
+          {.file = options.name},
           options.words(core::Setting::sample_rate, {}, core::format_number(options.sample_rate, 6) + " Hz") +
               " is stated, and the file has " + what,
           "no such statement, or a file of samples without times");
@@ -257,13 +259,14 @@ MeasuredSignal signal_of(TableFile file, std::string_view column, const ReadOpti
   add_stated_times(file.table, options);
   for (const std::string_view wanted : {std::string_view("t"), column})
     if (file.table.find(wanted) == nullptr)
-      refuse_file(options.name, "there is no column " + std::string(wanted),
-                  "a column of that name, or a statement of its name in the file" +
-                      (wanted == "t" ? "; or " + options.words(core::Setting::sample_rate, {}, "...") : ""));
+      core::refuse({.file = options.name}, "there is no column " + std::string(wanted),
+                   "a column of that name, or a statement of its name in the file" +
+                       (wanted == "t" ? "; or " + options.words(core::Setting::sample_rate, {}, "...") : ""));
   if (file.table.sweeps.size() > 1 || !file.table.restarts.empty())
-    refuse_file(options.name, "the file holds several tests", "one signal over its times");
+    core::refuse({.file = options.name}, "the file holds several tests", "one signal over its times");
   if (file.table.rows() < 2)
-    refuse_file(options.name, "the signal has too few samples", "two or more", std::to_string(file.table.rows()));
+    core::refuse({.file = options.name}, "the signal has too few samples", "two or more",
+                 std::to_string(file.table.rows()));
   check_increasing(file.table, 0, file.table.rows(), problems);
   check_magnitudes(file.table, problems);
   problems.throw_if_any();

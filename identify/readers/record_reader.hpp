@@ -25,7 +25,7 @@
 namespace dualdamp::identify {
 
 /// Names of the columns that a file may hold; `numbers_only`: without labels.
-[[nodiscard]] std::vector<std::string_view> column_names(bool numbers_only = false);
+[[nodiscard]] std::vector<std::string_view> column_names(bool numbers_only);
 
 struct ReadOptions {
   /// Column -> unit, such as x -> mm. Replaces a unit that the file states, with a warning.

@@ -40,7 +40,7 @@ struct Clipping {
 /// along arrives with speed, and stays where the ramp ends. `drive`: the force on the mass or the position of the
 /// base, of the same samples. The drive has a corner there, between lines through an eighth of the plateau's length
 /// on both sides: before it, the drive moves outwards at half its usual speed or more, and after it not at all or
-/// back. The mass slows down from there to the plateau. The corner is not behind the begin of the plateau by more
+/// back. The mass slows down from there to the plateau. The corner is not behind the start of the plateau by more
 /// than a twentieth of its length: an end of the range is reached while the drive still moves on. A harmonic drive
 /// has no corner. Nothing is left of fewer places than `fewest_places`.
 [[nodiscard]] Clipping without_sticks(const Clipping& clipping, std::span<const double> x,

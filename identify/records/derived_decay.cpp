@@ -3,6 +3,7 @@
 #include <boost/math/tools/minima.hpp>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <numeric>
 #include <span>
 #include <utility>
@@ -357,7 +358,7 @@ class DecayReader {
     while (grows && end > largest + 1 && lasting(result, end - 1) > too_long * half_period_) --end;
     if (fails && swing(end) > most_left * swing(largest))
       return driven(result, "the swings do not shrink as in a free vibration");
-    // A blow may last to the begin of the largest swing. It is over at the end of this swing.
+    // A blow may last to the start of the largest swing. It is over at the end of this swing.
     constexpr std::size_t longest_start = 3;
     const std::size_t begin = largest > 1 ? largest : 0;
     if (begin > steady + longest_start + 1) return driven(result, "the swings grow at the beginning");

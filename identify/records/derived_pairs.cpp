@@ -5,6 +5,8 @@
 #include <span>
 #include <utility>
 
+#include "core/angle.hpp"
+#include "core/constants.hpp"
 #include "core/numbers.hpp"
 #include "identify/records/derived_records.hpp"
 #include "identify/records/sine_fit.hpp"
@@ -105,7 +107,7 @@ Phasor mean_of(std::span<const Phasor> phasors) {
 /// the mean of the second half is larger than noise explains.
 std::optional<SteadyPart> steady_part(const History& history, double omega) {
   const std::span<const double> x = history.x;
-  const double period = two_pi / omega * history.sample_rate;
+  const double period = core::two_pi / omega * history.sample_rate;
   constexpr double rounding = 1e-9;
   const auto periods = static_cast<int>(static_cast<double>(x.size()) / period * (1.0 + rounding));
   if (periods < 1) return std::nullopt;
@@ -195,7 +197,7 @@ class PairReader {
     pair.x = half_peak_to_peak(x);
     pair.omega = drive.omega;
     pair.fundamental = x.harmonics[0].amplitude;
-    pair.phase = wrapped(y.harmonics[0].phase - x.harmonics[0].phase);
+    pair.phase = core::wrapped(y.harmonics[0].phase - x.harmonics[0].phase);
     pair.mean_square_speed = mean_square_speed(x, cut);
     pair.sweep = sweep_of(history_.sweep);
     diagnose(y, *steady, drive.omega);
@@ -218,8 +220,8 @@ class PairReader {
 
   static std::string frequencies(double omega, double stated) {
     constexpr int digits = 6;
-    return "the base moves at " + core::format_number(omega / two_pi, digits) + " Hz, not at " +
-           core::format_number(stated / two_pi, digits) + " Hz";
+    return "the base moves at " + core::format_number(omega / core::two_pi, digits) + " Hz, not at " +
+           core::format_number(stated / core::two_pi, digits) + " Hz";
   }
 
   /// The fit to y. A stated frequency is kept if it agrees with that of y within the error of the fit: in a short
@@ -238,7 +240,7 @@ class PairReader {
       // A hundredth of a period over the record changes the amplitude by 2e-4.
       constexpr double notable = 0.01;
       const double duration = static_cast<double>(history_.y.size()) / history_.sample_rate;
-      if (off * duration > notable * two_pi && off < most_detuning * stated)
+      if (off * duration > notable * core::two_pi && off < most_detuning * stated)
         warnings_.push_back(name_ + ": " + frequencies(free.omega, stated) +
                             " as stated: its own frequency is used");
       return free;
@@ -267,7 +269,7 @@ class PairReader {
     if (steady.first > 0)
       warnings_.push_back(
           name_ + ": the first " +
-          core::format_number(static_cast<double>(steady.first) / history_.sample_rate * omega / two_pi, 3) +
+          core::format_number(static_cast<double>(steady.first) / history_.sample_rate * omega / core::two_pi, 3) +
           " periods are left out: the motion was not yet steady");
     if (steady.drifts())
       warnings_.push_back(name_ + ": the amplitude of x still changes by " + percent_text(steady.drift) +

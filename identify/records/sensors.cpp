@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/constants.hpp"
 #include "core/diagnostics.hpp"
 #include "core/random.hpp"
 

@@ -8,6 +8,8 @@
 #include <numeric>
 #include <optional>
 
+#include "core/angle.hpp"
+#include "core/constants.hpp"
 #include "identify/statistics/decompositions.hpp"
 
 namespace dualdamp::identify {
@@ -176,7 +178,7 @@ void describe(SineFit& fit, const Basis& basis, const Trial& trial, std::size_t 
     const double amplitude = std::hypot(a, b);
     // a cos + b sin = A cos(k theta tau - psi); the first sample is at tau = -middle.
     const double phase = -std::atan2(b, a) - k * middle * basis.theta();
-    Harmonic harmonic{amplitude, std::remainder(phase, two_pi), 0.0};
+    Harmonic harmonic{amplitude, core::wrapped(phase), 0.0};
     if (amplitude > 0.0) {
       const double cos = a / amplitude;
       const double sin = b / amplitude;
@@ -192,7 +194,7 @@ std::string fault_of(std::size_t samples, double theta, const SineFitOptions& op
     return "there are fewer samples than unknowns";
   if (!(theta > 0.0)) return "there is no frequency to fit a sine of";
   constexpr double rounding = 1e-9;  // rounding may make a period of a whole number of samples slightly longer
-  if (theta * static_cast<double>(samples) < two_pi * (1.0 - rounding))
+  if (theta * static_cast<double>(samples) < core::two_pi * (1.0 - rounding))
     return "the record is shorter than one period";
   if (theta * options.harmonics >= std::numbers::pi)
     return "the highest harmonic lies beyond half of the sample rate";
@@ -219,7 +221,7 @@ double waveform(const SineFit& fit, double angle, bool derivative) {
 /// The largest value of `sign` times the waveform, without its offset.
 double extreme(const SineFit& fit, double sign) {
   const int grid = 32 * static_cast<int>(fit.harmonics.size());
-  const double cell = two_pi / grid;
+  const double cell = core::two_pi / grid;
   int best = 0;
   for (int i = 1; i < grid; ++i)
     if (sign * waveform(fit, i * cell, false) > sign * waveform(fit, best * cell, false)) best = i;
@@ -284,7 +286,7 @@ double guess_frequency(std::span<const double> signal, double sample_rate) {
     last = static_cast<double>(below) + under / (under + signal[below + 1] - mean);
     if (crossings++ == 0) first = last;
   }
-  return crossings < 3 ? unknown : two_pi * (crossings - 1) / (last - first) * sample_rate;
+  return crossings < 3 ? unknown : core::two_pi * (crossings - 1) / (last - first) * sample_rate;
 }
 
 double half_peak_to_peak(const SineFit& fit) {

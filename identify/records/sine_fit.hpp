@@ -16,13 +16,10 @@
 #include <span>
 #include <vector>
 
-#include "core/constants.hpp"
 #include "core/outcome.hpp"
 #include "identify/record.hpp"
 
 namespace dualdamp::identify {
-
-using core::two_pi;
 
 struct Harmonic {
   double amplitude = 0.0;  ///< A_k, unit of the signal, >= 0

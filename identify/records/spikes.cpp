@@ -62,7 +62,7 @@ std::optional<double> bend(const std::vector<double>& signal, std::ptrdiff_t i) 
 }
 
 /// Whether the signal returns beside sample i. A spike of height h has the second differences h, -2 h, h; a corner,
-/// as at the begin and the end of a blow, has one, or two of one sign. Those of the smooth signal count as known
+/// as at the start and the end of a blow, has one, or two of one sign. Those of the smooth signal count as known
 /// from two samples further on. Near an end of the signal no neighbour tells a step, which has two of both signs
 /// side by side: there both beside must be those of a spike as high as the sample is `off`.
 bool returns(const std::vector<double>& signal, std::size_t sample, double off) {

@@ -96,7 +96,7 @@ std::optional<NumberedHistory> longest_history(const Record& record, const Known
                                                Estimate& estimate, UnmeasuredDrive drive) {
   const std::vector<NumberedHistory> histories = usable_histories(record, {.cutoffs = {0.0}}, estimate, drive);
   if (histories.empty()) return std::nullopt;
-  if (std::string fault = fault_of(constants); !fault.empty()) {
+  if (std::string fault = lacks_constants(constants); !fault.empty()) {
     refuse(estimate, std::move(fault));
     return std::nullopt;
   }

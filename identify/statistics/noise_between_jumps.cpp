@@ -40,28 +40,20 @@ double noise_between_jumps(std::span<const double> signal) {
   std::vector<double> differences;  // in units of the noise
   for (std::size_t i = 0; i + reach_of_difference <= signal.size(); ++i)
     differences.push_back(noise_level(signal.subspan(i, reach_of_difference)));
-  constexpr double rare = 4.0;  // deviations: one normal variable in 16,000
   constexpr int most_rounds = 10;
   constexpr double settled = 1e-3;
   constexpr std::size_t least_part = 4;
   std::vector<double> kept = differences;
   double deviation = median_deviation(kept);
   for (int round = 0; round < most_rounds; ++round) {
-    std::vector<double> away = away_from_larger(differences, rare * deviation);
+    std::vector<double> away = away_from_larger(differences, most_of_noise * deviation);
     if (away.size() < differences.size() / least_part || away.empty()) break;
     kept = std::move(away);
     const double before = deviation;
     deviation = median_deviation(kept);
     if (!(deviation < (1.0 - settled) * before)) break;
   }
-  double sum = 0.0;
-  double count = 0.0;
-  for (const double difference : kept) {
-    if (difference > rare * deviation) continue;
-    sum += difference * difference;
-    count += 1.0;
-  }
-  const double between = std::sqrt(sum / count);
+  const auto [between, count] = noise_part(kept, deviation);
   // Fewer differences tell the noise less well. By chance alone, the ratio of the two has a standard deviation of
   // 0.6 over the root of their number.
   constexpr double beyond_chance = 2.0;

@@ -16,9 +16,7 @@ double fourth_difference(std::span<const double> x, std::size_t i) {
   return x[i] - 4.0 * x[i + 1] + 6.0 * x[i + 2] - 4.0 * x[i + 3] + x[i + 4];
 }
 
-// Sums of the squared coefficients: variance of a difference over that of the noise.
-constexpr double second_gain = 6.0;
-constexpr double fourth_gain = 70.0;
+constexpr double fourth_difference_gain = 70.0;
 
 }  // namespace
 
@@ -31,7 +29,8 @@ double noise_level(std::span<const double> signal, int order) {
     const double difference = order == 2 ? second_difference(signal, i) : fourth_difference(signal, i);
     sum += difference * difference;
   }
-  return std::sqrt(sum / ((order == 2 ? second_gain : fourth_gain) * static_cast<double>(count)));
+  return std::sqrt(sum /
+                   ((order == 2 ? second_difference_gain : fourth_difference_gain) * static_cast<double>(count)));
 }
 
 double converter_step(std::vector<double> signal, std::size_t fewest) {
@@ -50,23 +49,26 @@ double converter_step(std::vector<double> signal, std::size_t fewest) {
   return levels < fewest || 2 * levels > signal.size() ? 0.0 : step;
 }
 
+NoisePart noise_part(std::span<const double> magnitudes, double deviation) {
+  const double largest = most_of_noise * deviation;
+  double sum = 0.0;
+  double count = 0.0;
+  for (const double magnitude : magnitudes) {
+    if (magnitude > largest) continue;
+    sum += magnitude * magnitude;
+    count += 1.0;
+  }
+  return {std::sqrt(sum / count), count};
+}
+
 void RobustNoiseLevel::add(std::span<const double> signal) {
   for (std::size_t i = 0; i + 4 < signal.size(); ++i)
-    differences_.push_back(std::abs(fourth_difference(signal, i)) / std::sqrt(fourth_gain));
+    differences_.push_back(std::abs(fourth_difference(signal, i)) / std::sqrt(fourth_difference_gain));
 }
 
 double RobustNoiseLevel::deviation() const {
   if (differences_.empty()) return 0.0;
-  constexpr double rare = 4.0;  // deviations: one normal variable in 16,000
-  const double largest = rare * median_deviation(differences_);
-  double sum = 0.0;
-  double count = 0.0;
-  for (const double difference : differences_) {
-    if (difference > largest) continue;
-    sum += difference * difference;
-    count += 1.0;
-  }
-  return std::sqrt(sum / count);
+  return noise_part(differences_, median_deviation(differences_)).root_mean_square;
 }
 
 double robust_noise_level(std::span<const double> signal) {

@@ -80,8 +80,7 @@ double sign(double value) { return static_cast<double>((value > 0.0) - (value < 
 std::vector<double> pull_of(const History& history, const ForceParameters& law, double offset) {
   std::vector<double> pull(history.x.size());
   for (std::size_t i = 0; i < pull.size(); ++i)
-    pull[i] = law.k * ((history.y.empty() ? 0.0 : history.y[i]) - history.x[i]) +
-              (history.force.empty() ? 0.0 : history.force[i]) - offset - law.c * history.v[i];
+    pull[i] = law.k * (history.y_at(i) - history.x[i]) + history.force_at(i) - offset - law.c * history.v[i];
   return pull;
 }
 
@@ -215,8 +214,7 @@ struct NoiseLevels {
         measured.a.empty() ? second_difference(measured.x, measured.sample_rate) : measured.a;
     std::vector<double> left(measured.x.size());
     for (std::size_t i = 0; i < left.size(); ++i)
-      left[i] = law.k * ((measured.y.empty() ? 0.0 : measured.y[i]) - measured.x[i]) +
-                (measured.force.empty() ? 0.0 : measured.force[i]) - law.m * acceleration[i];
+      left[i] = law.k * (measured.y_at(i) - measured.x[i]) + measured.force_at(i) - law.m * acceleration[i];
     balance.add(left);
   }
 

@@ -261,7 +261,7 @@ def _row(number, answer):
         if (low == "") != (high == ""):
             raise InvalidScenario(f"case {number}: the interval of {name!r} has one end")
         if low and float(low) > float(high):
-            raise InvalidScenario(f"case {number}: the interval of {name!r} ends below its begin: {low} > {high}")
+            raise InvalidScenario(f"case {number}: the interval of {name!r} ends below its start: {low} > {high}")
     return [number, *cells.values()]
 
 

@@ -162,7 +162,7 @@ std::unique_ptr<const Question> ask_fit(CheckedValues&& values) {
                         faults);
     std::ranges::move(items, std::back_inserter(all));
   }
-  refuse(faults);
+  throw_if_any(faults);
   std::vector<std::string> warnings = drive_warnings(all, values.model);
   for (const DataFile& file : values.files)
     for (const std::string& warning : file.data.warnings) warnings.push_back(file.name + ": " + warning);

@@ -137,15 +137,13 @@ void check_predict(CheckedFile& file) {
   take_recorded_drives(file, assumes_drive || leaves_drive_open(file));
   check_laws(file);
   // A loop compares forces: a constant that the fit lacked has no part in them.
-  const auto is_loop = [&](const DataItem& item) {
-    return item.keys.is_object() && item.keys.value("loop", false);
-  };
-  if (std::ranges::all_of(items_of(file.values().at("analysis"), file.files, "data"), is_loop)) return;
-  std::string lacking;
+  if (std::ranges::all_of(items_of(file.values().at("analysis"), file.files, "data"), &DataItem::is_loop)) return;
+  std::vector<std::string> lacking;
   for (const char* key : {"mass", "stiffness", "damping"})
-    if (!file.has("system", key)) lacking += (lacking.empty() ? "" : ", ") + std::string(key);
+    if (!file.has("system", key)) lacking.emplace_back(key);
   if (!lacking.empty())
-    file.complain("system", "the prediction of a motion needs the whole rig, and 'system' lacks " + lacking,
+    file.complain("system",
+                  "the prediction of a motion needs the whole rig, and 'system' lacks " + core::joined(lacking),
                   "mass, stiffness, damping, such as " + file.words()(core::Setting::value, "system.mass", "2 kg"));
 }
 
@@ -166,7 +164,7 @@ std::string assumed_drive(const CheckedValues& values, const std::vector<DataIte
   if (!values.analysis.value("drive_of_fit", false)) return {};
   const sim::Excitation& drive = values.model.excitation;
   const bool is_assumed = std::ranges::any_of(items, [&](const DataItem& item) {
-    if (item.keys.is_object() && item.keys.value("loop", false)) return false;
+    if (item.is_loop()) return false;
     const std::vector<identify::History>& histories = item.data.record.histories;
     for (std::size_t h = 0; h < histories.size(); ++h) {
       if (item.drive_of(h) != nullptr) continue;
@@ -236,7 +234,7 @@ std::unique_ptr<const Question> ask_predict(CheckedValues&& values) {
     if (assumes_base && std::ranges::all_of(item.data.record.histories, [](const auto& h) { return h.y.empty(); }))
       if (std::string idle = idle_drive(item, {}); !idle.empty()) faults.push_back({"data", std::move(idle)});
   refuse_other_drives(items, "data", values.model, values.drive_start, {}, faults);
-  refuse(faults);
+  throw_if_any(faults);
   std::ranges::move(drive_warnings(items, values.model), std::back_inserter(warnings));
   for (const DataFile& file : values.files)
     for (const std::string& warning : file.data.warnings) warnings.push_back(file.name + ": " + warning);

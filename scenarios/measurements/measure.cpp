@@ -8,6 +8,7 @@
 #include <memory>
 #include <utility>
 
+#include "core/diagnostics.hpp"
 #include "core/random.hpp"
 #include "identify/records/derived_records.hpp"
 #include "sim/engine/engine.hpp"
@@ -207,14 +208,11 @@ Result measure_history(const Test& test, const Measurement& measurement, const i
 
 /// "pair 3, 4, 7 could not be measured: no steady state ..."
 void add_failures(const std::vector<Result>& results, const std::string& what, std::vector<std::string>& warnings) {
-  std::map<std::string, std::string> numbers;
-  for (std::size_t i = 0; i < results.size(); ++i) {
-    if (results[i].failure.empty()) continue;
-    std::string& list = numbers[results[i].failure];
-    list += (list.empty() ? "" : ", ") + std::to_string(i + 1);
-  }
+  std::map<std::string, std::vector<std::string>> numbers;
+  for (std::size_t i = 0; i < results.size(); ++i)
+    if (!results[i].failure.empty()) numbers[results[i].failure].push_back(std::to_string(i + 1));
   for (const auto& [reason, list] : numbers)
-    warnings.push_back(what + " " + list + " could not be measured: " + reason);
+    warnings.push_back(what + " " + core::joined(list) + " could not be measured: " + reason);
 }
 
 MotionRecord measure_all(const sim::Model& model, const Measurement& measurement, const identify::Sensors& sensors,

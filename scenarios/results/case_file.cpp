@@ -50,12 +50,6 @@ std::optional<std::size_t> sound_number_of(std::string_view line) {
   return number_of(line);
 }
 
-[[noreturn]] void refuse(const std::string& path, std::string message, std::string allowed = {},
-                         std::string found = {}) {
-  throw core::InputError(
-      core::Diagnostic{{path, 1, 0, {}}, std::move(message), std::move(allowed), std::move(found), {}});
-}
-
 [[noreturn]] void fail_to_write(const std::string& path, const std::string& reason) {
   throw OutputError("cannot write " + path + ": " + reason);
 }
@@ -156,8 +150,9 @@ CaseFile::Scan CaseFile::scan(int part, Lengths& lengths) const {
   // A head is incomplete if the campaign was killed before its first case.
   if (!lines.next(line)) return scan;
   if (line != head_)
-    refuse(path, "the cases are those of another campaign, or of another version of the program",
-           "the same scenario, options and program; or another directory", core::shortened(line, 100));
+    core::refuse({.file = path, .line = 1},
+                 "the cases are those of another campaign, or of another version of the program",
+                 "the same scenario, options and program; or another directory", core::shortened(line, 100));
   for (std::size_t place = 2; lines.next(line); ++place) {
     const std::optional<std::size_t> number = sound_number_of(line);
     if (number && *number < lengths.size())
@@ -271,7 +266,8 @@ void CaseFile::gather(const std::vector<int>& all, const Lengths& lengths, int d
       const std::optional<std::size_t> number = sound_number_of(line);
       if (!number || *number >= lengths.size()) continue;
       if (lengths[*number] != line.size() + 1)
-        refuse(part_path(part), "case " + std::to_string(*number) + " is there twice and differs");
+        core::refuse({.file = part_path(part), .line = 1},
+                     "case " + std::to_string(*number) + " is there twice and differs");
       if (places[*number] != begin + run.size() || run.size() > enough) {
         write_at(descriptor, run, begin, path());
         run.clear();

@@ -44,10 +44,6 @@ class Descriptor {
   int number_;
 };
 
-[[noreturn]] void refuse_input(const std::string& path, std::string message) {
-  throw core::InputError(core::Diagnostic{{path, 0, 0, {}}, std::move(message), {}, {}, {}});
-}
-
 bool write_all(int descriptor, std::string_view content) {
   while (!content.empty()) {
     const ssize_t count = ::write(descriptor, content.data(), content.size());
@@ -153,8 +149,10 @@ std::string read_file(const std::string& path, std::size_t limit) {
   const Descriptor file = open_to_read(path);
   struct stat status{};
   if (::fstat(file.number(), &status) == 0 && S_ISDIR(status.st_mode))
-    refuse_input(path, "is a directory, not a file");
-  const auto refuse_large = [&] { refuse_input(path, "is larger than " + std::to_string(limit >> 20U) + " MiB"); };
+    core::refuse({.file = path}, "is a directory, not a file");
+  const auto refuse_large = [&] {
+    core::refuse({.file = path}, "is larger than " + std::to_string(limit >> 20U) + " MiB");
+  };
   if (S_ISREG(status.st_mode) && static_cast<std::uintmax_t>(status.st_size) > limit) refuse_large();
 
   std::string content;

@@ -6,6 +6,7 @@
 #include <map>
 #include <utility>
 
+#include "core/angle.hpp"
 #include "core/constants.hpp"
 #include "core/numbers.hpp"
 #include "scenarios/verification/aligned_answer.hpp"
@@ -200,7 +201,7 @@ class Comparison {
     if (unit == "rad" && (std::isnan(mine) || std::isnan(theirs))) return;
     double gap = std::abs(mine - theirs);
     if (unit == "rad") {
-      gap = std::abs(std::remainder(mine - theirs, core::two_pi));
+      gap = std::abs(core::wrapped(mine - theirs));
       size = 1.0;
     }
     add(quantity, gap == 0.0 ? 0.0 : gap / size, verification_tolerance(unit), mine, theirs);

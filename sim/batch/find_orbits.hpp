@@ -13,12 +13,13 @@
 /// that never falls with speed (static = kinetic) two motions never move apart, so an orbit that attracts is the
 /// only one.
 
+#include <numbers>
+
 #include "core/constants.hpp"
 #include "sim/batch/reversal_search.hpp"
 
 namespace dualdamp::sim::batch {
 
-inline constexpr double pi = 3.14159265358979323846;
 /// A limit nearer than this (relative) is left to the exact engine.
 inline constexpr double clearly = 1e-9;
 inline constexpr int shots = 3;
@@ -64,7 +65,7 @@ struct OrbitCandidate {
 template <Pack P>
 OrbitCandidate<P>::OrbitCandidate(const Oscillation<P>& o)
     : searches(splat<P>(0.0)), panels(searches), splits(searches) {
-  const Vector friction = (4.0 / pi) * o.slip;
+  const Vector friction = (4.0 / std::numbers::pi) * o.slip;
   const Vector elastic = 1.0 - o.r * o.r;
   const Vector viscous = 2.0 * o.zeta * o.r;
   const Vector square = elastic * elastic + viscous * viscous;
@@ -74,7 +75,7 @@ OrbitCandidate<P>::OrbitCandidate(const Oscillation<P>& o)
   turned = Complex{elastic * peak, viscous * peak + friction} / o.drive;
   const Vector size = 1.0 / P::sqrt(turned.norm());
   turned = {turned.re * size, turned.im * size};
-  half_cycle = o.own(pi / o.r);
+  half_cycle = o.own(std::numbers::pi / o.r);
   for (int i = 0; i < shots; ++i) shoot(o);
 }
 
@@ -126,7 +127,7 @@ void OrbitCandidate<P>::apply_map(const Oscillation<P>& o) {
   const Complex pushed = interval.driven * search.turn();
   const Motion<P> end = interval.at(o, interval.own * search.own(), pushed);
   peak_gap = -end.x - peak;
-  angle_gap = o.r * search.time() - pi;
+  angle_gap = o.r * search.time() - std::numbers::pi;
   const IntervalDerivative<P> d(o, interval, search.own(), pushed);
   d00 = -d.x_peak;
   d01 = -d.x_angle;
@@ -167,7 +168,7 @@ template <Pack P>
 typename P::Vector fundamental_lag(const Oscillation<P>& o, const OrbitCandidate<P>& orbit) {
   using Complex = ComplexPack<P>;
   Complex force = o.drive * orbit.turned;
-  force.im = force.im - (4.0 / pi) * o.slip;
+  force.im = force.im - (4.0 / std::numbers::pi) * o.slip;
   const Complex lag = orbit.turned * (Complex{1.0 - o.r * o.r, 2.0 * o.zeta * o.r} / force);
   const typename P::Vector angle = P::atan2(lag.im, lag.re);
   return P::choose(angle < 0.0, angle + core::two_pi, angle);

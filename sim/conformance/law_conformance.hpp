@@ -6,7 +6,7 @@
 ///
 /// The mass moves along random paths: strokes with smooth speed, reversals, stops, releases. For every step the
 /// test demands
-///   * guards on the right side after a mode change, reached within 32 jumps;
+///   * guards on the right side after a mode change, reached within `friction::max_repeats` jumps;
 ///   * a finite force that is the same at a second call, and a static limit >= 0;
 ///   * for a law that is not affine: finite rates, the same from every function; no kink at v = 0 while the
 ///     direction is frozen, where |v| is sign(direction) v; a dissipation >= 0, if the law states one and is

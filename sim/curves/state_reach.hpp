@@ -27,7 +27,7 @@ class StateReach final : public PeriodObserver {
 
   const Model& model_;
   const Engine& engine_;
-  std::vector<std::vector<double>> sizes_;  ///< as each law states them, at the begin
+  std::vector<std::vector<double>> sizes_;  ///< as each law states them, at the start
   std::vector<std::vector<double>> reach_;  ///< largest absolute values
 };
 

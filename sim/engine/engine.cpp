@@ -262,7 +262,7 @@ EventKind Engine::act_on_schedule(double due) {
 
 bool Engine::comes_to_an_end(bool takes_no_time) {
   repeats_ = takes_no_time ? repeats_ + 1 : 0;
-  if (repeats_ <= max_repeats * std::max(1, static_cast<int>(model_.friction.size()))) return true;
+  if (repeats_ <= friction::max_repeats * std::max(1, static_cast<int>(model_.friction.size()))) return true;
   const std::string changes = changed_last_ < model_.friction.size()
                                   ? "the mode changes of " + name_in_list(model_, changed_last_)
                                   : "a friction law's mode changes";

@@ -5,8 +5,8 @@
 ///
 /// Where a slip ends (v reaches 0) the sum of forces decides (`sim/engine/sticking_gate.hpp`): the mass sticks, or
 /// it reverses. Where a stick ends (the pull exceeds the static limits) the mass slips in the direction of the
-/// pull. If a jump ends in a mode with a violated guard, the law jumps again, at most `max_repeats` times for each
-/// law.
+/// pull. If a jump ends in a mode with a violated guard, the law jumps again, at most `friction::max_repeats` times
+/// for each law.
 ///
 /// Time is kept modulo the forcing period, or from the start of the present piece of a drive, so the phase stays
 /// exact in long runs.
@@ -29,8 +29,6 @@ namespace dualdamp::sim {
 
 class Engine {
  public:
-  static constexpr int max_repeats = 32;
-
   explicit Engine(const Model& model);
   Engine(const Engine&) = delete;
   Engine& operator=(const Engine&) = delete;

@@ -294,7 +294,7 @@ const Interval* SmoothEngine::step(double left, bool to_period_end) {
     if (hit && (!at_once || coincides)) {
       derivative_.enter(search_.guards(), hit->guard, taken);
     } else if ((is_over && by_schedule) || (at_once && !follows_event_)) {
-      // A guard that an interval finds violated at its begin was not crossed: nothing delays that.
+      // A guard that an interval finds violated at its start was not crossed: nothing delays that.
       derivative_.drop_lead(taken);
     }
   }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <string>
 
 #include "friction_models/state_sizes.hpp"
 #include "sim/steppers/stepper.hpp"
@@ -17,7 +18,6 @@ using friction::Trigger;
 
 namespace {
 
-constexpr int max_jumps = 32;
 /// Of their largest value so far: guards below zero by less are at zero.
 constexpr double rounding_of_guards = 1e-12;
 constexpr int max_events = 1000;  ///< within one call of move_along
@@ -293,12 +293,12 @@ int LawHost::worst_guard() {
 }
 
 void LawHost::settle() {
-  for (int i = 0; i <= max_jumps; ++i) {
+  for (int i = 0; i <= friction::max_repeats; ++i) {
     const int guard = worst_guard();
     if (guard < 0) return;
     law_.jump(place_.memory, {guard}, place_.now, direction_);
   }
-  give_up("jumps do not end within 32 repeats");
+  give_up("jumps do not end within " + std::to_string(friction::max_repeats) + " repeats");
 }
 
 void LawHost::give_up(const std::string& fault) {

@@ -1,7 +1,6 @@
 #include "sim/motion/free_decay.hpp"
 
 #include <algorithm>
-#include <numbers>
 
 #include "sim/engine/engine.hpp"
 #include "sim/motion/lasting_stick.hpp"
@@ -20,7 +19,7 @@ class Decay {
       : model_(valid_free(model, "free_decay")),
         count_(static_cast<std::size_t>(std::max(count, 0))),
         engine_(make_engine(model_)),
-        period_(2.0 * std::numbers::pi / natural_frequency(model_.oscillator)) {
+        period_(natural_period(model_.oscillator)) {
     if (engine_->velocity() == 0.0) decay_.extremes.push_back({0.0, engine_->position()});
   }
 

@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <complex>
-#include <numbers>
 #include <optional>
 #include <vector>
 
@@ -158,7 +157,7 @@ bool rests_for_good(const Model& model, const Engine& engine, double held) {
   }
   // Where no law can hold the mass, the smooth engine counts it as slipping.
   if (!is_held && (limit > 0.0 || pull != 0.0)) return false;
-  const double period = 2.0 * std::numbers::pi / natural_frequency(model.oscillator);
+  const double period = natural_period(model.oscillator);
   for (std::size_t i = 0; i < model.friction.size(); ++i) {
     const HeldLaw law(model.friction[i], state.memories[i], now, limit, limit - std::abs(pull), period);
     if (!law.stays(held)) return false;

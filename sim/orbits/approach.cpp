@@ -67,7 +67,7 @@ class Rounding : public PeriodObserver {
       speed_ = std::max(speed_, std::abs(interval.at(part * interval.duration).v));
     if (const ClosedForm* form = interval.closed_form()) terms_ = std::max(terms_, form->terms(form->x));
   }
-  /// The largest |v|, at begin, middle and end of the intervals [m/s].
+  /// The largest |v|, at start, middle and end of the intervals [m/s].
   [[nodiscard]] double speed() const { return speed_; }
   /// The largest sum of the moduli of the terms whose sum is the position [m]: it exceeds the position by far where
   /// a mass hardly moves under a large drive, or against a friction that would stretch the spring by metres.

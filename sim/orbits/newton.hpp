@@ -1,5 +1,5 @@
 #pragma once
-/// Newton's method on the period map, for end = begin of a period.
+/// Newton's method on the period map, for end = start of a period.
 
 #include "sim/orbits/period_map.hpp"
 

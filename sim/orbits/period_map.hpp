@@ -33,7 +33,7 @@ struct ForcingPeriod {
   double size = 0.0;          ///< largest |x| in the period [m]
   bool moves = false;
 
-  /// Distance of end and begin.
+  /// Distance of end and start.
   [[nodiscard]] double closure(double omega) const { return distance(begin, end, size, omega); }
   /// Whether it ends in the mode in which it began: the monodromy matrix then maps coordinates to the same
   /// coordinates.

@@ -414,7 +414,7 @@ class Benchmark(unittest.TestCase):
     def test_answers_are_refused_with_their_place(self):
         for text, message in [("zeta\n1\n", "the column 'case' is missing"), ("case,beta\n1,2\n", "there is no column of this name"),
                               ("case,zeta\n41,1\n", "there is no such case"), ("case,zeta\n1,1\n1,2\n", "answered twice"),
-                              ("case,zeta\n1,abc\n", "is no number"), ("case,zeta,F0\n1,1e308,-1e308\n", "too large to compute with"), ("case,zeta_low,zeta_high\n1,3,2\n", "ends below its begin"),
+                              ("case,zeta\n1,abc\n", "is no number"), ("case,zeta,F0\n1,1e308,-1e308\n", "too large to compute with"), ("case,zeta_low,zeta_high\n1,3,2\n", "ends below its start"),
                               ("case,zeta_low\n1,3\n", "one end"), ("case,p_value\n1,1.5\n", "out of range"), ("case,usable\n1,perhaps\n", "neither yes nor no"),
                               ("case,zeta\n1\n", "another number of fields"), ("", "no header")]:
             path = self.folder / "bad.csv"

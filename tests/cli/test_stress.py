@@ -229,7 +229,7 @@ class Stress(unittest.TestCase):
             out = self.folder / f"killed{attempt}"
             cases = out / "cases.jsonl"
             process = subprocess.Popen([PROGRAM, *map(str, command), "--out", str(out), "--resume"], stdout=subprocess.DEVNULL)
-            # At a random place of the work, before its begin and after its end included.
+            # At a random place of the work, before its start and after its end included.
             place = draws.uniform(-0.05, 1.05) * size
             while process.poll() is None and (cases.stat().st_size if cases.exists() else -1) < place:
                 time.sleep(0.0005)

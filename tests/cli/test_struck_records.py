@@ -31,7 +31,7 @@ def struck(blow, begin=0.31, speed=0.3):
 
 
 def struck_again(blows, count=1300):
-    """The same struck several times: each blow has its begin, its length in samples and the speed that it gives."""
+    """The same struck several times: each blow has its start, its length in samples and the speed that it gives."""
     halves = [(begin, length / RATE, MASS * speed * math.pi / 2 / (length / RATE)) for begin, length, speed in blows]
 
     def force(t):

@@ -83,7 +83,7 @@ def test_answers_from_a_file_and_from_columns(tmp_path):
         ({"zeta": True}, dd.InvalidScenario, "case 1: 'zeta' is no number: True"),
         ({"F0": float("inf")}, dd.InvalidScenario, "case 1: 'F0' is out of range: inf"),
         ({"zeta_low": 0.1}, dd.InvalidScenario, "case 1: the interval of 'zeta' has one end"),
-        ({"F0_low": 3, "F0_high": 2}, dd.InvalidScenario, "case 1: the interval of 'F0' ends below its begin: 3.0 > 2.0"),
+        ({"F0_low": 3, "F0_high": 2}, dd.InvalidScenario, "case 1: the interval of 'F0' ends below its start: 3.0 > 2.0"),
         ({"p_value": 2}, dd.InvalidScenario, "case 1: 'p_value' is out of range: 2.0"),
         ({"usable": 2}, dd.InvalidScenario, "case 1: 'usable' is True, False, 'yes' or 'no', not 2"),
         ({"usable": float("nan")}, dd.InvalidScenario, "case 1: 'usable' is True, False, 'yes' or 'no', not nan"),

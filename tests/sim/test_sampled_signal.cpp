@@ -16,7 +16,7 @@ using sim::SampledSignal;
 
 namespace {
 
-/// Derivative of order n of a piece, s after its begin.
+/// Derivative of order n of a piece, s after its start.
 double derivative(const PolynomialPiece& piece, int n, double s) {
   double sum = 0.0;
   for (int j = 3; j >= n; --j) sum = piece.derivatives[static_cast<std::size_t>(j)] + sum * s / (j - n + 1.0);

@@ -124,7 +124,7 @@ class Walk {
     return next;
   }
 
-  /// At a state of the present mode, h after its begin.
+  /// At a state of the present mode, h after its start.
   void list_guards(const MassState& at, double h, std::vector<Guard>& guards) const {
     guards.clear();
     const LinearForce friction = friction_.force(at.direction);

@@ -14,7 +14,7 @@ using oracle::LongComplex;
 using oracle::Real;
 
 constexpr double rounding = 16.0 * std::numeric_limits<double>::epsilon();
-/// A guard counts as zero at the begin if it is closer to zero than this, relative to its parts.
+/// A guard counts as zero at the start if it is closer to zero than this, relative to its parts.
 constexpr double at_zero = 1e-12;
 
 }  // namespace

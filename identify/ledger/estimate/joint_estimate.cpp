@@ -14,6 +14,7 @@
 #include "identify/statistics/decompositions.hpp"
 #include "identify/statistics/distributions.hpp"
 #include "identify/statistics/least_squares.hpp"
+#include "identify/statistics/scatter.hpp"
 #include "identify/statistics/statistics.hpp"
 #include "identify/statistics/ties.hpp"
 

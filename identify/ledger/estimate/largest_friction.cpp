@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/constants.hpp"
 #include "core/numbers.hpp"
 #include "identify/ledger/histories/history_rows.hpp"
 

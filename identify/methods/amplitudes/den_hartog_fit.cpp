@@ -7,6 +7,7 @@
 #include <numbers>
 #include <utility>
 
+#include "core/angle.hpp"
 #include "core/constants.hpp"
 #include "core/numbers.hpp"
 #include "identify/conclusion.hpp"
@@ -18,6 +19,7 @@
 #include "identify/statistics/distributions.hpp"
 #include "identify/statistics/least_squares.hpp"
 #include "identify/statistics/profile_likelihood.hpp"
+#include "identify/statistics/scatter.hpp"
 #include "identify/statistics/statistics.hpp"
 #include "identify/statistics/unequal_errors.hpp"
 #include "sim/analytic/den_hartog.hpp"
@@ -277,7 +279,7 @@ void judge_phases(const Record& record, const AmplitudeLaw& law, const ExactFit&
     const auto state = analytic::non_sticking_state(analytic::den_hartog(fit.p[0], datum.r * std::exp(-fit.p[2])),
                                                     datum.Y, std::max(fit.p[1], 0.0));
     if (!state) continue;
-    sum += std::remainder(pair->phase - state->phase, core::two_pi);
+    sum += core::wrapped(pair->phase - state->phase);
     ++count;
   }
   constexpr double largest = 0.03;  // rad
@@ -365,7 +367,7 @@ Estimate den_hartog_fit(const Record& record, const KnownConstants& constants, c
   if (scatter) warn_of_scatter(scatter->ratio, freedom, estimate);
 
   std::vector<std::string> faults;
-  judge_signs(estimate, 1e-9 * law.pairs().front().Y * data->unit, faults);
+  judge_signs(estimate, law.pairs().front().Y * data->unit, faults);
   test_fit(law, *fit, estimate);
   judge_phases(record, law, *fit, estimate);
   if (options.profile && scatter)

@@ -65,9 +65,8 @@ bool balance(const std::vector<EnergyTerms>& accounts, const KnownConstants& con
     }
   }
   estimate.used = numbers_of(line->points);
-  constexpr double rounding = 1e-9;
   const double scale = output_range(line->points);
-  judge_force_signs(estimate, rounding * scale / line->moments.mean_Y, rounding * scale, faults);
+  judge_force_signs(estimate, scale / line->moments.mean_Y, scale, faults);
   const CurvatureColumns columns = curvature_columns(line->points);
   estimate.lack_of_fit =
       added_term_test(columns.line, scattered.residuals, columns.square, scale, "quadratic term F-test");
@@ -144,7 +143,7 @@ std::vector<EnergyTerms> accounts_of_histories(const Record& record, const Known
 Estimate of_histories(const Record& record, const KnownConstants& constants, const FilterOptions& options,
                       Estimate estimate) {
   estimate.is_of_histories = true;
-  if (std::string fault = fault_of(constants); !fault.empty()) {
+  if (std::string fault = lacks_constants(constants); !fault.empty()) {
     refuse(estimate, std::move(fault));
     return estimate;
   }

@@ -309,9 +309,8 @@ Estimate harmonic_balance(const Record& record, const KnownConstants& constants)
   estimate.used = numbers_of(line->points);
 
   std::vector<std::string> faults;
-  constexpr double rounding = 1e-9;
   const double range = output_range(line->points);
-  judge_force_signs(estimate, rounding * range / line->moments.mean_Y, rounding * range, faults);
+  judge_force_signs(estimate, range / line->moments.mean_Y, range, faults);
   const MonomialFit fit = fit_curve(*states, line->points, constants, estimate);
   if (estimate.lack_of_fit && estimate.lack_of_fit->fired) {
     estimate.findings.emplace_back(

@@ -288,7 +288,7 @@ Estimate law_selection(const Record& record, const KnownConstants& constants, co
   add_curve(fits, estimate.candidates, *test, estimate);
 
   std::vector<std::string> faults;
-  judge_signs(estimate, 1e-9 * test->length, faults);
+  judge_signs(estimate, test->length, faults);
   judge(*test, estimate);
   conclude(estimate, faults,
            "rests on " + std::to_string(test->pairs.size()) + " pairs at " + std::to_string(levels) +

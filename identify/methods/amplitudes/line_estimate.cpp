@@ -10,6 +10,7 @@
 #include "identify/methods/amplitudes/bootstrap.hpp"
 #include "identify/statistics/distributions.hpp"
 #include "identify/statistics/profile_likelihood.hpp"
+#include "identify/statistics/scatter.hpp"
 #include "identify/statistics/statistics.hpp"
 
 namespace dualdamp::identify {
@@ -338,7 +339,7 @@ Estimate estimate_by_line(const LineRule& rule, const Record& record, const Know
   }
 
   std::vector<std::string> faults;
-  judge_signs(estimate, 1e-9 * fit->moments.mean_Y * data->unit, faults);
+  judge_signs(estimate, fit->moments.mean_Y * data->unit, faults);
   const std::vector<Datum> exact = exact_pairs(*data, used, fit->friction);
   test_line_curvature(used, exact, estimate);
   const auto line_through = [&](const std::vector<Datum>& pairs) {

@@ -261,9 +261,8 @@ Estimate receptance(const Record& record, const KnownConstants& constants) {
   for (const Pair& state : *states) estimate.used.push_back(state.number);
 
   std::vector<std::string> faults;
-  constexpr double rounding = 1e-9;
-  judge_force_signs(estimate, rounding * constants.stiffness / states->front().omega,
-                    rounding * constants.stiffness * states->front().x, faults);
+  judge_force_signs(estimate, constants.stiffness / states->front().omega, constants.stiffness * states->front().x,
+                    faults);
   test_amplitude(*states, constants, estimate);
   judge_own_reading(
       *states, constants, [&](const auto& exact) { return receptance_parameters(exact, constants); },

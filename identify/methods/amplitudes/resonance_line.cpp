@@ -61,7 +61,7 @@ std::optional<ResonanceData> take_pairs(const Record& record, const KnownConstan
     if (!reason.empty()) refuse(estimate, std::move(reason));
     return !estimate.outcome.ok();
   };
-  if (refused(lacks_pairs(record)) || refused(fault_of(constants))) return std::nullopt;
+  if (refused(lacks_pairs(record)) || refused(lacks_constants(constants))) return std::nullopt;
   ResonanceData data;
   data.constants = constants;
   double largest = 0.0;

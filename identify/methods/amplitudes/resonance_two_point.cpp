@@ -151,7 +151,7 @@ Estimate resonance_two_point(const Record& record, const KnownConstants& constan
   add_uncertainty(*data, s, options, estimate);
 
   std::vector<std::string> faults;
-  judge_signs(estimate, 1e-9 * std::max(two[0].Y, two[1].Y) * data->unit, faults);
+  judge_signs(estimate, std::max(two[0].Y, two[1].Y) * data->unit, faults);
   judge_others(sliding, two, *line, estimate, faults);
   judge_method(*data, exact_pairs(*data, two, *friction), *friction, line_through, estimate, faults);
   conclude(estimate, faults,

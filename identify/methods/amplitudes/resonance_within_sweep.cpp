@@ -10,6 +10,7 @@
 #include "identify/methods/amplitudes/bootstrap.hpp"
 #include "identify/methods/amplitudes/line_estimate.hpp"
 #include "identify/statistics/distributions.hpp"
+#include "identify/statistics/scatter.hpp"
 #include "identify/statistics/statistics.hpp"
 #include "sim/analytic/den_hartog.hpp"
 
@@ -245,7 +246,7 @@ Estimate resonance_within_sweep(const Record& record, const KnownConstants& cons
   add_uncertainty(*lines, sweeps, *friction, *data, options, estimate);
 
   std::vector<std::string> faults;
-  judge_signs(estimate, 1e-9 * used.front().Y * data->unit, faults);
+  judge_signs(estimate, used.front().Y * data->unit, faults);
   // The exact law with one friction for all sweeps: its departure from a line serves for each sweep.
   const std::vector<Datum> exact = exact_pairs(*data, used, *friction);
   test_sweep_curvature(used, exact, estimate);

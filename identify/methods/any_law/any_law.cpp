@@ -28,7 +28,7 @@ std::string lacks_readings(const Record& record) {
 
 Readings readings_of(const Record& record, const KnownConstants& constants, const AnyLawOptions& options) {
   std::string fault = lacks_readings(record);
-  if (fault.empty()) fault = fault_of(constants);
+  if (fault.empty()) fault = lacks_constants(constants);
   if (!fault.empty()) return fault;
   if (record.pairs && !record.pairs->pairs.empty()) return steady_readings(record, constants, options);
   return decay_readings(record, constants, options.sigma_x);
@@ -158,7 +158,7 @@ std::vector<std::string> warnings_about(const LawIntervals& laws, const AnyLawOp
   }
   if (!bounded.empty())
     warnings.push_back("the range may be wider: these laws fit best at the largest severity that was tried: " +
-                       core::joined(bounded, ", ") +
+                       core::joined(bounded) +
                        (stated ? "; without 'largest_severity' they are followed on where they can be" : ""));
   return warnings;
 }

@@ -5,6 +5,7 @@
 #include <complex>
 #include <utility>
 
+#include "core/angle.hpp"
 #include "core/constants.hpp"
 #include "identify/methods/amplitudes/den_hartog_fit.hpp"
 #include "identify/methods/amplitudes/harmonic_balance.hpp"
@@ -131,7 +132,7 @@ class SteadyReadings final : public ReadingModel {
         if (has_phase(states_[i])) phase[i] = phase_of(model, state);
       }
       result[static_cast<Index>(i)] = states_[i].x - amplitude[twin];
-      if (has_phase(states_[i])) result[phase_row++] = wrapped(states_[i].phase - phase[twin]);
+      if (has_phase(states_[i])) result[phase_row++] = core::wrapped(states_[i].phase - phase[twin]);
     }
     return result;
   }
@@ -152,7 +153,7 @@ class SteadyReadings final : public ReadingModel {
       near.work = neighbours.work;
       if (!there) return std::nullopt;
       jacobian.col(j) = (here - *there) / h;
-      for (Index i = amplitudes(); i < here.size(); ++i) jacobian(i, j) = wrapped(here[i] - (*there)[i]) / h;
+      for (Index i = amplitudes(); i < here.size(); ++i) jacobian(i, j) = core::wrapped(here[i] - (*there)[i]) / h;
     }
     if (unknowns() > stiffness_unknown + 1) {
       Index phase_row = amplitudes();

@@ -17,7 +17,7 @@ std::optional<Extremes> take_extremes(const Record& record, const KnownConstants
     refuse(estimate, "the record holds no extremes of a free vibration");
     return std::nullopt;
   }
-  if (std::string fault = fault_of(constants); !fault.empty()) {
+  if (std::string fault = lacks_constants(constants); !fault.empty()) {
     refuse(estimate, std::move(fault));
     return std::nullopt;
   }

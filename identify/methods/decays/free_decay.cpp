@@ -17,6 +17,7 @@
 #include "identify/statistics/decompositions.hpp"
 #include "identify/statistics/distributions.hpp"
 #include "identify/statistics/median.hpp"
+#include "identify/statistics/scatter.hpp"
 #include "identify/statistics/statistics.hpp"
 
 namespace dualdamp::identify {
@@ -304,7 +305,7 @@ Estimate free_decay(const Record& record, const KnownConstants& constants, const
 
   std::vector<std::string> faults;
   const double X_0 = std::abs(solution->first_amplitude());
-  judge_signs(estimate, 1e-9 * X_0 * extremes->unit, faults);
+  judge_signs(estimate, X_0 * extremes->unit, faults);
   judge_times(*record.decay, estimate, constants, faults, estimate.warnings);
   estimate.lack_of_fit = added_term_test(model.jacobian(solution->fit), solution->fit.residual,
                                          model.cubic_term(solution->fit), 2.0 * X_0, "cubic term F-test");

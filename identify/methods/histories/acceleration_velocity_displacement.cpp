@@ -265,7 +265,7 @@ Estimate acceleration_velocity_displacement(const Record& record, const KnownCon
 
   const double fastest = regression.rows.speed.cwiseAbs().maxCoeff();
   const double scale = std::abs(force.c) * fastest + std::abs(force.F0);
-  judge_force_signs(estimate, 1e-9 * scale / fastest, 1e-9 * scale, faults);
+  judge_force_signs(estimate, scale / fastest, scale, faults);
   judge_condition(fit, estimate);
   estimate.lack_of_fit = correlated_term_test(regression.rows.columns, regression.rows.target, regression.rows.drag,
                                               regression.rows.blocks, scale, "v|v| term t-test");

@@ -91,10 +91,7 @@ struct FilterRun {
 
 FilterRun run_filter(const History& history, const Belief& start, const Setting& setting) {
   const std::size_t n = history.x.size();
-  const auto drive = [&](std::size_t i) {
-    return (history.y.empty() ? 0.0 : setting.stiffness * history.y[i]) +
-           (history.force.empty() ? 0.0 : history.force[i]);
-  };
+  const auto drive = [&](std::size_t i) { return setting.stiffness * history.y_at(i) + history.force_at(i); };
   constexpr std::size_t most_points = 2000;
   const std::size_t every = std::max<std::size_t>(1, n / most_points);
   FilterRun run;

@@ -261,7 +261,7 @@ Estimate friction_force(const Record& record, const KnownConstants& constants, c
   std::vector<std::string> faults;
   const double fastest = line.rows.columns.col(0).cwiseAbs().maxCoeff();
   const double scale = std::abs(force.c) * fastest + std::abs(force.F0);
-  judge_force_signs(estimate, 1e-9 * scale / fastest, 1e-9 * scale, faults);
+  judge_force_signs(estimate, scale / fastest, scale, faults);
   estimate.lack_of_fit = correlated_term_test(line.rows.columns, line.rows.target, line.rows.displacement,
                                               line.rows.blocks, scale, "displacement term t-test");
   judge_loop(estimate);

@@ -151,7 +151,7 @@ Estimate output_error(const Record& record, const KnownConstants& constants, con
   for (const ForwardTest& test : tests) estimate.used.push_back(test.number);
   const ForceParameters force = layout.force(forward.found().parameters);
   const double scale = force.k * layout.length();
-  judge_force_signs(estimate, 1e-9 * std::sqrt(force.m * force.k), 1e-9 * scale, faults);
+  judge_force_signs(estimate, std::sqrt(force.m * force.k), scale, faults);
   conclude(estimate, faults,
            "rests on " + std::to_string(residuals.count()) + " samples of " + std::to_string(tests.size()) +
                (tests.size() == 1 ? " history" : " histories"));

@@ -186,7 +186,7 @@ Estimate recursive_least_squares(const Record& record, const KnownConstants& con
   std::vector<std::string> faults;
   const double fastest = result.rows.columns.col(0).cwiseAbs().maxCoeff();
   const double scale = std::abs(force.c) * fastest + std::abs(force.F0);
-  judge_force_signs(estimate, 1e-9 * scale / fastest, 1e-9 * scale, faults);
+  judge_force_signs(estimate, scale / fastest, scale, faults);
   if (options.forgetting == 1.0) compare_halves(result.rows, estimate);
   conclude(estimate, faults, "the state after " + std::to_string(result.rows.target.size()) + " samples");
   return estimate;

@@ -93,10 +93,7 @@ Blocks blocks_of(const std::vector<double>& amplitude) {
 
 /// D: twice the mean power of y and force on the mass, over m.
 double intensity_from_work(const History& history, const KnownConstants& constants) {
-  const auto drive = [&](std::size_t i) {
-    return (history.y.empty() ? 0.0 : constants.stiffness * history.y[i]) +
-           (history.force.empty() ? 0.0 : history.force[i]);
-  };
+  const auto drive = [&](std::size_t i) { return constants.stiffness * history.y_at(i) + history.force_at(i); };
   double work = 0.0;
   const std::size_t n = history.x.size();
   for (std::size_t i = 0; i + 1 < n; ++i)

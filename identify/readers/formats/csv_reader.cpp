@@ -88,7 +88,7 @@ class Parser {
   void read_rows() {
     if (targets_.empty()) return;
     const std::size_t rows = rows_.count();
-    if (rows > most_rows) refuse_file(options_.name, "the file has more than 20 million rows");
+    if (rows > most_rows) core::refuse({.file = options_.name}, "the file has more than 20 million rows");
     for (DataColumn& column : table_.columns) column.values.reserve(rows);
     bool any = false;
     while (const auto line = rows_.next()) {
@@ -248,8 +248,8 @@ DataTable parse_csv(std::string_view text, const ReadOptions& options, Problems&
   constexpr std::size_t longest_head = 4096;
   if (text.starts_with("LabVIEW Measurement") &&
       text.substr(0, longest_head).find("X_Columns\tNo") != std::string_view::npos)
-    refuse_file(options.name, "the LabVIEW file holds no times: X_Columns is No",
-                "a measurement file with one X column (X_Columns One)");
+    core::refuse({.file = options.name}, "the LabVIEW file holds no times: X_Columns is No",
+                 "a measurement file with one X column (X_Columns One)");
   return Parser(text, options, problems, warnings).run();
 }
 

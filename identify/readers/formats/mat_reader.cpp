@@ -108,7 +108,7 @@ class Reader {
         continue;
       }
       if (size_of(*variable) > most_mat_values)
-        refuse_file(file_, "variable '" + std::string(variable->name) + "' holds more than 20 million numbers");
+        core::refuse({.file = file_}, "variable '" + name + "' holds more than 20 million numbers");
       if (size_of(*variable) > 0 && Mat_VarReadDataAll(file.get(), variable.get()) != 0) refuse_damaged_mat(file_);
       if (matvar_t* again = with_signed_texts(file.get(), *variable)) variable.reset(again);
       variables_.push_back(std::move(variable));
@@ -185,7 +185,7 @@ class Reader {
       if (!found && !known->unit.empty())
         complain("there is no variable '" + called + "' to be used as " + column,
                  "a vector of the file, a field of its struct, or a part of a matrix such as 'data(:,2)'",
-                 excerpt(listed(listing_)));
+                 excerpt(core::joined(listing_, " and ")));
     }
   }
 
@@ -232,13 +232,13 @@ class Reader {
     std::ranges::move(fields, std::back_inserter(whole));
     if (holds_data(whole)) return {whole};
     if (structs.size() == 1) return std::move(structs.front());
-    refuse_file(file_,
-                structs.empty() ? "the MATLAB file holds no vector with the name of a column"
-                                : "several structs of the MATLAB file hold signals",
-                "vectors named like the columns, or one struct that holds them: " + std::string(allowed_columns) +
-                    "; others by " + column_words("NAME") + ", " + column_words("'data(:,2)'") + ", " +
-                    column_words("run.x"),
-                listing_.empty() ? "no variables" : excerpt(listed(listing_)));
+    core::refuse({.file = file_},
+                 structs.empty() ? "the MATLAB file holds no vector with the name of a column"
+                                 : "several structs of the MATLAB file hold signals",
+                 "vectors named like the columns, or one struct that holds them: " + std::string(allowed_columns) +
+                     "; others by " + column_words("NAME") + ", " + column_words("'data(:,2)'") + ", " +
+                     column_words("run.x"),
+                 listing_.empty() ? "no variables" : excerpt(core::joined(listing_, " and ")));
   }
 
   [[nodiscard]] static std::vector<Scope> elements_of(const matvar_t& variable) {

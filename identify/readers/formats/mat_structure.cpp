@@ -157,7 +157,8 @@ bool is_mat(std::string_view bytes) { return is_mat_5(bytes) || head4(bytes, 0).
 void check_mat(std::string_view bytes, const std::string& file) {
   if (is_mat_73(bytes)) return;  // HDF5 checks the end of its files
   const bool is_5 = is_mat_5(bytes);
-  if (is_5 && bytes.size() == header_size) refuse_file(file, "the MATLAB file is empty: it holds no variables");
+  if (is_5 && bytes.size() == header_size)
+    core::refuse({.file = file}, "the MATLAB file is empty: it holds no variables");
   if (is_5) {
     Elements(bytes, file).check();
     return;
@@ -170,7 +171,7 @@ void check_mat(std::string_view bytes, const std::string& file) {
 }
 
 void refuse_damaged_mat(const std::string& file) {
-  refuse_file(file, "the MATLAB file is damaged or cut off", "the whole file");
+  core::refuse({.file = file}, "the MATLAB file is damaged or cut off", "the whole file");
 }
 
 bool is_whole_hdf5(const std::string& path) {
@@ -209,10 +210,11 @@ core::Diagnostic foreign_variable(const std::string& file, const std::string& na
 void refuse_unread_mat(const std::string& file, IsolatedEnd end) {
   switch (end) {
     case IsolatedEnd::out_of_time:
-      refuse_file(file, "the MATLAB file is damaged: reading it does not end", "the whole file");
+      core::refuse({.file = file}, "the MATLAB file is damaged: reading it does not end", "the whole file");
     case IsolatedEnd::out_of_memory:
-      refuse_file(file, "reading the MATLAB file takes more than 4 GiB of memory: it is damaged or too large",
-                  "the whole file, or a part of the record");
+      core::refuse({.file = file},
+                   "reading the MATLAB file takes more than 4 GiB of memory: it is damaged or too large",
+                   "the whole file, or a part of the record");
     case IsolatedEnd::crashed:
     case IsolatedEnd::done:
       break;

@@ -110,8 +110,7 @@ class Scanner {
   }
 
   [[noreturn]] void refuse(std::string message, std::string allowed = {}, std::string found = {}) const {
-    throw core::InputError(
-        core::Diagnostic{{file_, line_, 0, {}}, std::move(message), std::move(allowed), std::move(found), {}});
+    core::refuse({.file = file_, .line = line_}, std::move(message), std::move(allowed), std::move(found));
   }
 
   template <typename Number>

@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "core/diagnostics.hpp"
 #include "core/units.hpp"
 #include "identify/readers/column_factors.hpp"
 #include "identify/readers/formats/universal_file.hpp"
@@ -39,8 +40,8 @@ class Mapping {
     if (tests.empty()) {
       std::vector<std::string> names;
       for (const Function& f : functions) names.push_back("'" + name_of(f) + "'");
-      refuse_file(file_, "no data set of the file is a signal that could be used", allowed(),
-                  "the data sets " + excerpt(listed(names)));
+      core::refuse({.file = file_}, "no data set of the file is a signal that could be used", allowed(),
+                   "the data sets " + excerpt(core::joined(names, " and ")));
     }
     for (std::size_t i = 0; tests.size() > 1 && i < tests.size(); ++i) tests[i].label = std::to_string(i + 1);
     DataTable table = join(file_, tests);
@@ -181,7 +182,8 @@ DataTable parse_universal_file(std::string_view text, const ReadOptions& options
                        " not read");
   const std::vector<Function> functions = universal_file::time_responses(text, options.name, warnings);
   if (functions.empty())
-    refuse_file(options.name, "the universal file holds no time response", "data sets 58 of function type 1");
+    core::refuse({.file = options.name}, "the universal file holds no time response",
+                 "data sets 58 of function type 1");
   return Mapping(options, problems, warnings).run(functions);
 }
 

@@ -4,21 +4,16 @@
 #include <array>
 #include <cmath>
 #include <iterator>
-#include <numeric>
 #include <optional>
 #include <string_view>
 #include <utility>
 
 #include "core/diagnostics.hpp"
-#include "core/numbers.hpp"
 #include "core/units.hpp"
 #include "friction_models/registry.hpp"
-#include "identify/statistics/finer_samples.hpp"
-#include "identify/statistics/noise_level.hpp"
 #include "scenarios/analyses/shared/record_drive.hpp"
 #include "scenarios/format/law_values.hpp"
 #include "scenarios/format/values.hpp"
-#include "sim/sampled_signal.hpp"
 
 namespace dualdamp::scenarios {
 
@@ -212,54 +207,6 @@ void refuse_idle_drive(const std::vector<DataItem>& items, const sim::Model& mod
 
 namespace {
 
-bool is_even(const std::vector<double>& times) {
-  constexpr double most = 0.01;  // of the distance of samples
-  const double width = times.back() / static_cast<double>(times.size() - 1);
-  for (std::size_t i = 1; i < times.size(); ++i)
-    if (std::abs(times[i] - times[i - 1] - width) > most * width) return false;
-  return true;
-}
-
-std::vector<std::string> spline_warnings(const sim::SampledSignal& samples) {
-  if (!is_even(samples.times())) return {};
-  const identify::SplineError error = identify::spline_error(samples.values());
-  // The mean of the error is 8/15 of that half way between samples: s^2 (1 - s)^2 has the mean 1/30.
-  const double mean = error.miss * 8.0 / 15.0;
-  constexpr double least = 1e-5;  // 22 samples in a period
-  if (!(mean > least) || !error.is_resolved()) return {};
-  return {
-      "cubics between the samples of the drive make it too small by " + core::percent(mean, 2) +
-      " on average, and the estimates may be wrong by as much or more: give the drive more samples, by a "
-      "band-limited interpolation; or state 'drive: y' or 'drive: force' for the data in place of 'excitation', "
-      "which puts samples between them"};
-}
-
-}  // namespace
-
-std::vector<std::string> drive_warnings(const std::vector<DataItem>& items, const sim::Model& model) {
-  const auto& samples = model.excitation.samples;
-  if (!samples || std::ranges::none_of(items, &DataItem::takes_drive_of_model)) return {};
-  if (samples->interpolation() == sim::Interpolation::cubic) return spline_warnings(*samples);
-  if (samples->interpolation() != sim::Interpolation::linear) return {};
-  // The mean distance of a chord from a smooth curve is a twelfth of the second difference; noise also contributes
-  // to it.
-  const std::vector<double>& y = samples->values();
-  const double noise = identify::noise_level(y);
-  const double second = std::sqrt(6.0) * identify::noise_level(y, 2);
-  const double smooth = std::sqrt(std::max(0.0, second * second - 6.0 * noise * noise)) / 12.0;
-  const double mean = std::reduce(y.begin(), y.end()) / static_cast<double>(y.size());
-  double square = 0.0;
-  for (const double value : y) square += (value - mean) * (value - mean) / static_cast<double>(y.size());
-  constexpr double least = 2e-4;
-  if (!(smooth > least * std::sqrt(square))) return {};
-  return {
-      "straight lines between the samples of the drive miss it by " + core::percent(smooth / std::sqrt(square), 2) +
-      " on average, and the estimates may be wrong by as much or more: if the drive is smooth, use interpolation: "
-      "cubic"};
-}
-
-namespace {
-
 /// Whether some item holds the signal whose noise is stated.
 bool holds(const std::vector<DataItem>& items, std::string_view signal) {
   return std::ranges::any_of(items, [signal](const DataItem& item) {
@@ -301,7 +248,7 @@ void refuse_idle_noise(const std::vector<DataItem>& items, const std::string& ke
 
 }  // namespace
 
-void refuse(const std::vector<SetupFault>& faults) {
+void throw_if_any(const std::vector<SetupFault>& faults) {
   if (faults.empty()) return;
   std::vector<core::Diagnostic> problems;
   for (const SetupFault& fault : faults)
@@ -406,9 +353,9 @@ std::vector<FitParameter> parameters_for(const identify::Rig& rig, const identif
     std::vector<FitParameter> found = identify::named(all, name, fault);
     if (found.empty() && take_of_record(name, experiments, of_records)) continue;
     if (!fault.empty()) {
-      std::string names;
-      for (const FitParameter& parameter : all) names += (names.empty() ? "" : ", ") + parameter.name;
-      faults.push_back({"free", fault + "; there are " + names +
+      std::vector<std::string> names;
+      for (const FitParameter& parameter : all) names.push_back(parameter.name);
+      faults.push_back({"free", fault + "; there are " + core::joined(names) +
                                     ", position, velocity, travel, offset, offset_v, offset_a, "
                                     "offset_force"});
     }

@@ -61,17 +61,13 @@ struct Sought {
 /// "coulomb + viscous_power"
 [[nodiscard]] std::string laws_text(const identify::Rig& rig);
 
-/// Warning about a stated drive of histories that was sampled too coarsely for the straight lines or cubics between
-/// its samples.
-[[nodiscard]] std::vector<std::string> drive_warnings(const std::vector<DataItem>& items, const sim::Model& model);
-
 /// What is wrong with the statements of a fit.
 struct SetupFault {
   std::string path;  ///< below `analysis`
   std::string message;
 };
 /// Throws `core::InputError` if there are faults.
-void refuse(const std::vector<SetupFault>& faults);
+void throw_if_any(const std::vector<SetupFault>& faults);
 
 /// Experiments of all items; data that cannot be used are reported in `faults`.
 [[nodiscard]] identify::Experiments experiments_from(const std::vector<DataItem>& items, const std::string& key,

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <memory>
 #include <numbers>
+#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -105,7 +106,7 @@ void refuse_other_drives(const std::vector<DataItem>& items, const std::string& 
       std::ranges::any_of(free, [](const std::string& name) { return name == "phase" || name == "system.phase"; });
   for (std::size_t i = 0; i < items.size(); ++i) {
     const DataItem& item = items[i];
-    if (item.keys.is_object() && item.keys.value("loop", false)) continue;
+    if (item.is_loop()) continue;
     const std::string place = key + (items.size() > 1 ? "[" + std::to_string(i) + "]" : "");
     for (std::size_t h = 0; h < item.data.record.histories.size(); ++h) {
       if (item.drive_of(h) != nullptr) continue;
@@ -372,6 +373,55 @@ std::vector<std::string> undriven_warnings(const std::vector<DataItem>& items, c
                          ": the file holds no drive and is fitted as a free vibration, beside records with drives "
                          "of their own; 'drive: none' states that");
   return warnings;
+}
+
+namespace {
+
+bool is_even(const std::vector<double>& times) {
+  constexpr double most = 0.01;  // of the distance of samples
+  const double width = times.back() / static_cast<double>(times.size() - 1);
+  for (std::size_t i = 1; i < times.size(); ++i)
+    if (std::abs(times[i] - times[i - 1] - width) > most * width) return false;
+  return true;
+}
+
+std::vector<std::string> spline_warnings(const sim::SampledSignal& samples) {
+  if (!is_even(samples.times())) return {};
+  const identify::SplineError error = identify::spline_error(samples.values());
+  // The mean of the error is 8/15 of that half way between samples: s^2 (1 - s)^2 has the mean 1/30.
+  const double mean = error.miss * 8.0 / 15.0;
+  constexpr double least = 1e-5;  // 22 samples in a period
+  if (!(mean > least) || !error.is_resolved()) return {};
+  return {
+      "cubics between the samples of the drive make it too small by " + core::percent(mean, 2) +
+      " on average, and the estimates may be wrong by as much or more: give the drive more samples, by a "
+      "band-limited interpolation; or state 'drive: y' or 'drive: force' for the data in place of 'excitation', "
+      "which puts samples between them"};
+}
+
+}  // namespace
+
+std::vector<std::string> drive_warnings(const std::vector<DataItem>& items, const sim::Model& model) {
+  const auto& samples = model.excitation.samples;
+  if (!samples || std::ranges::none_of(items, &DataItem::takes_drive_of_model)) return {};
+  if (samples->interpolation() == sim::Interpolation::cubic) return spline_warnings(*samples);
+  if (samples->interpolation() != sim::Interpolation::linear) return {};
+  // The mean distance of a chord from a smooth curve is a twelfth of the second difference; noise also contributes
+  // to it.
+  const std::vector<double>& y = samples->values();
+  const double noise = identify::noise_level(y);
+  const double second = std::sqrt(identify::second_difference_gain) * identify::noise_level(y, 2);
+  const double square_of_curve = second * second - identify::second_difference_gain * noise * noise;
+  const double smooth = std::sqrt(std::max(0.0, square_of_curve)) / 12.0;
+  const double mean = std::reduce(y.begin(), y.end()) / static_cast<double>(y.size());
+  double square = 0.0;
+  for (const double value : y) square += (value - mean) * (value - mean) / static_cast<double>(y.size());
+  constexpr double least = 2e-4;
+  if (!(smooth > least * std::sqrt(square))) return {};
+  return {
+      "straight lines between the samples of the drive miss it by " + core::percent(smooth / std::sqrt(square), 2) +
+      " on average, and the estimates may be wrong by as much or more: if the drive is smooth, use interpolation: "
+      "cubic"};
 }
 
 Json excitation_of(const identify::Experiment& experiment, const std::vector<DataItem>& items, const Json& shared) {

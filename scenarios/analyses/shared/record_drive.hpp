@@ -35,6 +35,10 @@ void take_recorded_drives(CheckedFile& file, bool is_open);
 [[nodiscard]] std::vector<std::string> undriven_warnings(const std::vector<DataItem>& items,
                                                          const sim::Model& model);
 
+/// Warning about a stated drive of histories that was sampled too coarsely for the straight lines or cubics between
+/// its samples.
+[[nodiscard]] std::vector<std::string> drive_warnings(const std::vector<DataItem>& items, const sim::Model& model);
+
 /// `excitation` of a scenario of this experiment; `shared`: that of the scenario of the fit.
 [[nodiscard]] Json excitation_of(const identify::Experiment& experiment, const std::vector<DataItem>& items,
                                  const Json& shared);

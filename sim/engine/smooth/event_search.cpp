@@ -69,7 +69,7 @@ double EventSearch::value(std::size_t guard, const SmoothStep& step, double part
   return guards_.value(guard, state_, step.time(part));
 }
 
-/// Of a guard, `length` [s] after the begin of the step by steps of the classical Runge-Kutta method. They would
+/// Of a guard, `length` [s] after the start of the step by steps of the classical Runge-Kutta method. They would
 /// not follow a creep, the speed of which stays as it is here.
 double EventSearch::value_along_flow(std::size_t guard, const SmoothStep& step, double length, int steps) const {
   constexpr std::array<double, 4> next = {0.5, 0.5, 1.0, 0.0};
@@ -241,7 +241,7 @@ double EventSearch::first_negative(std::size_t guard, const SmoothStep& step) {
   return -1.0;
 }
 
-/// Whether a guard that is lowest, of the points, at the begin or the end of the step falls from there into the
+/// Whether a guard that is lowest, of the points, at the start or the end of the step falls from there into the
 /// step, and may reach zero: three points around that minimum.
 bool EventSearch::falls_at_edge(std::size_t guard, const SmoothStep& step, std::size_t edge, Triple& around) const {
   constexpr double near = 1e-5;
@@ -301,7 +301,7 @@ bool EventSearch::creeps_beside(std::size_t guard, const SmoothStep& step, const
   });
 }
 
-/// The root between a point where the guard counts as positive and one where it is negative. At the begin of a
+/// The root between a point where the guard counts as positive and one where it is negative. At the start of a
 /// interval a guard may be zero: it is positive just after.
 double EventSearch::crossing(std::size_t guard, const SmoothStep& step, double before, double negative) const {
   double low = before;

@@ -3,11 +3,11 @@
 /// part of a step.
 ///
 /// Guards are watched on the dense output of each step: at five points, where a parabola through three of them dips
-///   to zero, and where they fall into the step from its begin or rise out of it at its end. Sides are frozen as in
+///   to zero, and where they fall into the step from its start or rise out of it at its end. Sides are frozen as in
 ///   the exact engine. Nothing proves here that a guard did not cross twice between two of those points; where
 ///   every law is affine the exact engine does.
 /// Rounding. A velocity within 1e-13 of zero has not changed its sign: bristles that ring down to rounding make no
-///   events. What counts as zero at the begin of an interval also depends on how
+///   events. What counts as zero at the start of an interval also depends on how
 ///   well the step before knew the time of the mode change there. Guards that cross at one instant, to rounding,
 ///   act in the order of the list.
 ///
@@ -54,7 +54,7 @@ class EventSearch {
   /// The kind of the steps that follow.
   void use_steps(bool are_implicit) { guards_.pass_over_relaxation(are_implicit); }
 
-  /// A guard that is negative at the begin of the interval, or zero and going to be.
+  /// A guard that is negative at the start of the interval, or zero and going to be.
   [[nodiscard]] std::optional<Hit> find_violated(const SmoothStep& step) const;
   /// Whether this guard of a law is reached at the same instant as that of the last event.
   [[nodiscard]] bool coincides(const Hit& hit, const SmoothStep& step) const;
@@ -89,7 +89,7 @@ class EventSearch {
     std::array<double, points> values{};
     double scale = 0.0;  ///< its size, to judge rounding by
     double reach = 0.0;  ///< of a law: what the sizes of x, v and the states make of it
-    double parts = 0.0;  ///< of a law: what cancels in it at the begin of the interval
+    double parts = 0.0;  ///< of a law: what cancels in it at the start of the interval
   };
   /// How well the step before the present interval knows when the law changed its mode there. In time: a law's
   /// guards are forces in one mode and speeds in another.

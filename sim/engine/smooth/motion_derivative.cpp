@@ -145,7 +145,7 @@ void MotionDerivative::pass(const SmoothStep& step) {
 }
 
 /// Whether the first step, or the one behind an event, leads away from the stop while a change of its speed dies
-/// out. The acceleration at its begin is then not known: a lead would be a large number, and what is left of the
+/// out. The acceleration at its start is then not known: a lead would be a large number, and what is left of the
 /// change a difference of two. Where the speed passes zero within the step, by more than its error, the field is
 /// that of the other branch.
 bool MotionDerivative::forgets_speed(const SmoothStep& step) const {
@@ -161,7 +161,7 @@ bool MotionDerivative::forgets_speed(const SmoothStep& step) const {
   return true;
 }
 
-/// Near a stop, at the begin of a step: the perturbed motion is where the velocity is the same.
+/// Near a stop, at the start of a step: the perturbed motion is where the velocity is the same.
 void MotionDerivative::lead_near_stop(const SmoothStep& step) {
   if (step.flow.direction() == friction::Direction::none) return;
   std::vector<double> rates(step.begin.size());

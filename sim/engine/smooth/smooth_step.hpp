@@ -17,7 +17,7 @@ struct SmoothStep {
   const Stepper& stepper;
   std::span<const double> begin;
   std::span<const double> end;
-  double t = 0.0;        ///< local time of its begin [s]
+  double t = 0.0;        ///< local time of its start [s]
   double length = 0.0;   ///< s
   double longest = 0.0;  ///< the longest step there [s]
 

@@ -2,7 +2,7 @@
 /// The steps of the smooth engine within an interval: their method, their lengths, and whether they are too many.
 ///
 /// Method. DOP853 at first. Radau IIA for the rest of all motions once stability limits the steps and not accuracy,
-///   friction holds the mass as a steep dashpot from the begin of an interval on, or steps become far too short
+///   friction holds the mass as a steep dashpot from the start of an interval on, or steps become far too short
 ///   (`stepper.hpp`); the engine asks for it where a step passes over a creep.
 /// Length. Of the local error in each component, |error| <= tolerance (|X| + size). At most an eighth of the
 ///   shortest period, so that five points show every minimum of a guard; as long as the shortest delay of a law;
@@ -38,7 +38,7 @@ class Steps {
   Steps(const Model& model, const Drive& drive, const Flow& flow);
 
   void begin_motion();
-  /// The mass and the memories at the begin of an interval, for which the flow is frozen.
+  /// The mass and the memories at the start of an interval, for which the flow is frozen.
   void begin_interval(double x, double v, const std::vector<friction::Memory>& memories);
   /// A step of length 0 at the local time t [s].
   void stay(double t);
@@ -46,7 +46,7 @@ class Steps {
   [[nodiscard]] Result advance(double t, double now, double left);
   /// The step taken last once more, of another length. False: it is not accurate.
   [[nodiscard]] bool repeat(double length);
-  /// The end of the step becomes the begin of the next one. `at_slip_end`: there the velocity is zero, and delayed
+  /// The end of the step becomes the start of the next one. `at_slip_end`: there the velocity is zero, and delayed
   /// velocities have a kink later.
   void go_on(bool at_slip_end);
   /// Time is counted anew from `period` later, where t is the present.
@@ -63,7 +63,7 @@ class Steps {
 
   /// Proposes the length of the next step [s]. 0: an interval begins, nothing is known of it.
   void propose(double length) { proposed_ = length; }
-  /// Whether the step hides a turn at its begin, or at its end if `at_stop`, from its own error estimate, so that
+  /// Whether the step hides a turn at its start, or at its end if `at_stop`, from its own error estimate, so that
   /// it has to be taken again: a shorter one is proposed.
   [[nodiscard]] bool passes_over_turn(bool at_stop);
   [[nodiscard]] bool are_implicit() const { return is_implicit_; }
@@ -105,7 +105,7 @@ class Steps {
   double part_of_way_ = 0.0;
   double loss_of_speed_ = 0.0;  ///< mean over the last step [m/s^2]; 0: none in this interval
   double earlier_loss_ = 0.0;   ///< over the step before
-  double t_ = 0.0;              ///< local time at the begin of the step [s]
+  double t_ = 0.0;              ///< local time at the start of the step [s]
   double length_ = 0.0;         ///< s
   std::vector<double> begin_;
   std::vector<double> end_;

@@ -123,7 +123,7 @@ TEST_CASE("A motion with a contact that yields is that of another integrator") {
   Eigen::VectorXd x;
   REQUIRE(SampledOscillator(history_of(motion)).run(at, {}, x, nullptr));
   const Eigen::Map<const Eigen::VectorXd> true_x(motion.x.data(), x.size());
-  // The other integrator takes the begin of a slide at the end of its step, a 300th of a period.
+  // The other integrator takes the start of a slide at the end of its step, a 300th of a period.
   CHECK((x - true_x).lpNorm<Eigen::Infinity>() < 1e-4 * true_x.lpNorm<Eigen::Infinity>());
 }
 

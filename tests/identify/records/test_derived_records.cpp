@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <numbers>
 
 #include "core/numbers.hpp"
 #include "sim/analytic/den_hartog.hpp"

@@ -67,7 +67,7 @@ TEST_CASE("Reversals of friction are no spikes, though nothing hides them") {
   }
 }
 
-TEST_CASE("The begin and the end of a blow are no spikes") {
+TEST_CASE("The start and the end of a blow are no spikes") {
   constexpr double rate = 2000.0;
   for (std::uint64_t seed = 1; seed <= 20; ++seed)
     for (const double length : {0.004, 0.008, 0.02}) {

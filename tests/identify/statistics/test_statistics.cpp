@@ -4,7 +4,6 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "identify/conclusion.hpp"
 #include "tests/identify/records.hpp"
 
 using namespace dualdamp::identify;
@@ -57,35 +56,6 @@ TEST_CASE("The F test needs freedom and a term of its own") {
   CHECK_FALSE(test->fired);
 }
 
-TEST_CASE("A parameter whose corrected interval lies below zero is no estimate, whatever the value is") {
-  const auto faults_of = [](double value, const Interval& interval) {
-    Estimate estimate;
-    std::vector<std::string> faults;
-    judge_sign(value, 1e-9, &interval, "the Coulomb friction", estimate, faults);
-    return faults.size();
-  };
-  CHECK(faults_of(3.5, {-43.0, -38.0}) == 1);  // corrected for a bias that is larger than it
-  CHECK(faults_of(-40.0, {-43.0, -38.0}) == 1);
-  CHECK(faults_of(-0.1, {-0.4, 0.2}) == 0);
-  CHECK(faults_of(3.5, {3.0, 4.0}) == 0);
-  CHECK(faults_of(0.0, {-2e-12, -1e-12}) == 0);  // rounding
-}
-
-TEST_CASE("A parameter whose interval contains zero, its ends included, is said to be indistinguishable from it") {
-  const auto warnings_of = [](double value, const Interval& interval) {
-    Estimate estimate;
-    std::vector<std::string> faults;
-    judge_sign(value, 1e-9, &interval, "the Coulomb friction", estimate, faults);
-    CHECK(faults.empty());
-    return estimate.warnings.size();
-  };
-  CHECK(warnings_of(0.1, {-0.2, 0.4}) == 1);
-  CHECK(warnings_of(0.2, {0.0, 0.4}) == 1);
-  CHECK(warnings_of(-0.2, {-0.4, 0.0}) == 1);
-  CHECK(warnings_of(0.2, {0.1, 0.3}) == 0);
-  CHECK(warnings_of(0.0, {-4e-10, 4e-10}) == 0);  // rounding
-}
-
 TEST_CASE("An independent error widens both sides of an interval by the root of the sum of squares") {
   // 3-4-5 triangles: an added half width of 4 makes sides of 3 and 7.5 to 5 and 8.5.
   const double deviation = 4.0 / 1.9599639845400545;
@@ -96,21 +66,4 @@ TEST_CASE("An independent error widens both sides of an interval by the root of 
   const Interval beyond = widened({-3.0, 0.0}, 1.0, deviation);
   CHECK(beyond[0] == Approx(-5.0).epsilon(1e-12));
   CHECK(beyond[1] == Approx(4.0).epsilon(1e-12));
-}
-
-TEST_CASE("A scatter that is too large or too small has twice the p-value of its side") {
-  // A chi-square with two degrees of freedom is beyond x with the probability exp(-x/2).
-  CHECK(stated_noise_p_value(3.0, 2.0) == Approx(2.0 * std::exp(-3.0)).epsilon(1e-12));
-  CHECK(stated_noise_p_value(0.1, 2.0) == Approx(2.0 * (1.0 - std::exp(-0.1))).epsilon(1e-12));
-  CHECK(stated_noise_p_value(std::log(2.0), 2.0) == Approx(1.0).epsilon(1e-12));  // the median
-}
-
-TEST_CASE("Readings contradict their stated noise where neither chance nor rounding of the statement explains it") {
-  CHECK(scatter_beside_stated(1.5, stated_noise_p_value(1.5 * 1.5, 200.0)) == ScatterBesideStated::more);
-  CHECK(scatter_beside_stated(0.6, stated_noise_p_value(0.6 * 0.6, 200.0)) == ScatterBesideStated::less);
-  CHECK(scatter_beside_stated(1.5, stated_noise_p_value(1.5 * 1.5, 5.0)) ==
-        ScatterBesideStated::as_stated);  // chance
-  CHECK(scatter_beside_stated(1.2, stated_noise_p_value(1.2 * 1.2, 10000.0)) ==
-        ScatterBesideStated::as_stated);  // near enough
-  CHECK(scatter_beside_stated(0.8, stated_noise_p_value(0.8 * 0.8, 10000.0)) == ScatterBesideStated::as_stated);
 }

@@ -79,7 +79,7 @@ TEST_CASE("smooth engine: a guard that reaches zero at no rate leaves the lead o
 
 TEST_CASE("smooth engine: a reversal that alters no force delays nothing", "[sim][smooth][derivative]") {
   // A bond that never breaks and a dashpot forget a displacement within 7 us. The mass reverses 7 us after the
-  // begin of the period at 2e-5 m/s^2: a displacement of 1 m would delay that by 2e9 s, and the rounding of this
+  // start of the period at 2e-5 m/s^2: a displacement of 1 m would delay that by 2e9 s, and the rounding of this
   // delay alone made -0.15 of the second entry. The motion is linear: the expected values are its matrix
   // exponential in 60 digits.
   sim::Model model;

@@ -71,9 +71,9 @@ TEST_CASE("smooth engine: a perturbation passes a reversal at which the force tu
 
 TEST_CASE("smooth engine: the error of a creeping speed makes no acceleration of a perturbation",
           "[sim][smooth][derivative]") {
-  // A dashpot that forgets a speed within 1e-9 s holds the mass at the begin and the end of the period. In between
+  // A dashpot that forgets a speed within 1e-9 s holds the mass at the start and the end of the period. In between
   // it reverses twice. The expected values are those of the variational equations by another integrator (SciPy's
-  // Radau at 1e-10); entries below 1e-6 are at most 1e-9 there. That of the speed at the begin depends on where the
+  // Radau at 1e-10); entries below 1e-6 are at most 1e-9 there. That of the speed at the start depends on where the
   // steps lie in the creep: at a hundred tolerances from 1e-13 to 1e-9 it is 3e-8 in the median. With the error of
   // the speed it is 4e-5.
   sim::Model model;

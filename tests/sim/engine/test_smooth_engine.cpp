@@ -336,7 +336,7 @@ TEST_CASE("smooth engine: a motion that a ramp begins from rest is as exact in e
   CHECK(large == times(0x1p-30));
 }
 
-TEST_CASE("smooth engine: a release just after the begin or before the end of a step is not passed over",
+TEST_CASE("smooth engine: a release just after the start or before the end of a step is not passed over",
           "[sim][smooth]") {
   // While the mass sticks, a step takes an eighth of the period T of the drive, and guards are watched every T/32,
   // 0.196 rad. The pull exceeds the limit for 0.04 to 0.1 rad only, between two of these points and near an end of

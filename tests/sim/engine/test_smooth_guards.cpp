@@ -1,4 +1,4 @@
-/// When the smooth engine changes the mode of a law: guards at the begin of an interval.
+/// When the smooth engine changes the mode of a law: guards at the start of an interval.
 
 #include <algorithm>
 #include <array>

@@ -252,7 +252,7 @@ TEST_CASE(
   constexpr double k = 5.669;
   constexpr double c = 0.06;
   model.friction.emplace_back(friction::AttachedMass(m, k, c));
-  // Above resonance, where hardly anything is dissipated, the mass reverses at the begin of each period.
+  // Above resonance, where hardly anything is dissipated, the mass reverses at the start of each period.
   for (const double w : {3.0, 5.3, 8.0, 10.0, 11.5, 20.0}) {
     CAPTURE(w);
     model.excitation = {.type = sim::ExcitationType::base_harmonic, .amplitude = 0.01, .frequency = w};
