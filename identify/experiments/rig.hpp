@@ -13,12 +13,10 @@
 /// Ranges are those of the laws' tables. The last `share` of a list of elements is 1 minus the sum of the others.
 
 #include <Eigen/Core>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "friction_models/law_entry.hpp"
