@@ -17,6 +17,7 @@
 #include "identify/fit/freedom.hpp"
 #include "identify/fit/intervals/uncertainty.hpp"
 #include "identify/fit/residual_test.hpp"
+#include "identify/fit/residual_warnings.hpp"
 #include "identify/fit/search/search.hpp"
 #include "identify/fit/search/steps.hpp"
 #include "identify/fit/serial_test.hpp"
@@ -71,7 +72,7 @@ void describe_signals(const FitProblem& problem, const Eigen::VectorXd& weights,
     }
     const Eigen::VectorXd own = misses.segment(rows.begin, size);
     const Eigen::VectorXd bounded = bounded_residuals(own, weights.segment(rows.begin, size));
-    signal.p_value = noise_p_value(of, bounded, counted - signal.freedom);
+    signal.p_value = noise_p_value(of, measured + own, bounded, counted - signal.freedom);
     if (!robust && !of.is_sampled) signal.p_value = either_p_value(signal.p_value, serial.p_value(rows));
     set_mean(bounded, counted, of.is_sampled, signal);
     signal.independent = independent_samples(bounded, of.is_sampled);
