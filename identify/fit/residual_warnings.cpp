@@ -97,8 +97,9 @@ std::optional<RecordParameter> open_zero(const Experiments& experiments, const F
 std::optional<RecordParameter> zero_off(const Experiments& experiments, const FittedSignal& fitted, double gain,
                                         const Fit& fit) {
   constexpr double third = 1.0 / 3.0;
-  const bool is_mean = std::abs(fitted.mean_score) >= most_mean_errors &&
-                       (is_noise(fitted.p_value) || 2.0 * fitted.mean * fitted.mean >= fitted.rms * fitted.rms);
+  const bool is_mean =
+      std::abs(fitted.mean_score) >= most_mean_errors &&
+      (is_noise(fitted.p_value) || 2.0 * fitted.mean * fitted.mean >= fitted.rms_within * fitted.rms_within);
   if (!is_mean && (is_noise(fitted.p_value) || gain < third)) return std::nullopt;
   return open_zero(experiments, fitted, fit);
 }
@@ -224,7 +225,7 @@ std::vector<std::size_t> outliers_of(const Signal& signal, const Eigen::VectorXd
 }
 
 std::string outlier_warning(const Signal& signal, const std::vector<std::size_t>& outliers,
-                            const std::string& label) {
+                            const std::string& label, bool robust) {
   constexpr std::size_t most = 3;
   std::vector<std::string> places;
   for (const std::size_t i : outliers) {
@@ -235,9 +236,11 @@ std::string outlier_warning(const Signal& signal, const std::vector<std::size_t>
   return label + ": " + std::to_string(outliers.size()) + (is_one ? " reading of " : " readings of ") +
          signal.name + (is_one ? " is an outlier" : " are outliers") + ", far from the fit beside all others (" +
          signal.at_name + " = " + core::joined(places) + (outliers.size() > most ? " and more" : "") +
-         "), and move the estimates: correct or remove " + (is_one ? "it" : "them") +
-         ", or limit the influence with 'robust'. Until then the residuals do not tell whether the law is "
-         "that of the rig";
+         (robust
+              ? std::string("); 'robust' limits the influence on the estimates")
+              : std::string("), and move the estimates: correct or remove ") + (is_one ? "it" : "them") +
+                    ", or limit the influence with 'robust'. Until then the residuals do not tell whether the law "
+                    "is that of the rig");
 }
 
 /// Residuals of samples that hold motion, or of other readings that are too large or too similar.
@@ -261,7 +264,7 @@ std::string not_noise_warning(const Experiment& experiment, const Experiments& e
 
 /// The noise by the roughness of a signal, if the fit did not use it: the residuals are far below it.
 std::string coarse_samples_warning(const Signal& signal, const FittedSignal& fitted, const std::string& subject) {
-  return subject + " are " + core::format_number(fitted.rms / signal.noise, 2) +
+  return subject + " are " + core::format_number(fitted.rms_within / signal.noise, 2) +
          " times the noise that the roughness of the samples shows: this is the motion between too few samples of a "
          "period, and 'noise_units' is left out. State the noise (sigma_" +
          signal.name + ")";
@@ -274,9 +277,9 @@ std::string unexplained_part(const Signal& signal, const FittedSignal& fitted, c
   constexpr double much = 0.05;
   constexpr double much_phase = 0.1;  // rad
   if (signal.is_sampled || signal.noise > 0.0) return {};
-  if (signal.name == "phase" && fitted.rms > much_phase)
-    return core::format_number(fitted.rms * 180.0 / std::numbers::pi, 2) + " deg";
-  const double share = fitted.rms / std::sqrt(measured.squaredNorm() / static_cast<double>(measured.size()));
+  if (signal.name == "phase" && fitted.rms_within > much_phase)
+    return core::format_number(fitted.rms_within * 180.0 / std::numbers::pi, 2) + " deg";
+  const double share = fitted.rms_within / std::sqrt(measured.squaredNorm() / static_cast<double>(measured.size()));
   return signal.name == "x" && share > much ? core::percent(share, 2) + " of the readings" : "";
 }
 
@@ -302,10 +305,9 @@ void warn_of_signal(const Experiments& experiments, bool robust, double zero_gai
       Eigen::Map<const Eigen::VectorXd>(signal.measured.data(), static_cast<Eigen::Index>(signal.measured.size()));
   if (signal.noise > 0.0 && std::isnan(fitted.noise) && !is_rounding(fitted.misses, measured))
     fit.warnings.push_back(coarse_samples_warning(signal, fitted, subject));
-  if (const auto outliers = robust ? std::vector<std::size_t>{} : outliers_of(signal, fitted.misses);
-      !outliers.empty()) {
-    fit.warnings.push_back(outlier_warning(signal, outliers, experiment.label));
-    return;
+  if (const auto outliers = outliers_of(signal, fitted.misses); !outliers.empty()) {
+    fit.warnings.push_back(outlier_warning(signal, outliers, experiment.label, robust));
+    if (!robust) return;
   }
   const double drift = drift_of(experiment, fitted);
   const std::optional<RecordParameter> zero =

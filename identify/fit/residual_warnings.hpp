@@ -21,8 +21,8 @@ namespace dualdamp::identify {
 
 /// Adds warnings to `fit`: signals whose residuals are not noise, and stated noises that are wrong. Also signals
 /// whose residuals look like noise, but far above that of the sensor; not in a `robust` fit, where outliers do
-/// that. Of outliers it says nothing else: they move the fit. Also signals whose zero is off; `fit.parameters` say
-/// which zeros are sought. `zero_gains`: of each signal.
+/// that. Beside outliers it says nothing else, unless the fit is `robust`: they move the fit. Also signals whose
+/// zero is off; `fit.parameters` say which zeros are sought. `zero_gains`: of each signal.
 void warn_of_residuals(const Experiments& experiments, bool robust, const std::vector<double>& zero_gains,
                        Fit& fit);
 
