@@ -357,8 +357,19 @@ class ChartMaker {
     chart_.x.is_log = is_geometric(x.numbers);
     chart_.x.unit = x.unit;
     chart_.x.written_for = {x.unit, 1.0};
-    show(chart_.y, *y, &ChartSeries::y);
+    StoredColumn with_unit = *y;
+    if (y->unit.empty()) with_unit.unit = unit_beside(points, y->name);
+    show(chart_.y, with_unit, &ChartSeries::y);
     return true;
+  }
+
+  /// The unit of a number that a text beside it names, the same in all rows that have one.
+  static std::string unit_beside(const StoredTable& points, const std::string& name) {
+    const StoredColumn* texts = points.find(name.substr(0, name.rfind('.') + 1) + "unit");
+    std::set<std::string> units;
+    if (texts != nullptr) units = {texts->texts.begin(), texts->texts.end()};
+    units.erase("");
+    return units.size() == 1 ? *units.begin() : std::string();
   }
 
   const StoredRun& run_;

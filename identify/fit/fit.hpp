@@ -64,11 +64,12 @@ struct TradeOff {
 struct FittedSignal {
   SignalRows rows;
   double rms = 0.0;              ///< of the residuals
+  double rms_within = 0.0;       ///< the same; of a robust fit, without outliers
   double mean = 0.0;             ///< of the measured signal, minus that of the fit
   double mean_score = 0.0;       ///< mean over its standard error, from samples that count as independent
   double range = 0.0;            ///< rms of the measured signal about its mean
   double noise = unknown;        ///< of the sensor, stated or from the roughness of the signal
-  double noise_units = unknown;  ///< rms over noise
+  double noise_units = unknown;  ///< rms_within over noise
   double independent = 0.0;      ///< number of samples that count as independent
   double white = 0.0;            ///< the same if the residuals are the noise of the sensor, behind its filter
   double freedom = 0.0;          ///< readings that count, minus the parameters they determine (`freedom.hpp`)
@@ -90,7 +91,7 @@ struct Fit {
   Eigen::MatrixXd undetermined;
   std::vector<TradeOff> not_identifiable;
   std::vector<FittedSignal> signals;
-  double noise_units = unknown;       ///< rms over noise, of all signals with known noise
+  double noise_units = unknown;       ///< rms_within over noise, of all signals with known noise
   double log_likelihood_count = 0.0;  ///< samples that count as independent
   double deviance = 0.0;              ///< -2 ln of the largest likelihood, without a constant, per sample
   double AICc = unknown;

@@ -10,7 +10,7 @@
 
 #include "core/numbers.hpp"
 #include "identify/fit/record_zeros.hpp"
-#include "identify/fit/residual_test.hpp"
+#include "identify/fit/residual_warnings.hpp"
 #include "identify/statistics/decompositions.hpp"
 
 namespace dualdamp::identify {

@@ -9,6 +9,7 @@
 #include "core/numbers.hpp"
 #include "core/uncertain_quantity.hpp"
 #include "identify/records/derived_records.hpp"
+#include "identify/records/faults/sign_faults.hpp"
 #include "identify/records/plausibility.hpp"
 #include "identify/records/repeats.hpp"
 #include "identify/records/short_blow.hpp"
@@ -216,6 +217,12 @@ double stated_frequency(const CheckedFile& file) {
   return known ? *file.number_at("excitation", "frequency") : identify::unknown;
 }
 
+identify::KnownConstants constants_of(const CheckedFile& file) {
+  return {file.number_at("system", "mass").value_or(identify::unknown),
+          file.number_at("system", "stiffness").value_or(identify::unknown), stated_frequency(file),
+          file.coordinate()};
+}
+
 /// Whether the file is a friction loop.
 bool is_loop(const Json& analysis, const DataFile& file) {
   const Json& list = analysis.at(file.key);
@@ -257,9 +264,13 @@ void read_data_list(CheckedFile& file, const std::string& name) {
       file.note_units(data.units);
       refuse_repeated(file, key, data, list[i]);
       std::ranges::move(identify::repeated_readings(data.record), std::back_inserter(data.warnings));
-      // The checks of pairs compare x with the motion of the base.
-      const bool is_checked = !list[i].value("loop", false) && !(by_force && data.record.pairs);
-      if (is_checked) refuse_gross_faults(file, data, stated_frequency(file), data_name);
+      if (list[i].value("loop", false))
+        file.take_over(identify::gross_faults_of_loops(data.record, constants_of(file), data_name, file.words()));
+      else if (by_force && data.record.pairs)  // other checks of pairs compare x with the motion of the base
+        file.take_over(
+            identify::gross_faults_under_force(*data.record.pairs, constants_of(file), data_name, file.words()));
+      else
+        refuse_gross_faults(file, data, stated_frequency(file), data_name);
       file.files.push_back({data_name, name, i, std::move(data), {}, file.words()});
     } catch (const core::InputError& error) {
       if (!by_force && holds_force_levels(file, *path, data_name, list[i]))

@@ -170,6 +170,32 @@ class DataFiles(unittest.TestCase):
             with self.subTest(name):
                 self.check_refused(self.write(name, content), words)
 
+    def test_a_force_that_takes_energy_out_of_a_fitted_motion_is_refused(self):
+        """Pairs under a driving force with phases of the wrong sign, and a friction loop."""
+        pairs, loop = ["Y [N],x [m],frequency [Hz],phase [deg]"], ["t [s],x [m],force [N]"]
+        for i in range(8):
+            omega = 26.0 + 1.7 * i
+            needed = complex(1000.0 - omega**2, 4.0 * omega)
+            pairs.append(f"3,{3 / abs(needed)!r},{omega / (2 * math.pi)!r},{-math.degrees(math.atan2(needed.imag, needed.real))!r}")
+        for i in range(900):
+            phase = 0.02 * i
+            loop.append(f"{i / 500},{0.01 * math.cos(phase)!r},{math.copysign(1.0, math.sin(phase)) - 3.0 * math.cos(phase)!r}")
+        self.write("pairs.csv", "\n".join(pairs) + "\n")
+        self.write("loop.csv", "\n".join(loop) + "\n")
+        driven = ("pairs.csv", "--mass", "1 kg", "--stiffness", "1000 N/m", "--set", "excitation={type: force_harmonic}")
+        for data, cause, remedy in ((driven, "x leads the force in 8 of 8 pairs", "--scale phase=-1"),
+                                    (("loop.csv", "--loop"), "friction cannot give energy", "--scale force=-1")):
+            with self.subTest(cause):
+                def fit(*more):
+                    return subprocess.run([PROGRAM, "fit", "coulomb", *data, "--no-profile", *more], cwd=self.folder, capture_output=True, text=True, timeout=PATIENCE * 60)
+                refused = fit()
+                self.assertEqual(refused.returncode, 3, refused.stdout + refused.stderr)
+                self.assertTrue(refused.stderr.startswith(data[0]), refused.stderr)
+                self.assertIn(cause, refused.stderr)
+                self.assertIn(remedy, refused.stderr)
+                turned = fit(*remedy.split())
+                self.assertNotIn("out of the motion", turned.stderr)
+
     def test_accepted(self):
         for name, content in ACCEPTED.items():
             with self.subTest(name):

@@ -67,6 +67,13 @@ class FitCharts(Case):
             self.assertEqual(len(curve), len(fitted))
             self.assertLess(max(abs(a - b) for a, b in zip(curve, fitted)), 1e-9)
 
+    def test_the_residuals_of_a_swept_fit_have_their_unit(self):
+        self.history("run.csv", 0.01)
+        self.write("swept.yaml", "schema: dualdamp/1\nsystem: {mass: 1 kg, stiffness: 400 N/m, friction: {law: coulomb}}\n"
+                   "analysis: {type: fit, data: run.csv, profile: false}\nsweep: {system.mass: [0.99 kg, 1.01 kg]}\n")
+        self.run_program("run", "swept.yaml", "--out", "swept", "--plot", "swept.svg")
+        self.assertRegex(" ".join(self.drawing("swept.svg")[0]), r"residual.rms \[.?m\]")
+
     def test_fits_of_different_records_have_their_own_points(self):
         for name, noise in (("a", 0.01), ("b", 0.02)):
             self.history(f"{name}.csv", noise)

@@ -292,7 +292,8 @@ bool holds_motion(const SearchResult& found, const FitProblem& problem, std::opt
     const Eigen::Index size = rows.size();
     const Eigen::VectorXd part =
         bounded_residuals(misses.segment(rows.begin, size), found.weights.segment(rows.begin, size));
-    return !is_noise(noise_p_value(problem.readings().signal(rows), part, parameters));
+    return !is_noise(
+        noise_p_value(problem.readings().signal(rows), outputs.segment(rows.begin, size), part, parameters));
   });
 }
 

@@ -1,5 +1,6 @@
 #include "identify/records/faults/drive_work.hpp"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -7,6 +8,7 @@
 #include <vector>
 
 #include "core/constants.hpp"
+#include "identify/statistics/decompositions.hpp"
 #include "identify/statistics/noise_level.hpp"
 
 namespace dualdamp::identify {
@@ -89,7 +91,73 @@ bool is_in_phase(const Motion& motion, Signal f) {
   return std::abs(needed) > clearly * spring && given * needed > half * needed * needed;
 }
 
+/// The motion without its mean: x, or the integral of v without its trend, which is that of the sensor's zero.
+std::vector<double> path_of(const History& history) {
+  std::vector<double> x = history.x;
+  if (x.empty()) {
+    x.push_back(0.0);
+    for (std::size_t i = 1; i < history.v.size(); ++i)
+      x.push_back(x.back() + 0.5 * (history.v[i] + history.v[i - 1]) / history.sample_rate);
+    const double slope = (x.back() - x.front()) / static_cast<double>(x.size() - 1);
+    for (std::size_t i = 0; i < x.size(); ++i) x[i] -= slope * static_cast<double>(i);
+  }
+  const double middle = middle_of(x);
+  for (double& value : x) value -= middle;
+  return x;
+}
+
+/// How often x goes from one quarter of its range beyond the middle to the other.
+int strokes_of(const std::vector<double>& x) {
+  const auto [low, high] = std::ranges::minmax(x);
+  constexpr double quarter = 0.25;
+  int strokes = 0;
+  int side = 0;
+  for (const double value : x) {
+    const double place = (value - low) / (high - low);
+    const int now = place < quarter ? -1 : place > 1.0 - quarter ? 1 : 0;
+    if (now == 0 || now == side) continue;
+    strokes += side == 0 ? 0 : 1;
+    side = now;
+  }
+  return strokes;
+}
+
 }  // namespace
+
+std::optional<double> impossible_losses(const History& history) {
+  const std::vector<double> x = path_of(history);
+  const Signal f = history.force;
+  constexpr std::size_t fewest = 16;
+  constexpr int closed_loop = 3;
+  if (f.size() != x.size() || x.size() < fewest) return std::nullopt;
+  const int strokes = strokes_of(x);
+  if (strokes < closed_loop) return std::nullopt;
+  const auto count = static_cast<Eigen::Index>(x.size());
+  const double period = 2.0 * static_cast<double>(x.size() - 1) / strokes;  // in samples
+  const auto reach = std::max<Eigen::Index>(1, static_cast<Eigen::Index>(period / 32.0));
+  constexpr Eigen::Index terms = 5;
+  Eigen::MatrixXd columns(count, terms);
+  Eigen::VectorXd work(count);
+  double sum = 0.0;
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const auto at = [&](Eigen::Index j) {
+      return x[static_cast<std::size_t>(std::clamp<Eigen::Index>(j, 0, count - 1))];
+    };
+    if (i > 0)
+      sum += 0.5 * (f[static_cast<std::size_t>(i)] + f[static_cast<std::size_t>(i - 1)]) * (at(i) - at(i - 1));
+    work[i] = sum;
+    const double v = at(i + reach) - at(i - reach);
+    columns.row(i) << 1.0, at(i), at(i) * at(i), v * v, static_cast<double>(i) / static_cast<double>(count - 1);
+  }
+  const Eigen::VectorXd line = pivoted_least_squares(columns, work);
+  const double losses = line[terms - 1];
+  constexpr double far = 4.0;
+  constexpr double of_delay = 0.02;  // of a period
+  const double room = far * std::sqrt((work - columns * line).squaredNorm() / static_cast<double>(count)) +
+                      far * error_by_noise(f, x) + of_delay * period * std::abs(change_by_sample(f, x));
+  if (!(losses + room < 0.0)) return std::nullopt;
+  return losses;
+}
 
 std::optional<double> impossible_work(const History& history, const KnownConstants& constants, double omega) {
   const bool is_force = !history.force.empty();

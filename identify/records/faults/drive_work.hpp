@@ -11,6 +11,14 @@
 /// A longer delay has the same effect away from resonance, but leaves the force in phase with what spring and
 /// inertia need, mean(f x) = k mean(x^2) - m mean(v^2). Where that holds, the sign is right.
 ///
+/// A force that moves a mass along a measured loop does work against spring, inertia, friction and damping:
+///
+///   int F dx = k x^2/2 + m v^2/2 + F0 x + P t + what a part of a loop adds,   P > 0: mean power of the losses
+///
+/// The line is fitted for any k, m and zero F0. A record of at least one closed loop is impossible if the losses
+/// are negative by more than four times what the line leaves, the noise, and a delay of 2 % of a period: those of a
+/// nearly elastic loop have either sign.
+///
 /// Errors: none. Cost: linear.
 
 #include <optional>
@@ -23,5 +31,8 @@ namespace dualdamp::identify {
 /// frequency of x [rad/s].
 [[nodiscard]] std::optional<double> impossible_work(const History& history, const KnownConstants& constants,
                                                     double omega);
+
+/// The losses P t [J] of a loop with x or v, if they are impossible.
+[[nodiscard]] std::optional<double> impossible_losses(const History& history);
 
 }  // namespace dualdamp::identify

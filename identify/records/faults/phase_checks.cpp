@@ -148,6 +148,34 @@ std::optional<double> excess_of_Y(const std::vector<Pair>& pairs, const KnownCon
   return both / needed;
 }
 
+std::optional<PhaseFault> force_phase_fault(const std::vector<Pair>& pairs, const KnownConstants& constants,
+                                            const core::SettingWords& words) {
+  constexpr double clearly = 0.3;
+  int phases = 0;
+  int leading = 0;
+  int lagging = 0;
+  std::vector<Pair> under_base = pairs;  // one that moves by Y/k exerts the force
+  for (Pair& pair : under_base) {
+    phases += std::isnan(pair.phase) ? 0 : 1;
+    leading += std::sin(pair.phase) < -clearly ? 1 : 0;
+    lagging += std::sin(pair.phase) > clearly ? 1 : 0;
+    pair.Y /= constants.stiffness;
+  }
+  if (leading == 0 || leading <= lagging) return std::nullopt;
+  const std::vector<Cause> causes = {
+      {"the phase has the wrong sign", words(core::Setting::scale, "phase", "-1"), altered(under_base, -1.0)},
+      {"x or Y has the wrong sign", words(core::Setting::scale, "x", "-1"),
+       altered(under_base, 1.0, std::numbers::pi)}};
+  Causes found;
+  found.add_fitting(causes, constants);
+  if (found.texts.empty())
+    for (const Cause& cause : causes) found.add(cause.text, cause.remedy);
+  return PhaseFault{
+      "by the phases, x leads the force in " + std::to_string(leading) + " of " + std::to_string(phases) +
+          " pairs, so the force would take energy out of the motion: " + core::joined(found.texts, ", or "),
+      "phase is the lag of x behind the force, from 0 to 180 deg; " + core::joined(found.remedies, ", or ")};
+}
+
 std::optional<PhaseFault> phase_fault(const std::vector<Pair>& pairs, const KnownConstants& constants,
                                       bool from_histories, const core::SettingWords& words) {
   const Balance balance = balance_of(pairs, constants);

@@ -44,6 +44,13 @@ struct PhaseFault {
   std::string message, allowed;
 };
 
+/// What is wrong with the phases of pairs under a driving force Y [N]: its work in a period, pi Y x sin(phase), is
+/// negative in more pairs than it is positive, where it is clearly one of both. That needs no constant. With mass
+/// and stiffness, Y cos(phase) = (k - m w^2) x tells which sign is wrong.
+[[nodiscard]] std::optional<PhaseFault> force_phase_fault(const std::vector<Pair>& pairs,
+                                                          const KnownConstants& constants,
+                                                          const core::SettingWords& words);
+
 /// What is wrong with the phases; nothing where they fit, or where only another mass or stiffness would make them
 /// fit: the ledger tests for it. `from_histories`: they were computed, in radians.
 [[nodiscard]] std::optional<PhaseFault> phase_fault(const std::vector<Pair>& pairs, const KnownConstants& constants,

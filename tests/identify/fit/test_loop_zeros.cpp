@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "identify/fit/fit.hpp"
-#include "identify/fit/residual_test.hpp"
+#include "identify/fit/residual_warnings.hpp"
 #include "tests/identify/fit/synthetic.hpp"
 
 using namespace dualdamp;
