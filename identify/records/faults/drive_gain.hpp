@@ -4,8 +4,10 @@
 ///   m a + k x = f/g - c v - F0 sgn v
 ///
 /// is fitted to means over windows of a natural period. Partial integration moves the derivatives of x to the
-/// weights of the window. Where the motion settles under one frequency near resonance, the force is in phase with
-/// v, and nothing is found: a transient tells. Errors: none. Cost: linear.
+/// weights of the window. Where x changes by no more than its noise, the direction of friction is unknown, and a
+/// mass that sticks is held by any force up to F0: windows in which it sticks for long are left out, and the drive
+/// is off only by more than friction in the others may explain. Where the motion settles under one frequency near
+/// resonance, the force is in phase with v, and nothing is found: a transient tells. Errors: none. Cost: linear.
 
 #include <optional>
 

@@ -1,6 +1,8 @@
 #include "identify/records/faults/drive_gain.hpp"
 
 #include <catch2/catch.hpp>
+#include <cmath>
+#include <utility>
 
 #include "identify/records/plausibility.hpp"
 #include "tests/identify/histories.hpp"
@@ -33,7 +35,39 @@ std::string drive_faults(double gain, bool as_force) {
   return text;
 }
 
+/// From rest, under a drive that friction of nearly its size holds most of the time.
+History nearly_stuck(double share, double omega, bool as_force) {
+  identify::testing::Normal normal(5);
+  constexpr double Y = 2e-3;
+  const double stiffness = identify::testing::bearing_constants.stiffness;
+  sim::Model model = identify::testing::driven_bearing(8.0, share * stiffness * Y, Y, omega);
+  model.excitation.phase = 0.0;
+  model.initial = {0.0, 0.0};
+  History history = identify::testing::sampled(model, 5.0, 278.0);
+  double square = 0.0;
+  for (const double x : history.x) square += x * x;
+  const double noise = 0.003 * std::sqrt(square / static_cast<double>(history.x.size()));
+  history = identify::testing::displacement_only(std::move(history), noise, normal);
+  for (double& y : history.y) y += 0.002 * Y * normal();
+  if (!as_force) return history;
+  for (const double y : history.y) history.force.push_back(stiffness * y);
+  history.y.clear();
+  return history;
+}
+
 }  // namespace
+
+TEST_CASE("Friction that holds a nearly stuck mass is no gain of the drive") {
+  for (const double share : {0.7, 0.8, 0.9}) {
+    for (const double ratio : {0.76, 0.84, 0.92, 1.0, 1.08, 1.16}) {
+      for (const bool as_force : {false, true}) {
+        CAPTURE(share, ratio, as_force);
+        const double omega = ratio * identify::testing::bearing_constants.natural_frequency();
+        CHECK_FALSE(gain_of_drive(nearly_stuck(share, omega, as_force), identify::testing::bearing_constants));
+      }
+    }
+  }
+}
 
 TEST_CASE("The balance of forces tells the gain of the drive") {
   for (const double gain : {10.0, 1000.0, 0.1}) {
