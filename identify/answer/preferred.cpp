@@ -84,6 +84,12 @@ std::size_t widest_beside(const std::vector<Estimate>& estimates, std::size_t wi
   });
 }
 
+/// Is the law that the joint fit has free the only explanation of what departs, and does it leave zeta and F0
+/// known?
+bool knows_its_law(const Ledger& ledger, const Estimate& joint) {
+  return ledger.departures.size() == 1 && ledger.departures.front().size() == 1 && !is_vague(joint);
+}
+
 }  // namespace
 
 std::optional<std::size_t> preferred(const std::vector<Estimate>& estimates, const Ledger& ledger) {
@@ -91,10 +97,11 @@ std::optional<std::size_t> preferred(const std::vector<Estimate>& estimates, con
   // It uses all data, and relaxes what is violated: another estimate has a narrower interval by chance.
   const auto joint = std::ranges::find(estimates, "joint_fit", &Estimate::method);
   if (joint != estimates.end() && std::isfinite(area(*joint))) {
-    // A joint fit with one law of friction knows no other: a range over laws has more of them.
+    // Where something else explains the departure as well, a range over laws has more of what it may be. Where
+    // nothing does, it only reads less of the record: steady states or extremes.
     const auto ranges = std::ranges::find_if(
         estimates, [](const Estimate& e) { return e.laws != nullptr && std::isfinite(area(e)); });
-    if (ledger.frees_law && ranges != estimates.end()) return place(ranges);
+    if (ledger.frees_law && ranges != estimates.end() && !knows_its_law(ledger, *joint)) return place(ranges);
     const std::optional<std::size_t> better = better_range(estimates, *joint);
     return better ? *better : place(joint);
   }

@@ -181,4 +181,28 @@ Candidates candidates_after(const std::vector<Pair>& states, const KnownConstant
   return list.take();
 }
 
+CandidateMeasurement first_levels(const std::vector<Pair>& states, const KnownConstants& constants,
+                                  const DriveLimits& limits) {
+  States measured;
+  for (const Pair& state : states) measured.push_back({state.Y, frequency_of(state, constants)});
+  const auto [least, most] = std::ranges::minmax(measured, {}, &PlannedState::Y);
+  constexpr double wide = 1.5;   // of levels: friction and damping are told apart by their ratio
+  constexpr double usual = 3.0;  // times the level at which the mass moves
+  const double low = least.Y;
+  const double high = most.Y >= wide * low ? most.Y : std::max(most.Y, std::min(usual * low, limits.level));
+  constexpr int levels = 8;
+  States planned;
+  for (int i = 0; i < levels; ++i) {
+    const double level = low + (high - low) * i / (levels - 1.0);
+    const bool is_known = std::ranges::any_of(measured, [level](const PlannedState& state) {
+      return std::max(state.Y, level) < one_level * std::min(state.Y, level);
+    });
+    if (!is_known) planned.push_back({level, resonance_at(level, measured, constants.natural_frequency())});
+  }
+  return {.name = "levels evenly spaced up to the highest",
+          .plan = planned,
+          .phases = true,
+          .cost = static_cast<double>(planned.size())};
+}
+
 }  // namespace dualdamp::identify

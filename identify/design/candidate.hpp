@@ -58,4 +58,11 @@ struct Candidates {
 [[nodiscard]] Candidates candidates_after(const std::vector<Pair>& states, const KnownConstants& constants,
                                           double zeta, const DriveLimits& limits);
 
+/// What a laboratory with fewer states than ranges over laws need does first: levels evenly spaced from the lowest
+/// to the highest of the record, at which the mass moved, at the measured frequency nearest to the natural one, and
+/// with phases. Levels of the record are left out. If the record has about one level, they reach up to three times
+/// it, or as far as the drive can.
+[[nodiscard]] CandidateMeasurement first_levels(const std::vector<Pair>& states, const KnownConstants& constants,
+                                                const DriveLimits& limits);
+
 }  // namespace dualdamp::identify

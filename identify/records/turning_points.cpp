@@ -73,6 +73,18 @@ std::size_t begin_of_rest(std::span<const double> x, double range) {
   return rest;
 }
 
+void leave_out_overshoot(std::span<const double> x, std::vector<std::size_t>& turns, std::size_t rest,
+                         double half_period) {
+  constexpr double small = 1e-3;  // of the range: of 20 samples a period or more
+  constexpr double part_of_swing = 0.25;
+  if (static_cast<double>(x.size() - rest) < half_period) return;
+  const auto is_overshoot = [&](std::size_t turn) {
+    return turn < rest && static_cast<double>(rest - turn) < part_of_swing * half_period &&
+           std::abs(x[turn] - x.back()) < small * range_of(x);
+  };
+  while (turns.size() > 3 && is_overshoot(turns[turns.size() - 2])) turns.erase(turns.end() - 2);
+}
+
 bool leave_out_irregular(std::span<const double> x, std::vector<std::size_t>& turns, std::size_t from, double least,
                          double most) {
   const auto first = static_cast<std::size_t>(std::ranges::upper_bound(turns, from) - turns.begin());

@@ -24,6 +24,12 @@ namespace dualdamp::identify {
 /// The first sample from which on x stays within this range.
 [[nodiscard]] std::size_t begin_of_rest(std::span<const double> x, double range);
 
+/// Removes turning points that are no swings: interpolated samples overshoot the position in which the mass stops,
+/// by a share of its last steps. A last swing of this size would take half a period, the overshoot takes a few
+/// samples. `rest`: the sample from which on x rests; `half_period` in samples.
+void leave_out_overshoot(std::span<const double> x, std::vector<std::size_t>& turns, std::size_t rest,
+                         double half_period);
+
 /// Leaves the end of x in place of the turning points behind the sample `from`, if they are not all farther apart
 /// than `least` and nearer than `most`, as the swings of a decay are. True if they were not.
 [[nodiscard]] bool leave_out_irregular(std::span<const double> x, std::vector<std::size_t>& turns, std::size_t from,

@@ -163,6 +163,19 @@ std::string warning_of_limits(const std::vector<std::string>& left_out) {
   return text;
 }
 
+/// What to do first with a record of too few states for ranges over laws; empty if it has enough of them, or the
+/// drive can do no more.
+std::string what_to_do_first(const identify::Record& record, const identify::KnownConstants& constants,
+                             const identify::DriveLimits& limits, const ShownUnits& units) {
+  constexpr std::size_t fewest = 4;
+  if (!record.pairs || record.pairs->pairs.empty() || record.pairs->pairs.size() >= fewest) return {};
+  const identify::CandidateMeasurement first = identify::first_levels(record.pairs->pairs, constants, limits);
+  if (first.cost < 1.0) return {};
+  const PlannedRig rig = {constants.natural_frequency(), identify::unknown, constants.coordinate};
+  return "; measure first " + instruction_of(first, rig, units) +
+         "; wait after each change until x is steady, and leave out levels at which the mass sticks";
+}
+
 /// Advice, present ranges and candidates.
 void add_design(const identify::Design& design, const PlannedRig& rig, const ShownUnits& units, Answer& answer) {
   std::vector<std::string> instructions;
@@ -197,7 +210,9 @@ Answer DesignQuestion::run(const RunContext& context) const {
   }
   const auto found = identify::design_after(record, methods.constants, options_,
                                             identify::interval_options(options_), moved, limits_);
-  if (const auto* why = std::get_if<std::string>(&found)) return failed(*why);
+  const ShownUnits units = context.written_units == nullptr ? ShownUnits{} : shown_units(*context.written_units);
+  if (const auto* why = std::get_if<std::string>(&found))
+    return failed(*why + what_to_do_first(record, methods.constants, limits_, units));
   const auto& design = std::get<identify::Design>(found);
   std::ranges::move(identify::warnings_about(design.now, options_), std::back_inserter(warnings));
   if (const std::string misfit = identify::no_law_fits(design.now); !misfit.empty())
@@ -206,7 +221,6 @@ Answer DesignQuestion::run(const RunContext& context) const {
                        "no law of the library has. The ranges and the advice are not to be used");
   Answer answer;
   answer.warnings = std::move(warnings);
-  const ShownUnits units = context.written_units == nullptr ? ShownUnits{} : shown_units(*context.written_units);
   const PlannedRig rig = {methods.constants.natural_frequency(), design.now.mean.zeta,
                           methods.constants.coordinate};
   add_design(design, rig, units, answer);

@@ -428,17 +428,3 @@ TEST_CASE("A verdict cites a range over laws only where it is usable") {
   CHECK_FALSE(mentions(none.verdict, cited));
   CHECK(mentions(none.verdict, "no law of the library fits"));
 }
-
-TEST_CASE("A joint fit with a law of friction free answers, says so, and gives way to a range over laws") {
-  Ledger departing = ledger({Assumption::friction_velocity});
-  departing.joint = estimate("joint_fit", 0.06, 2.0, 0.01);
-  departing.frees_law = true;
-  departing.relaxed = {"quadratic term over speed"};
-  const Identification alone = concluded({estimate("energy_balance", 0.1, 3.0, 0.02), *departing.joint}, departing);
-  CHECK(answering(alone) == "joint_fit");
-  CHECK_THAT(alone.verdict, Catch::Contains("beside what joint_fit has free: quadratic term over speed"));
-  CHECK_THAT(alone.reason, Catch::Contains("has free what the data contradict"));
-  Estimate ranges = estimate("any_law", 0.06, 2.0, 0.3);
-  ranges.laws = std::make_shared<LawIntervals>();
-  CHECK(answering(concluded({ranges, *departing.joint}, departing)) == "any_law");
-}

@@ -1,13 +1,24 @@
 #include "identify/answer/verdict.hpp"
 
 #include <catch2/catch.hpp>
+#include <memory>
+#include <string>
 
 #include "identify/answer/answer.hpp"
+#include "identify/methods/any_law/law_intervals.hpp"
 #include "tests/identify/ledger/findings.hpp"
 #include "tests/identify/methods/histories/bearing.hpp"
 
 using namespace dualdamp::identify;
 using namespace dualdamp::identify::testing;
+
+namespace {
+
+std::string answer_of(const Identification& found) {
+  return found.answer ? found.estimates[*found.answer].method : "";
+}
+
+}  // namespace
 
 TEST_CASE("A verdict names what explains a departure as well without moving anything") {
   Ledger drifts = ledger({Assumption::stationarity});
@@ -82,4 +93,29 @@ TEST_CASE("An answer of as many readings as unknowns says that they leave no fre
   CHECK(mentions(concluded({exact}, nothing).verdict, "from 4 readings that leave no freedom for an interval"));
   exact.used = {1, 2, 3, 4, 5};
   CHECK_FALSE(mentions(concluded({exact}, nothing).verdict, "no freedom"));
+}
+
+TEST_CASE("A joint fit with a law of friction free answers where nothing else explains the departure") {
+  Ledger departing = ledger({Assumption::friction_velocity});
+  departing.joint = estimate("joint_fit", 0.06, 2.0, 0.01);
+  departing.frees_law = true;
+  departing.relaxed = {"quadratic term over speed"};
+  const Identification alone = concluded({estimate("energy_balance", 0.1, 3.0, 0.02), *departing.joint}, departing);
+  CHECK(answer_of(alone) == "joint_fit");
+  CHECK_THAT(alone.verdict, Catch::Contains("beside what joint_fit has free: quadratic term over speed"));
+  CHECK_THAT(alone.reason, Catch::Contains("has free what the data contradict"));
+  Estimate ranges = estimate("any_law", 0.06, 2.0, 0.3);
+  ranges.laws = std::make_shared<LawIntervals>();
+  const Identification beside = concluded({ranges, *departing.joint}, departing);
+  CHECK(answer_of(beside) == "joint_fit");
+  CHECK_THAT(beside.verdict, Catch::Contains("laws that these data allow"));
+
+  Ledger explained_twice = ledger({Assumption::friction_velocity, Assumption::stationarity});
+  explained_twice.joint = departing.joint;
+  explained_twice.frees_law = true;
+  explained_twice.entry(Assumption::stationarity).is_like_speed = true;
+  CHECK(answer_of(concluded({ranges, *departing.joint}, explained_twice)) == "any_law");
+  Ledger vague = departing;
+  vague.joint = estimate("joint_fit", 0.06, 2.0, 1.2);
+  CHECK(answer_of(concluded({ranges, *vague.joint}, vague)) == "any_law");
 }

@@ -8,6 +8,7 @@
 #include "identify/readers/record_reader.hpp"
 #include "tests/identify/readers/data_files.hpp"
 #include "tests/identify/readers/refusals.hpp"
+#include "tests/identify/records.hpp"
 
 using namespace dualdamp;
 using namespace dualdamp::identify::testing;
@@ -154,4 +155,26 @@ TEST_CASE("time stamps: a stated sample rate takes the place of times that the f
   std::string at_rest;  // a noise that turns back at two rows of three
   for (int i = 0; i < 300; ++i) at_rest += print("%.6f\n", 1e-3 * std::sin(7.0 * i * i));
   CHECK(mentions(refusal([&] { (void)read("x [mm]\n" + rows("", 0) + at_rest); }), "or with their rate"));
+}
+
+TEST_CASE(
+    "time stamps: steps that vary slowly, as those of a solver, are interpolated, also where noise hides which times are smoother") {
+  for (const double noise : {0.0, 0.05}) {
+    CAPTURE(noise);
+    Normal normal(3);
+    std::string text = "t [s],x [mm]\n";
+    double t = 0.0;
+    for (int i = 0; i < 700; ++i) {
+      text += row(t, vibration(t) + noise * normal(), 9);
+      t += 3e-3 * (1.0 + 0.6 * std::sin(0.05 * i));
+    }
+    const MeasuredRecord file = read(text);
+    REQUIRE(file.record.histories.size() == 1);
+    const identify::History& history = file.record.histories.front();
+    REQUIRE(file.warnings.size() == 1);
+    CHECK(mentions(file.warnings.front(), "they are interpolated at even times"));
+    for (std::size_t i = 0; i < history.x.size(); ++i)
+      CHECK(history.x[i] ==
+            Approx(1e-3 * vibration(static_cast<double>(i) / history.sample_rate)).margin(2e-6 + 6e-3 * noise));
+  }
 }

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "identify/ledger/histories/history_rows.hpp"
+#include "identify/readers/time_base.hpp"
 #include "identify/records/derived_records.hpp"
 #include "identify/records/usable_histories.hpp"
 #include "sim/analytic/free_decay.hpp"
@@ -268,6 +269,31 @@ TEST_CASE("Ripple about the position of rest is no swing of the decay, and no ze
     CHECK(decay.record.times.back() < 1.5);
     Record record;
     record.histories = {history};
+    for (const std::string& warning : complete(record))
+      CHECK(warning.find("the zero of the sensor") == std::string::npos);
+  }
+}
+
+TEST_CASE("Interpolated samples overshoot where the mass stops: this is no swing and no zero of the sensor") {
+  const std::vector<double> exact = sim::analytic::free_decay_extremes(soft_zeta, soft_x_f, 60e-3, 20);
+  constexpr double rate = 20000.0;
+  const History dense = released(60e-3, 4.0, rate);
+  for (int begin = 0; begin < 12; ++begin) {
+    // Steps of 1.2 to 4.8 ms, as a solver writes them.
+    std::vector<double> t;
+    std::vector<double> x;
+    for (double at = 0.0; at < 79990.0;) {
+      t.push_back(std::round(at) / rate);
+      x.push_back(dense.x[static_cast<std::size_t>(std::round(at))]);
+      at += 60.0 * (1.0 + 0.6 * std::sin(0.05 * static_cast<double>(t.size()) + begin));
+    }
+    Record record;
+    History& history = record.histories.emplace_back();
+    history.sample_rate = static_cast<double>(t.size() - 1) / (t.back() - t.front());
+    history.x = even_samples({.is_interpolated = true}, t, x);
+    const DerivedDecay decay = decay_of(history);
+    CAPTURE(begin, decay.fault);
+    CHECK(decay.record.extremes.size() == exact.size());
     for (const std::string& warning : complete(record))
       CHECK(warning.find("the zero of the sensor") == std::string::npos);
   }

@@ -247,3 +247,25 @@ TEST_CASE("design: beside a gross error there is no advice", "[scenarios][design
   CHECK(run.failure.find("x of pair 3 is 1e+02 times what all other readings expect") != std::string::npos);
   std::remove("gross_data.csv");
 }
+
+TEST_CASE("design: two or three states are told what to measure first", "[scenarios][design]") {
+  const auto said = [](const std::string& rows, const std::string& limit) {
+    std::ofstream("few_states.csv") << "Y [mm],x [mm]\n" << rows;
+    const auto run = scenarios::run(
+        scenarios::parse_scenario("schema: dualdamp/1\nsystem: {mass: 35 kg, stiffness: 3993.3 N/m}\n"
+                                  "excitation: {type: base_harmonic, frequency: 1.7 Hz}\n"
+                                  "analysis: {type: design, data: few_states.csv" +
+                                      limit + "}\n",
+                                  "few_states.yaml"));
+    std::remove("few_states.csv");
+    CHECK(run.status == core::ExitStatus::numerical_failure);
+    return run.failure;
+  };
+  CHECK_THAT(
+      said("2,3.1\n6,30\n", ""),
+      Catch::Contains("measure first 6 states: Y = 2.571 mm, 3.143 mm, 3.714 mm, 4.286 mm, 4.857 mm, 5.429 mm "
+                      "at 1.7 Hz; read x and its phase to y"));
+  CHECK_THAT(said("2,3.1\n2.02,3.2\n6,30\n", ""), Catch::Contains("measure first 6 states: Y = 2.571 mm"));
+  CHECK_THAT(said("4,3.1\n4.1,3.3\n", ""), Catch::Contains("11") && Catch::Contains("12 mm at 1.7 Hz"));
+  CHECK_THAT(said("4,3.1\n4.1,3.3\n", ", most_level: 8 mm"), Catch::Contains("8 mm at 1.7 Hz"));
+}
