@@ -17,8 +17,6 @@ namespace dualdamp::identify {
 
 namespace {
 
-constexpr Eigen::Index least_test_samples = 64;
-
 /// The largest length up to `count` with only the prime factors 2, 3 and 5. Other lengths are slow to transform.
 Eigen::Index quick_length(Eigen::Index count) {
   for (Eigen::Index length = count;; --length) {

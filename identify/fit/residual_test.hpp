@@ -34,6 +34,9 @@ namespace dualdamp::identify {
 /// Whether residuals are errors of integration and rounding, as of exact data: neither noise nor motion.
 [[nodiscard]] bool is_rounding(const Eigen::VectorXd& residuals, const Eigen::VectorXd& measured);
 
+/// Fewer samples have no test.
+inline constexpr Eigen::Index least_test_samples = 64;
+
 /// The chance that noise alone leaves such residuals. `unknown` for fewer than 64 samples, or for other readings
 /// without a stated noise. `outputs`: of the fitted rig; `spent`: number of parameters that these readings
 /// determine.
