@@ -51,7 +51,7 @@ class DecayReader {
       slow.warnings.push_back("no extremes are read: " + slow.fault);
       return slow;
     }
-    leave_out_overshoot(x_, turns, begin_of_rest(x_, 2.0 * band_), half_period_);
+    leave_out_overshoot(x_, turns, begin_of_rest(x_, band_), half_period_);
     leave_out_rest(turns);
     width_ = std::max(half_period_ / 4.0, narrowest);
 
