@@ -92,7 +92,10 @@ struct History {
   std::string no_pair = {};
   /// Why the motion is not free although no drive was measured; empty: it may be free, or was not asked.
   std::string unknown_drive = {};
+  /// Readings of x after those of a free motion, which are left out: of the mass at rest, noise alone.
+  std::vector<double> at_rest = {};
   bool is_clipped = false;   ///< samples at the end of a sensor's range were found, and warned of
+  int part_of = 0;           ///< number of the record of which it is one of several parts; 0: it is none
   bool begins_free = false;  ///< a measured blow has ended: nothing pushes the mass from the first sample on
 
   /// A drive was measured; a history without one is of a free vibration, or of a drive that the constants state.

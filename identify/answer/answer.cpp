@@ -39,6 +39,12 @@ bool reads_histories(const Estimate& estimate) {
   return estimate.is_of_histories || (method != nullptr && method->needs == RecordKind::history);
 }
 
+/// Of the methods that read histories, none has a zero of x of its own in each.
+bool takes_one_zero(const Estimate& estimate) {
+  const MethodEntry* method = find_method(estimate.method);
+  return method != nullptr && method->needs == RecordKind::history;
+}
+
 /// What a method found stands where the ledger did not clear it: a ledger that tested something else than the
 /// histories cannot speak against what a method found in them, and one that saw a departure bears it out.
 bool keeps_its_findings(const Estimate& estimate, const Ledger& ledger) {
@@ -61,6 +67,8 @@ std::string why_it_misses(const Estimate& estimate, const Ledger& ledger) {
   if (std::string none = no_law_fits(estimate); !none.empty()) return none;
   if (!ledger.force_excess.empty()) return ledger.force_excess;
   if (!ledger.missed_motion.empty() && reads_histories(estimate)) return ledger.missed_motion;
+  if (!ledger.unlike_zeros.empty() && takes_one_zero(estimate))
+    return ledger.unlike_zeros + ", and the method takes one for all, or takes their mean for zero";
   if (ledger.misfit && !estimate.laws) return misfit_size(*ledger.misfit);
   if (std::string fault = fault_of_joint(ledger); !fault.empty() && !estimate.laws) return fault;
   const std::string beyond = beyond_motion(estimate, ledger.largest, ledger.coordinate);

@@ -66,6 +66,7 @@ using Taken = std::vector<std::size_t>;
 struct JointModel {
   std::string data;           ///< "24 steady states"
   bool of_histories = false;  ///< the motion itself is simulated
+  std::string unlike_zeros;   ///< that the zero of x differs from history to history; empty: not beyond chance
   Eigen::VectorXd residuals;
   std::vector<Reading> readings;  ///< of each row; empty where rows are means of many
   Eigen::MatrixXd base;
@@ -91,6 +92,8 @@ struct JointModel {
   bool is_stated = false;
   double deviance = unknown;   ///< twice the negative log-likelihood, to compare fits of the record; NaN: not known
   double scale_freedom = 0.0;  ///< degrees of freedom behind the deviation that decides about friction
+  /// All rows depend on that deviation, or on that power of errors that last; else some have one of their own.
+  bool has_one_scale = false;
   /// Of a channel that is estimated beside one that is stated and decides about friction.
   double other_freedom = core::infinity;
   ParameterSet value;        ///< of the fit

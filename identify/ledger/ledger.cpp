@@ -60,6 +60,7 @@ Ledger tested_ledger(const Record& record, const KnownConstants& constants, cons
   ledger.tests_histories = model.of_histories;
   ledger.plain = model.value;
   ledger.left_out = model.left_out;
+  ledger.unlike_zeros = model.unlike_zeros;
   ledger.warnings = model.warnings;
   const StatedShares shares(constants, options.uncertainties);
   const ConstantUncertainties& u = options.uncertainties;

@@ -117,6 +117,9 @@ struct Ledger {
   /// Steady states that need more force than their drive gives, a sentence (force_balance.hpp). No estimate with
   /// the constants as stated describes them.
   std::string force_excess = {};
+  /// The zero of x differs from history to history, a sentence. No estimate with one zero for all describes the
+  /// rig.
+  std::string unlike_zeros = {};
   /// Every fit of the simulated motion misses half of the measured one or more, a sentence. No estimate of the
   /// histories describes the rig; steady states or extremes taken from them are tested by themselves.
   std::string missed_motion = {};

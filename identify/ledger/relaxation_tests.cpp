@@ -71,6 +71,7 @@ Projection project(const JointModel& model, const Taken& taken) {
   result.freedom = static_cast<double>(base.rows() - unit.rank()) - model.spent;
   // A statistic may depend on one channel, or on all: the mean of both degrees of freedom.
   result.scale_freedom = 0.5 * (result.freedom + std::min(result.freedom, std::max(2.0, model.scale_freedom)));
+  if (model.has_one_scale) result.scale_freedom = std::min(result.freedom, std::max(2.0, model.scale_freedom));
   if (model.is_stated) result.scale_freedom = std::max(2.0, std::min(model.scale_freedom, model.other_freedom));
   Eigen::VectorXd lengths = beside.colwise().norm();
   if (!taken.empty()) lengths = lengths_beside(model.base, columns);

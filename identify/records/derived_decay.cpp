@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <numeric>
 #include <span>
 #include <utility>
 
@@ -13,6 +12,7 @@
 #include "identify/records/local_fit.hpp"
 #include "identify/records/swings.hpp"
 #include "identify/records/turning_points.hpp"
+#include "identify/statistics/lasting_mean.hpp"
 #include "identify/statistics/median.hpp"
 #include "identify/statistics/noise_level.hpp"
 #include "identify/validate.hpp"
@@ -45,6 +45,7 @@ class DecayReader {
     // If a period has few samples, differences of second order take the motion for noise.
     constexpr double many = 32.0;
     if (half_period_ < many) turns = read_turns(robust_noise_level(history_.x));
+    if (const double resting = noise_at_rest(); turns.size() >= 3 && resting > noise_) turns = read_turns(resting);
     if (turns.size() < 3) return refused(no_turns(), range_of(x_) > 2.0 * band_);
     if (half_period_ < fewest_in_half_period) {
       DerivedDecay slow = refused(turns.size() > 3 ? too_slow() : "x turns back once" + duration(), true);
@@ -84,6 +85,19 @@ class DecayReader {
     if (turns.size() >= 3) turns = without_ripple(x_, turns, half_period_of(turns));
     if (turns.size() >= 3) half_period_ = half_period_of(turns);
     return turns;
+  }
+
+  /// The scatter at the end of the record, if it is noise. Errors that last over some samples differ little from
+  /// one to the next, so that differences show less than they are. 0: the end is no rest, or rings.
+  [[nodiscard]] double noise_at_rest() const {
+    const auto count = std::min(x_.size(), static_cast<std::size_t>(2.0 * half_period_));
+    const LastingMean mean = mean_of(x_.size() - count, x_.size());
+    int crossings = 0;
+    for (std::size_t i = x_.size() - count + 1; i < x_.size(); ++i)
+      crossings += (x_[i] > mean.value) != (x_[i - 1] > mean.value) ? 1 : 0;
+    constexpr int fewest = 6;     // a motion of the rig has two
+    constexpr double most = 8.0;  // of the noise by differences: with correlations of 0.98 from sample to sample
+    return crossings >= fewest && mean.scatter < most * noise_ ? mean.scatter : 0.0;
   }
 
   /// Ripple and noise together may turn back by more than the band about the position of rest.
@@ -157,19 +171,9 @@ class DecayReader {
       std::rotate(list->begin(), list->end() - 1, list->end());
   }
 
-  struct Mean {
-    double value = 0.0;
-    double std = 0.0;
-  };
-
   /// Of the samples [first, last).
-  [[nodiscard]] Mean mean_of(std::size_t first, std::size_t last) const {
-    const std::span<const double> part = x_.subspan(first, last - first);
-    const auto n = static_cast<double>(part.size());
-    const double mean = std::reduce(part.begin(), part.end()) / n;
-    double square = 0.0;
-    for (const double value : part) square += (value - mean) * (value - mean);
-    return {mean, std::sqrt(square / n / std::max(n - 1.0, 1.0))};
+  [[nodiscard]] LastingMean mean_of(std::size_t first, std::size_t last) const {
+    return lasting_mean(x_.subspan(first, last - first));
   }
 
   /// Number of samples at the beginning that are equal to the first one within the noise: the mass is held.
@@ -182,7 +186,7 @@ class DecayReader {
   /// Adds the position of release: where the mass is held, or the first sample if the velocity is zero there.
   void add_first(DerivedDecay& result, std::size_t held) const {
     if (static_cast<double>(held) > 2.0 * width_) {
-      const Mean mean = mean_of(0, held);
+      const LastingMean mean = mean_of(0, held);
       put_first(result, held - 1, mean.value, mean.std);
       result.first = held;
       return;
@@ -290,8 +294,9 @@ class DecayReader {
     first = std::min(first, rest_);
     const bool rests = static_cast<double>(x_.size() - first) > half_period_;
     if (!rests || first == 0 || turn + 1 < first) return;
-    const Mean mean = mean_of(first, x_.size());
+    const LastingMean mean = mean_of(first, x_.size());
     put(result, static_cast<double>(first), mean.value, mean.std);
+    result.rests = true;
     // A hundred samples at one position would repeat the error of the sensor there a hundred times.
     result.last = std::min(x_.size(), first + 2 * static_cast<std::size_t>(half_period_));
     // The noise hides the moment of the stop, which is half a period after the last turning point.
@@ -312,7 +317,7 @@ class DecayReader {
     const auto begin = static_cast<std::size_t>(std::max(0.0, std::ceil(turned)));
     const auto stop = static_cast<std::size_t>(std::ceil(turned + half_swing));
     if (stop <= begin || 2 * stop > begin + x_.size()) return;  // the rest is shorter than the swing
-    const Mean rest = mean_of(stop, x_.size());
+    const LastingMean rest = mean_of(stop, x_.size());
     Eigen::ArrayXd path(static_cast<Eigen::Index>(stop - begin));
     for (Eigen::Index i = 0; i < path.size(); ++i)
       path[i] = 0.5 + 0.5 * std::cos(std::numbers::pi * (std::ceil(turned) + static_cast<double>(i) - turned) /
@@ -320,8 +325,8 @@ class DecayReader {
     const Eigen::ArrayXd moved = Eigen::Map<const Eigen::ArrayXd>(&x_[begin], path.size()) - rest.value;
     const double swing = (path * moved).sum() / path.square().sum();
     // The band is at least eight deviations of the noise, or as wide for the steps of a converter.
-    const double noise = std::max(rest.std * std::sqrt(static_cast<double>(x_.size() - stop)), band_ / 9.0);
-    const double std = std::hypot(noise / std::sqrt(path.square().sum()), rest.std);
+    const double noise = std::max(rest.scatter, band_ / 9.0);
+    const double std = std::hypot(rest.longer * noise / std::sqrt(path.square().sum()), rest.std);
     const double onwards = std::copysign(1.0, extremes.back() - extremes[extremes.size() - 2]);
     constexpr double deviations = 3.0;
     constexpr double most_left = 1.5;  // a contact that gives moves otherwise
@@ -375,6 +380,7 @@ class DecayReader {
                                        : "the swings of the free vibration become faster") +
                                 where);
       result.last = sample_of(result, end - 1) + 1;
+      result.rests = false;
     }
     if (begin > 0)
       result.warnings.push_back("the free vibration is taken from the end of its largest swing on, t = " +

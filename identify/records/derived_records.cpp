@@ -62,6 +62,8 @@ std::vector<std::string> complete(Record& record, double frequency, double stiff
     if (!all_are_free) continue;
     for (const std::string& warning : decay.warnings) warn(history, warning);
     if (decay.record.extremes.empty()) continue;
+    if (decay.rests)
+      history.at_rest.assign(history.x.begin() + static_cast<std::ptrdiff_t>(decay.last), history.x.end());
     warn(history, keep_free_motion(history, decay.first, decay.last));
     warn(history, remove_zero(history, decay.record));
     decays.push_back(std::move(decay.record));

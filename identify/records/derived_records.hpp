@@ -41,6 +41,7 @@ struct DerivedDecay {
   /// The fault is that x has few extremes, or few samples between them: a simulated motion may still fit it.
   bool is_coarse = false;
   bool is_driven = false;    ///< the fault is that something drives the motion
+  bool rests = false;        ///< the samples from `last` on are of the mass at rest
   std::size_t held = 0;      ///< first samples that are equal within the noise
   double half_period = 0.0;  ///< samples of a half swing; 0: x does not turn back
 };

@@ -245,7 +245,9 @@ std::vector<History> without_blows(const History& history, const ShortBlows& fou
 std::vector<std::string> leave_out_short_blows(std::vector<History>& histories) {
   std::vector<std::string> warnings;
   std::vector<History> all;
+  int number = 0;
   for (History& history : histories) {
+    ++number;
     const std::optional<ShortBlows> found =
         history.y.empty() ? short_blows(history.force, history.x) : std::nullopt;
     std::vector<std::string> done;
@@ -254,7 +256,10 @@ std::vector<std::string> leave_out_short_blows(std::vector<History>& histories) 
     if (!found || found->vibrations.empty())
       all.push_back(std::move(history));
     else
-      std::ranges::move(without_blows(history, *found, done), std::back_inserter(all));
+      for (History& part : without_blows(history, *found, done)) {
+        part.part_of = number;
+        all.push_back(std::move(part));
+      }
     for (const std::string& warning : done) warnings.push_back(name + warning);
   }
   histories = std::move(all);

@@ -28,18 +28,23 @@ Eigen::VectorXd covariances_of(const Eigen::VectorXd& errors, const std::vector<
   return sums / freedom;
 }
 
+Eigen::MatrixXd toeplitz(const Eigen::VectorXd& covariances) {
+  Eigen::MatrixXd matrix(covariances.size(), covariances.size());
+  for (Eigen::Index r = 0; r < matrix.rows(); ++r)
+    for (Eigen::Index c = 0; c < matrix.cols(); ++c) matrix(r, c) = covariances[std::abs(r - c)];
+  return matrix;
+}
+
 Autoregression autoregression_of(const Eigen::VectorXd& covariances, double count) {
   Autoregression best;
   double least = core::infinity;
   for (Eigen::Index p = 0; p < covariances.size(); ++p) {
-    Eigen::MatrixXd toeplitz(p, p);
-    for (Eigen::Index r = 0; r < p; ++r)
-      for (Eigen::Index c = 0; c < p; ++c) toeplitz(r, c) = covariances[std::abs(r - c)];
     const Eigen::VectorXd lagged = covariances.segment(1, p);
-    const Eigen::VectorXd a = p == 0 ? Eigen::VectorXd() : DefiniteMatrix(toeplitz).solve(lagged);
+    const Eigen::VectorXd a =
+        p == 0 ? Eigen::VectorXd() : DefiniteMatrix(toeplitz(covariances.head(p))).solve(lagged);
     const double variance = covariances[0] - (p == 0 ? 0.0 : a.dot(lagged));
     if (!(variance > 1e-12 * covariances[0])) break;
-    const double criterion = count * std::log(variance) + 2.0 * static_cast<double>(p + 1);
+    const double criterion = count * std::log(variance) + std::log(count) * static_cast<double>(p + 1);
     if (criterion >= least) continue;
     least = criterion;
     best = {a, std::sqrt(variance)};

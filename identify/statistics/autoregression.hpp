@@ -3,9 +3,9 @@
 ///
 ///   e_t = a_1 e_(t-1) + ... + a_p e_(t-p) + s n_t,   n of unit variance
 ///
-/// by the equations of Yule and Walker, the order p by Akaike's criterion. The rows of a regression with such
-/// errors, filtered by 1 - a_1 B - ... - a_p B^p and divided by s, have independent errors of unit variance
-/// (box2016). Cost: p times that of reading the rows.
+/// by the equations of Yule and Walker, the order p by Schwarz's criterion (schwarz1978). The rows of a regression
+/// with such errors, filtered by 1 - a_1 B - ... - a_p B^p and divided by s, have independent errors of unit
+/// variance (box2016). Cost: p times that of reading the rows.
 
 #include <Eigen/Core>
 #include <utility>
@@ -27,6 +27,9 @@ struct Autoregression {
 /// records are uncorrelated; 0 may be left out. `freedom`: divisor of the sums.
 [[nodiscard]] Eigen::VectorXd covariances_of(const Eigen::VectorXd& errors, const std::vector<Eigen::Index>& blocks,
                                              int most, double freedom);
+
+/// The covariances of as many errors that follow one another.
+[[nodiscard]] Eigen::MatrixXd toeplitz(const Eigen::VectorXd& covariances);
 
 /// The autoregression from covariances at lags 0 ... largest order. `count`: number of rows, for the choice of p.
 [[nodiscard]] Autoregression autoregression_of(const Eigen::VectorXd& covariances, double count);

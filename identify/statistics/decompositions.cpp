@@ -98,6 +98,10 @@ Eigen::MatrixXd orthonormal_basis(const Eigen::MatrixXd& columns, std::optional<
   return qr.householderQ() * Eigen::MatrixXd::Identity(columns.rows(), std::min(qr.rank(), columns.rows()));
 }
 
+Eigen::MatrixXd decorrelated(const Eigen::MatrixXd& covariance, const Eigen::MatrixXd& rows) {
+  return Eigen::LLT<Eigen::MatrixXd>(covariance).matrixL().solve(rows);
+}
+
 Eigen::MatrixXd inverse_of(const Eigen::MatrixXd& matrix) { return matrix.inverse(); }
 
 struct DefiniteMatrix::Factors {

@@ -55,6 +55,9 @@ class DependentColumns {
 [[nodiscard]] Eigen::MatrixXd orthonormal_basis(const Eigen::MatrixXd& columns,
                                                 std::optional<double> threshold = std::nullopt);
 
+/// L^-1 rows, where L L^T is the covariance of their errors, by Cholesky: their errors are independent.
+[[nodiscard]] Eigen::MatrixXd decorrelated(const Eigen::MatrixXd& covariance, const Eigen::MatrixXd& rows);
+
 /// Inverse of a square matrix that is not singular, by LU.
 [[nodiscard]] Eigen::MatrixXd inverse_of(const Eigen::MatrixXd& matrix);
 

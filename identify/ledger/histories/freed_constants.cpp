@@ -31,15 +31,13 @@ double share_missed(ForwardFit& fit) {
 
 constexpr double good_part = 0.2;  ///< of the motion
 
-/// Mean of x - y - f/k over all histories: the middle that the motion would have about a right zero is zero.
-double middle_of(const Record& record, double stiffness) {
+/// Mean of x - y - f/k: the middle that the motion would have about a right zero is zero.
+double middle_of(const History& history, double stiffness) {
   double sum = 0.0;
-  double count = 0.0;
-  for (const History& history : record.histories)
-    for (std::size_t i = 0; i < history.x.size(); ++i, count += 1.0)
-      sum += history.x[i] - (history.y.empty() ? 0.0 : history.y[i]) -
-             (history.force.empty() ? 0.0 : history.force[i] / stiffness);
-  return count > 0.0 ? sum / count : 0.0;
+  for (std::size_t i = 0; i < history.x.size(); ++i)
+    sum += history.x[i] - (history.y.empty() ? 0.0 : history.y[i]) -
+           (history.force.empty() ? 0.0 : history.force[i] / stiffness);
+  return history.x.empty() ? 0.0 : sum / static_cast<double>(history.x.size());
 }
 
 /// Are all histories driven by a measured drive? What is off in x beside the motion of its drive is then known.
@@ -76,15 +74,22 @@ std::optional<FreedFit> FreedConstants::with_constant(By by) {
   return fitted(record_, constants);
 }
 
-/// The middle of a short record is the zero but for a part of a swing; steps lead on from there.
+/// The middle of a short history is its zero but for a part of a swing; steps lead on from there.
 std::optional<FreedFit> FreedConstants::with_zero() {
   if (!is_driven(record_) || missed_as_stated() < good_part || !(constants_.stiffness > 0.0)) return std::nullopt;
-  const double zero = middle_of(record_, constants_.stiffness);
   Record moved = record_;
-  for (History& history : moved.histories)
-    for (double& x : history.x) x -= zero;
+  const std::vector<ForwardTest>& tests = stated_.tests();
+  const std::vector<Eigen::Index>& records = stated_.layout().records();
+  Eigen::VectorXd zeros = Eigen::VectorXd::Zero(records.back() + 1);
+  for (std::size_t t = 0; t < tests.size(); ++t)
+    zeros[records[t]] += middle_of(*tests[t].history, constants_.stiffness) /
+                         static_cast<double>(std::ranges::count(records, records[t]));
+  for (std::size_t t = 0; t < tests.size(); ++t)
+    for (double& x : moved.histories[static_cast<std::size_t>(tests[t].number) - 1].x) x -= zeros[records[t]];
   std::optional<FreedFit> fit = fitted(moved, constants_);
-  if (fit) fit->change = zero / stated_.layout().length();
+  if (!fit) return fit;
+  stated_.layout().add_zeros(fit->p, zeros);
+  fit->change = zeros.mean() / stated_.layout().length();
   return fit;
 }
 

@@ -17,7 +17,7 @@ namespace dualdamp::identify {
 /// A fit with one constant unknown.
 struct FreedFit {
   Eigen::VectorXd p;    ///< in the layout of the fit as stated
-  double change = 0.0;  ///< of the constant; of the zero over the length of the layout; of the delay [s]
+  double change = 0.0;  ///< of the constant; of the mean zero over the length of the layout; of the delay [s]
   double missed = 0.0;  ///< share of the motion, as below
 };
 

@@ -28,6 +28,14 @@ HistoryLinearisation::HistoryLinearisation(const Record& record, const KnownCons
   }
 }
 
+void HistoryLinearisation::free_zero_of_x(bool is_free) {
+  std::erase_if(zeros_, [](const FreeZero& zero) { return zero.sensor == MotionSensor::x; });
+  if (is_free) zeros_.push_back({.sensor = MotionSensor::x, .unit = scale_.length});
+  const Eigen::Index before = std::min(start_.zeros.size(), static_cast<Eigen::Index>(zeros_.size()));
+  start_.zeros.conservativeResize(static_cast<Eigen::Index>(zeros_.size()));
+  start_.zeros.tail(start_.zeros.size() - before).setZero();
+}
+
 void HistoryLinearisation::forget_stated() {
   sigma_x_ = 0.0;
   for (std::size_t t = 0; t < noise_.size(); ++t)
@@ -86,6 +94,7 @@ LinearisedHistories HistoryLinearisation::whitened(Channels& channels, std::size
     WhiteRows made = made_white(*channel, base + more, known, channel == &channels.x && is_stated());
     if (channel == &channels.x && whitening == Whitening::on && known == nullptr) scatter_ = made.scatter;
     result.log_variances += made.log_variances;
+    result.freedom = std::min(result.freedom, made.freedom);
     result.errors.push_back(std::move(made.errors));
     parts.push_back(std::move(made.rows));
   }
@@ -167,14 +176,23 @@ bool HistoryLinearisation::add_test(std::size_t t, const Place& at, const Taken&
   SensorRows rows = rows_of(t, at, wanted, motion);
   if (shake) rows.append(noisier);
   const History& history = *test.history;
-  const auto width = std::max<Eigen::Index>(1, std::lround(history.sample_rate * core::two_pi / natural_ / 24.0));
   if (!history.a.empty()) leave_out_reversals(motion.v, rows.a);
   make_innovations(motion.derivatives.steps, noise_[t], force_at(at), rows);
   // The same rows in every step of a fit.
   if (moving_.size() == t) moving_.push_back(moving_rows(history, motion.x, parameters.F0 / parameters.k));
   const Eigen::Index moving = moving_[t];
+  // Rows follow the motion at 24 in a period. Few samples are averaged less: how long their errors last must show.
+  constexpr double in_period = 24.0;
+  constexpr Eigen::Index few = 400;
+  const Eigen::Index most_width = std::lround(history.sample_rate * core::two_pi / natural_ / in_period);
+  const Eigen::Index width = std::max<Eigen::Index>(1, std::min(most_width, moving / few));
   // Means of independent errors have their deviation over the root of the width.
-  channels.x.add(std::sqrt(static_cast<double>(width)) * averaged(rows.x.topRows(moving), width));
+  const double root = std::sqrt(static_cast<double>(width));
+  channels.x.add(root * averaged(rows.x.topRows(moving), width));
+  constexpr Eigen::Index fewest = 20;
+  const Eigen::Map<const Eigen::VectorXd> rest(history.at_rest.data(),
+                                               static_cast<Eigen::Index>(history.at_rest.size()));
+  if (rest.size() / width >= fewest) channels.x.at_rest.emplace_back(root / noise_[t].x * averaged(rest, width));
   if (!history.v.empty()) channels.v.add(averaged(rows.v.topRows(moving), width));
   if (!history.a.empty()) channels.a.add(averaged(rows.a.topRows(moving), width));
   return true;
@@ -188,7 +206,7 @@ SensorRows HistoryLinearisation::rows_of(std::size_t t, const Place& at, const T
   const Eigen::VectorXd jerk = finely_differentiated(a, rate);
   const Eigen::MatrixXd columns_x = arranged(t, at, wanted, motion.derivatives.x);
   const Eigen::MatrixXd columns_v = arranged(t, at, wanted, motion.derivatives.v);
-  const HistoryReader read{list_.parts, zeros_, scale_.length, at, wanted, t};
+  const HistoryReader read{list_.parts, zeros_, fit_.layout(), scale_.length, at, wanted, t};
   SensorRows rows;
   rows.x = read(MotionSensor::x, history.x, {motion.x, motion.v, a, rate}, columns_x, columns_v);
   if (!history.v.empty())

@@ -22,10 +22,11 @@ struct LinearisedHistories {
   Eigen::VectorXd residuals;
   Eigen::MatrixXd base;
   Eigen::MatrixXd relaxed;
-  Eigen::MatrixXd shaken;      ///< all of these with more noise in the drive; empty: not wanted, or no noise
-  double log_variances = 0.0;  ///< of the errors of the rows, summed
-  double squares = 0.0;        ///< of the innovations of x
-  double variance = 1.0;       ///< of one residual
+  Eigen::MatrixXd shaken;           ///< all of these with more noise in the drive; empty: not wanted, or no noise
+  double log_variances = 0.0;       ///< of the errors of the rows, summed
+  double squares = 0.0;             ///< of the innovations of x
+  double variance = 1.0;            ///< of one residual
+  double freedom = core::infinity;  ///< degrees of freedom behind what is known of errors that last
   std::vector<Autoregression> errors;  ///< of the channels that were read
 };
 
@@ -54,7 +55,7 @@ class HistoryLinearisation {
 
   [[nodiscard]] ForceParameters force_at(const Place& at) const;
 
-  /// Always free: parameters of the fit, then the zeros of v and a.
+  /// Always free: parameters of the fit, then the free zeros.
   [[nodiscard]] Eigen::Index count_of_base() const { return fit_.layout().count() + start_.zeros.size(); }
 
   /// Whether it is that of a contact that yields, by g times the length of the motion.
@@ -70,6 +71,10 @@ class HistoryLinearisation {
   [[nodiscard]] double unit_force() const { return unit_force_; }  ///< of the terms [N]
   /// The damping of a force at the motion's size that grows with its speed [N.s/m].
   [[nodiscard]] double unit_damping() const { return unit_force_ / scale_.speed; }
+
+  /// Whether the mean zero of x is always free, as the zero of each history less this mean always is. At first it
+  /// is not.
+  void free_zero_of_x(bool is_free);
 
   void forget_stated();  ///< the noise of x is that of its samples
   [[nodiscard]] bool is_stated() const { return sigma_x_ > 0.0; }

@@ -3,10 +3,13 @@
 #include <cmath>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
+#include "core/numbers.hpp"
 #include "identify/ledger/histories/freed_constants.hpp"
 #include "identify/ledger/histories/history_linearisation.hpp"
+#include "identify/ledger/histories/unlike_zeros.hpp"
 #include "identify/ledger/stated_noise.hpp"
 #include "identify/statistics/decompositions.hpp"
 
@@ -20,9 +23,11 @@ namespace {
 ///  2. `through_constant`, `seen_from_afar`, `freed`: if the stated constants miss most of the motion.
 class Histories {
  public:
-  Histories(const Record& record, const KnownConstants& constants, double sigma_x, Estimate& exclusions)
-      : record_(record), constants_(constants), motion_(record_, constants_, sigma_x, exclusions) {}
+  Histories(Record record, const KnownConstants& constants, double sigma_x, Estimate& exclusions)
+      : record_(std::move(record)), constants_(constants), motion_(record_, constants_, sigma_x, exclusions) {}
 
+  [[nodiscard]] const Record& record() const { return record_; }
+  [[nodiscard]] const KnownConstants& constants() const { return constants_; }
   [[nodiscard]] HistoryLinearisation& motion() { return motion_; }
   [[nodiscard]] std::string fault_of_fit() { return freed_.fault(); }  ///< why the fit tells nothing; else empty
 
@@ -40,8 +45,12 @@ class Histories {
       best.take_nearer({*yielding, motion_.at(*yielding, taken, Whitening::off)});
     descend(taken, best);
     if (!is_near) best.take_nearer(through_constant(taken));
+    if (taken.empty()) plain_ = best.at;
     return joint(best.at, taken);
   }
+
+  /// Where the model with nothing relaxed is linear.
+  [[nodiscard]] const Place& plain() const { return plain_; }
 
  private:
   struct Fitted {
@@ -131,10 +140,12 @@ class Histories {
       if (part.kind == FreedPart::Kind::zero || (part.term != nullptr && part.term->is_constant))
         model.relaxations[j].constant_force = motion_.unit_force();
     }
+    double lasting = core::infinity;
     if (std::optional<LinearisedHistories> found = taken.empty() ? seen_from_afar(at) : with_all(at, taken)) {
       model.deviance =
           found->log_variances +
           left_beside(free_columns(found->base, found->relaxed, taken), found->residuals).squaredNorm();
+      lasting = found->freedom;
       model.residuals = std::move(found->residuals);
       model.base = std::move(found->base);
       model.relaxed = std::move(found->relaxed);
@@ -161,7 +172,9 @@ class Histories {
     }
     model.constants = {force.m, force.k, constants_.frequency};
     model.is_stated = motion_.is_stated();
-    model.scale_freedom = model.is_stated ? known_freedom : static_cast<double>(model.residuals.size());
+    model.scale_freedom =
+        std::min(lasting, model.is_stated ? known_freedom : static_cast<double>(model.residuals.size()));
+    model.has_one_scale = true;
     model.F0_parts = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(motion_.list().parts.size()));
     model.zeta_parts = model.F0_parts;
     for (std::size_t j = 0; j < motion_.list().parts.size(); ++j) {
@@ -197,6 +210,27 @@ class Histories {
     return found;
   }
 
+  /// A fit that something wrong keeps from the motion, by more than the linear model sees, leaves swings as well.
+  /// If one relaxation brings it much nearer, errors are those of the fit with it.
+  [[nodiscard]] std::optional<LinearisedHistories> seen_from_relaxed(const Place& at) {
+    constexpr double large = 1.5;  // times the noise by differences
+    constexpr double much_less = 0.5;
+    std::optional<LinearisedHistories> found = with_all(at, {});
+    if (!found || std::isinf(found->freedom) || motion_.scatter() < large) return found;
+    Fitted best{at, std::nullopt};
+    Taken taken;
+    for (std::size_t j = 0; j < motion_.list().parts.size(); ++j) {
+      Fitted relaxed{at, is_hidden(j) ? std::nullopt : motion_.at(at, {j}, Whitening::off)};
+      descend({j}, relaxed);
+      if (!relaxed.here || (best.here && relaxed.here->squares >= best.here->squares)) continue;
+      best = std::move(relaxed);
+      taken = {j};
+    }
+    if (!best.here || !(best.here->squares < much_less * found->squares)) return found;
+    const std::optional<LinearisedHistories> near = motion_.at(best.at, taken, Whitening::on);
+    return near ? with_all(at, {}, near->errors) : found;
+  }
+
   /// Far from the right constants the fit leaves a swing, which an autoregression would take for errors that last.
   /// If another constant brings it much nearer, errors are those of the nearer fit, and the column of a constant
   /// leads straight to the fit with it free.
@@ -205,7 +239,7 @@ class Histories {
     std::optional<LinearisedHistories> nearer;
     for (std::size_t j = 0; near != nullptr && !nearer && j < motion_.list().parts.size(); ++j)
       if (freed_.with(motion_.list().parts[j]) == near) nearer = motion_.at(*freed(j), {}, Whitening::on);
-    if (!nearer) return with_all(at, {});
+    if (!nearer) return seen_from_relaxed(at);
     std::optional<LinearisedHistories> found = with_all(at, {}, nearer->errors);
     for (std::size_t j = 0; found && j < motion_.list().parts.size(); ++j) {
       const std::optional<Place> place = freed(j);
@@ -230,12 +264,46 @@ class Histories {
     return place;
   }
 
-  const Record& record_;  // outlives the tests
+  Record record_;
   KnownConstants constants_;
   HistoryLinearisation motion_;
+  Place plain_;
   std::optional<Fitted> yielding_;  ///< with a contact that yields, once it was sought
   FreedConstants freed_{record_, constants_, motion_.fit()};
 };
+
+/// Where the zero of x differs from history to history, no one need be as stated: their mean is free as well. The
+/// histories are then read about their zeros: a fit about others ends with another F0, at the wrong half swing.
+void free_unlike_zeros(double sigma_x, std::shared_ptr<Histories>& histories, JointModel& model) {
+  HistoryLinearisation& motion = histories->motion();
+  if (motion.fit().layout().count_of_zeros() == 0) return;
+  motion.free_zero_of_x(true);
+  const JointModel other = histories->fitted({});
+  const Eigen::VectorXd zeros = unlike_zeros(other, motion.fit().layout(), histories->plain());
+  motion.free_zero_of_x(false);
+  if (zeros.size() == 0) return;
+  Record moved = histories->record();
+  const std::vector<ForwardTest>& tests = motion.fit().tests();
+  for (std::size_t t = 0; t < tests.size(); ++t)
+    for (double& x : moved.histories[static_cast<std::size_t>(tests[t].number) - 1].x)
+      x -= zeros[motion.fit().layout().records()[t]];
+  Estimate unused;
+  const auto about_zeros = std::make_shared<Histories>(std::move(moved), histories->constants(),
+                                                       motion.is_stated() ? sigma_x : 0.0, unused);
+  const ForwardFit& fit = about_zeros->motion().fit();
+  if (!fit.problem().empty() || fit.tests().size() != tests.size()) return;
+  about_zeros->motion().free_zero_of_x(true);
+  JointModel found = about_zeros->fitted({});
+  // A fit about a wrong mean may have zeros that differ where those of the nearer fit do not.
+  if (unlike_zeros(found, fit.layout(), about_zeros->plain(), zeros).size() == 0) return;
+  found.warnings = std::move(model.warnings);
+  constexpr int digits = 3;
+  found.unlike_zeros = "the zero of x differs from history to history, by up to " +
+                       core::format_number(zeros.maxCoeff() - zeros.minCoeff(), digits) + " " +
+                       histories->constants().unit("m");
+  histories = about_zeros;
+  model = std::move(found);
+}
 
 }  // namespace
 
@@ -243,10 +311,9 @@ std::variant<JointModel, std::string> history_model(const Record& record, const 
                                                     double sigma_x, std::string* missed) {
   if (std::string fault = fault_of_histories(record); !fault.empty()) return fault;
   Estimate exclusions;
-  const auto histories = std::make_shared<Histories>(record, constants, sigma_x, exclusions);
+  auto histories = std::make_shared<Histories>(record, constants, sigma_x, exclusions);
   HistoryLinearisation& motion = histories->motion();
-  const ForwardFit& fit = motion.fit();
-  if (!fit.problem().empty()) return fit.problem();
+  if (std::string problem = motion.fit().problem(); !problem.empty()) return problem;
   if (std::string fault = histories->fault_of_fit(); !fault.empty()) {
     if (missed != nullptr) *missed = fault;
     return fault;
@@ -260,10 +327,12 @@ std::variant<JointModel, std::string> history_model(const Record& record, const 
     model = histories->fitted({});
   }
   note_contradiction(scatter, ratio, "samples of x", model);
+  free_unlike_zeros(sigma_x, histories, model);
   if (model.residuals.size() == 0 || !model.residuals.allFinite() || !model.base.allFinite())
     return "the simulated motion, fitted with the mass and the stiffness as stated, grows beyond all numbers";
   model.refit = [histories](const Taken& numbers) { return histories->fitted(numbers); };
   model.of_histories = true;
+  const ForwardFit& fit = histories->motion().fit();
   model.data = std::to_string(fit.residuals().count()) + " samples of " + std::to_string(fit.tests().size()) +
                (fit.tests().size() == 1 ? " history" : " histories");
   for (const Exclusion& exclusion : exclusions.excluded)

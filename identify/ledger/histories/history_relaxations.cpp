@@ -172,15 +172,16 @@ Eigen::MatrixXd HistoryReader::operator()(MotionSensor sensor, const std::vector
     if (kind == FreedPart::Kind::corner) errors.corner = g;
     if (kind == FreedPart::Kind::square) errors.square = g / length;
     if (kind == FreedPart::Kind::cube) errors.cube = g / (length * length);
-    if (kind == FreedPart::Kind::zero) errors.zero = g * length;
+    if (kind == FreedPart::Kind::zero) errors.zero += g * length;
     if (kind == FreedPart::Kind::zero_drift) errors.drift = g * length;
   });
-  const auto zero = std::ranges::find_if(
-      zeros, [&](const FreeZero& other) { return other.history == test && other.sensor == sensor; });
+  const auto zero = std::ranges::find_if(zeros, [&](const FreeZero& other) { return other.is_of(test, sensor); });
   const Eigen::Index place = zero - zeros.begin();
-  if (zero != zeros.end()) errors.zero = zero->unit * at.zeros[place];
+  if (zero != zeros.end()) errors.zero += zero->unit * at.zeros[place];
+  if (sensor == MotionSensor::x) errors.zero += layout.zero(at.p, test);
   Eigen::MatrixXd rows = reading_rows(measured, motion, errors, columns, slopes);
   if (zero != zeros.end()) rows.col(1 + at.p.size() + place).setConstant(zero->unit);
+  if (sensor == MotionSensor::x) layout.put_zeros(test, rows.middleCols(1, at.p.size()));
   const Eigen::ArrayXd u = as_read(motion.value, motion.slope, errors, motion.rate).array();
   const Eigen::ArrayXd slope = errors.gain * errors.slope(u);
   own([&](FreedPart::Kind kind, double, Eigen::Index j) {

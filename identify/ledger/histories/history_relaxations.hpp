@@ -16,12 +16,17 @@ namespace dualdamp::identify {
 
 enum class MotionSensor { x, v, a };
 
-/// The zero of a sensor of v or of a, in one history. It is always free: no force depends on it.
+/// A zero that is always free: of a sensor of v or of a, in one history, on which no force depends; of x, in all
+/// histories.
 struct FreeZero {
   std::size_t history = 0;
   MotionSensor sensor = MotionSensor::v;
-  double unit = 1.0;  ///< m/s or m/s^2
+  double unit = 1.0;  ///< m/s or m/s^2; m of x
   double near = 0.0;  ///< a value near it, in this unit
+
+  [[nodiscard]] bool is_of(std::size_t test, MotionSensor other) const {
+    return sensor == other && (sensor == MotionSensor::x || history == test);
+  }
 };
 
 [[nodiscard]] std::vector<FreeZero> free_zeros(const std::vector<ForwardTest>& tests, const MotionScale& scale);
@@ -60,7 +65,7 @@ struct HistoryRelaxations {
 [[nodiscard]] HistoryRelaxations history_relaxations(const std::vector<ForwardTest>& tests,
                                                      const KnownConstants& constants);
 
-/// Where the model is linearised: the parameters of the fit, the zeros of v and a, and a coefficient for each
+/// Where the model is linearised: the parameters of the fit, the free zeros, and a coefficient for each
 /// relaxation.
 struct Place {
   Eigen::VectorXd p;
@@ -73,6 +78,7 @@ struct Place {
 struct HistoryReader {
   const std::vector<FreedPart>& parts;
   const std::vector<FreeZero>& zeros;
+  const ForwardLayout& layout;
   double length;  ///< of the motion [m]
   const Place& at;
   const std::vector<std::size_t>& wanted;  ///< relaxations that have a column

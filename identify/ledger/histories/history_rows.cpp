@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/random.hpp"
+#include "identify/ledger/histories/lasting_errors.hpp"
 #include "identify/records/derived_records.hpp"
 #include "identify/statistics/decompositions.hpp"
 #include "identify/statistics/noise_level.hpp"
@@ -29,41 +30,23 @@ void SensorRows::append(const SensorRows& more) {
   }
 }
 
-namespace {
-
-/// Covariances of the errors at lags 0 ... most. What the columns leave of white errors is not white: most columns
-/// swing with the oscillator and take out noise at its frequency, which an autoregression would take for a property
-/// of the errors. The projection H onto the columns is known, so what it takes out is added: s^2 sum H_(i,i+lag).
-Eigen::VectorXd error_covariances(const Eigen::MatrixXd& columns, const Eigen::VectorXd& left,
-                                  const std::vector<Eigen::Index>& blocks, int most) {
-  const Eigen::MatrixXd basis = orthonormal_basis(columns);
-  const auto count = static_cast<double>(left.size());
-  const double freedom = std::max(1.0, count - static_cast<double>(basis.cols()));
-  const double variance = left.squaredNorm() / freedom;
-  Eigen::VectorXd sums = covariances_of(left, blocks, most, 1.0);
-  for (Eigen::Index j = 0; j < basis.cols(); ++j)
-    sums += variance * covariances_of(basis.col(j), blocks, most, 1.0);
-  return sums / (freedom + static_cast<double>(basis.cols()));
-}
-
-}  // namespace
-
 WhiteRows made_white(const Channel& channel, Eigen::Index count_of_columns, const Autoregression* known,
                      bool is_unit) {
-  const double twice = 2.0 * static_cast<double>(channel.rows.rows());
+  const auto count = static_cast<double>(channel.rows.rows());
   if (known != nullptr)
-    return {whitened(channel.rows, channel.blocks, *known), twice * std::log(known->deviation), *known};
-  const Eigen::MatrixXd columns = channel.rows.middleCols(1, count_of_columns);
-  const Eigen::VectorXd target = channel.rows.col(0);
-  const Eigen::VectorXd left = left_beside(columns, target);
-  const auto count = static_cast<double>(left.size());
+    return {whitened(channel.rows, channel.blocks, *known), 2.0 * count * std::log(known->deviation), *known};
   const int most = std::clamp(static_cast<int>(count / 20.0), 0, channel.most_lags);
-  const Eigen::VectorXd covariances = error_covariances(columns, left, channel.blocks, most);
-  const double scatter = std::sqrt(covariances[0]);
-  Autoregression errors = autoregression_of(covariances, count);
-  if (is_unit && scatter > 0.0) errors.deviation /= scatter;
+  const Eigen::VectorXd target = channel.rows.col(0);
+  LastingErrors found =
+      lasting_errors({channel.rows.middleCols(1, count_of_columns), target, channel.blocks, channel.at_rest, most});
+  Autoregression& errors = found.autoregression;
+  if (is_unit && found.scatter > 0.0) errors.deviation /= found.scatter;
   errors.deviation = std::max(errors.deviation, 1e-13 * target.cwiseAbs().maxCoeff() + 1e-300);
-  return {whitened(channel.rows, channel.blocks, errors), twice * std::log(errors.deviation), errors, scatter};
+  WhiteRows white{whitened(channel.rows, channel.blocks, errors), 2.0 * count * std::log(errors.deviation)};
+  white.errors = std::move(errors);
+  white.scatter = found.scatter;
+  white.freedom = found.freedom;
+  return white;
 }
 
 Eigen::VectorXd course_of(Eigen::Index samples) { return Eigen::VectorXd::LinSpaced(samples, 0.0, 1.0); }

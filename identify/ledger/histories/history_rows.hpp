@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/constants.hpp"
 #include "identify/ledger/histories/history_terms.hpp"
 #include "identify/ledger/histories/innovations.hpp"
 #include "identify/record.hpp"
@@ -17,7 +18,8 @@ namespace dualdamp::identify {
 struct Channel {
   Eigen::MatrixXd rows;
   std::vector<Eigen::Index> blocks;
-  int most_lags = 0;  ///< over which its errors may be correlated
+  int most_lags = 0;                     ///< over which its errors may be correlated
+  std::vector<Eigen::VectorXd> at_rest;  ///< readings with the same errors and nothing else but a mean
 
   void add(const Eigen::MatrixXd& more);
 };
@@ -27,7 +29,8 @@ struct WhiteRows {
   Eigen::MatrixXd rows;
   double log_variances = 0.0;  ///< sum of the logs of the variances that the errors had
   Autoregression errors = {};
-  double scatter = 1.0;  ///< standard deviation that the errors had
+  double scatter = 1.0;             ///< standard deviation that the errors had
+  double freedom = core::infinity;  ///< degrees of freedom behind what is known of errors that last
 };
 
 /// The rows with independent errors. The errors are those of `known`, else what the first `columns` columns leave

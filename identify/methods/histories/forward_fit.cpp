@@ -40,6 +40,21 @@ double ForwardLayout::length(const std::vector<ForwardTest>& tests) {
   return longest;
 }
 
+namespace {
+
+/// The record of which each test is a part, from 0.
+std::vector<Eigen::Index> records_of(const std::vector<ForwardTest>& tests) {
+  std::vector<Eigen::Index> records(tests.size(), 0);
+  for (std::size_t t = 1; t < tests.size(); ++t) {
+    const int own = tests[t].history->part_of;
+    const bool goes_on = own > 0 && own == tests[t - 1].history->part_of;
+    records[t] = records[t - 1] + (goes_on ? 0 : 1);
+  }
+  return records;
+}
+
+}  // namespace
+
 ForwardLayout::ForwardLayout(const std::vector<ForwardTest>& tests, const KnownConstants& constants,
                              const ForceParameters& start) {
   shared_ = {{By::damping, std::sqrt(start.m * start.k)}, {By::friction, start.k * length(tests)}};
@@ -50,6 +65,8 @@ ForwardLayout::ForwardLayout(const std::vector<ForwardTest>& tests, const KnownC
     first_.push_back(count_);
     count_ += (test.starts_at_rest ? 1 : 2) + static_cast<Eigen::Index>(test.places.size());
   }
+  records_ = records_of(tests);
+  count_ += count_of_zeros();
   constexpr double far = 1e3;  // in units of the scales
   low_ = Eigen::VectorXd::Constant(count_, -far);
   high_ = Eigen::VectorXd::Constant(count_, far);
@@ -72,6 +89,7 @@ Eigen::VectorXd ForwardLayout::pack(const ForceParameters& force, const std::vec
     p[first_[t]] = tests[t].x0 / length_;
     if (!tests[t].starts_at_rest) p[first_[t] + 1] = tests[t].v0 / speed_;
     std::ranges::copy(tests[t].places, p.data() + first_place(t, tests[t]));
+    if (records_[t] > 0) p[count_ - count_of_zeros() + records_[t] - 1] = tests[t].zero / length_;
   }
   return p;
 }
@@ -92,7 +110,11 @@ bool ForwardResiduals::evaluate(const Eigen::VectorXd& p, Eigen::VectorXd& resid
     const std::vector<double>& measured = tests_[t].history->x;
     residuals.segment(blocks_[t], x.size()) =
         (x - Eigen::Map<const Eigen::VectorXd>(measured.data(), x.size())) / layout_.length();
+    residuals.segment(blocks_[t], x.size()).array() += layout_.zero(p, t) / layout_.length();
     if (jacobian == nullptr) continue;
+    Eigen::MatrixXd zeros = Eigen::MatrixXd::Zero(x.size(), layout_.count());
+    layout_.put_zeros(t, zeros);
+    jacobian->middleRows(blocks_[t], x.size()) = zeros / layout_.length();
     for (std::size_t j = 0; j < columns.size(); ++j)
       jacobian->col(columns[j].column).segment(blocks_[t], x.size()) =
           derivatives.x.col(static_cast<Eigen::Index>(j)) * (columns[j].scale / layout_.length());
@@ -324,6 +346,7 @@ void ForwardFit::free_speeds(const KnownConstants& constants) {
     const SampledOscillator::Parameters found = layout->parameters(at_rest.parameters, t, tests_[t]);
     tests_[t].x0 = found.x0;
     tests_[t].places = found.places;
+    tests_[t].zero = layout->zero(at_rest.parameters, t);
   }
   for (ForwardTest* test : resting) test->starts_at_rest = false;
   const ForceParameters force = layout->force(at_rest.parameters);
@@ -347,6 +370,7 @@ Eigen::VectorXd ForwardFit::as_start(const ForwardLayout& layout, std::vector<Fo
     const SampledOscillator::Parameters begin = layout_->parameters(found_.parameters, t, tests_[t]);
     tests[t].x0 = begin.x0;
     tests[t].v0 = begin.v0;
+    tests[t].zero = layout_->zero(found_.parameters, t);
     if (tests[t].places.size() == begin.places.size()) tests[t].places = begin.places;
   }
   return layout.pack(layout_->force(found_.parameters), tests);

@@ -2,10 +2,11 @@
 /// The fit of a simulated motion to measured displacements: parameters, residuals and starting points. output_error
 /// and the joint model of histories use it.
 ///
-///   min sum [x_i - x(t_i; c, F0, x(0), v(0))]^2,   m x'' + c x' + k x + F0 sgn x' = k y + f
+///   min sum [x_i - z - x(t_i; c, F0, x(0), v(0))]^2,   m x'' + c x' + k x + F0 sgn x' = k y + f
 ///
-/// Mass and stiffness are fitted if they are not known, and where between two samples a drive steps. Cost: tens of
-/// runs of the forward model (sampled_oscillator.hpp).
+/// Mass and stiffness are fitted if they are not known, and where between two samples a drive steps. Of several
+/// records each has a zero z of x; their mean is zero, as stated. Parts of one record share their zero. Cost: tens
+/// of runs of the forward model (sampled_oscillator.hpp).
 
 #include <Eigen/Core>
 #include <memory>
@@ -29,12 +30,14 @@ struct ForwardTest {
   double v0 = 0.0;
   bool starts_at_rest = false;  ///< its initial velocity is zero and not fitted
   std::vector<double> places;   ///< of the steps of the drive, each within its interval
+  double zero = 0.0;            ///< of x less the mean over all records [m]
 
   explicit ForwardTest(const NumberedHistory& item);
 };
 
 /// The parameters of the fit, each divided by a scale: c, F0, then mass and stiffness where unknown, then of each
-/// test the initial state and the places of the steps of its drive.
+/// test the initial state and the places of the steps of its drive, last the zeros of x of all records but the
+/// first: that of the first is minus their sum.
 class ForwardLayout {
  public:
   ForwardLayout(const std::vector<ForwardTest>& tests, const KnownConstants& constants,
@@ -57,6 +60,28 @@ class ForwardLayout {
     for (std::size_t i = 0; i < shared_.size(); ++i)
       value(force, shared_[i].by) = p[static_cast<Eigen::Index>(i)] * shared_[i].scale;
     return force;
+  }
+
+  /// Zero of x of test t less the mean over all records [m].
+  [[nodiscard]] double zero(const Eigen::VectorXd& p, std::size_t t) const {
+    const Eigen::VectorXd zeros = p.tail(count_of_zeros());
+    return length_ * (records_[t] == 0 ? -zeros.sum() : zeros[records_[t] - 1]);
+  }
+  [[nodiscard]] Eigen::Index count_of_zeros() const { return records_.back(); }
+
+  /// The record of which each test is a part, from 0.
+  [[nodiscard]] const std::vector<Eigen::Index>& records() const { return records_; }
+
+  /// Writes to the columns of the parameters what the zeros of x change in the readings of test t [m].
+  void put_zeros(std::size_t t, Eigen::Ref<Eigen::MatrixXd> columns) const {
+    for (Eigen::Index i = 0; i < count_of_zeros(); ++i)
+      if (records_[t] == 0 || i == records_[t] - 1)
+        columns.col(count_ - count_of_zeros() + i).setConstant(records_[t] == 0 ? -length_ : length_);
+  }
+
+  /// Adds to the zeros of x of all records, one for each, what they are more than their mean [m].
+  void add_zeros(Eigen::VectorXd& p, const Eigen::VectorXd& more) const {
+    p.tail(count_of_zeros()) += (more.tail(count_of_zeros()).array() - more.mean()).matrix() / length_;
   }
 
   [[nodiscard]] SampledOscillator::Parameters parameters(const Eigen::VectorXd& p, std::size_t t,
@@ -109,6 +134,7 @@ class ForwardLayout {
 
   std::vector<Entry> shared_;
   std::vector<Eigen::Index> first_;
+  std::vector<Eigen::Index> records_;
   Eigen::VectorXd low_, high_;
   Eigen::Index count_ = 0;
   double length_ = 1.0;

@@ -253,6 +253,28 @@ TEST_CASE("The noise of a long rest adds no extremes") {
   }
 }
 
+TEST_CASE("Noise that lasts over some samples adds no swing about the position of rest") {
+  // Each error has a correlation of 0.8 with the next: differences show 0.36 of their deviation.
+  constexpr double sigma = 5e-5;
+  constexpr double correlation = 0.8;
+  const History clean = released(60e-3, 3.0, 500.0);
+  const std::vector<double> exact = sim::analytic::free_decay_extremes(soft_zeta, soft_x_f, 60e-3, 20);
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    History history = clean;
+    testing::Normal normal(seed);
+    double error = sigma * normal();
+    for (double& x : history.x) {
+      x += error;
+      error = correlation * error + std::sqrt(1.0 - correlation * correlation) * sigma * normal();
+    }
+    const DerivedDecay decay = decay_of(history);
+    CAPTURE(seed, decay.fault);
+    CHECK(decay.record.extremes.size() <= exact.size());
+    CHECK(decay.record.extremes.size() + 1 >= exact.size());
+    CHECK(decay.rests);
+  }
+}
+
 TEST_CASE("Ripple about the position of rest is no swing of the decay, and no zero of the sensor") {
   constexpr double sigma = 5e-5;
   const std::vector<double> exact = sim::analytic::free_decay_extremes(soft_zeta, soft_x_f, 60e-3, 20);
