@@ -181,11 +181,11 @@ bool HistoryLinearisation::add_test(std::size_t t, const Place& at, const Taken&
   // The same rows in every step of a fit.
   if (moving_.size() == t) moving_.push_back(moving_rows(history, motion.x, parameters.F0 / parameters.k));
   const Eigen::Index moving = moving_[t];
-  // Rows follow the motion at 24 in a period. Few samples are averaged less: how long their errors last must show.
+  // Rows follow the motion at 24 in a period. In all, few are averaged less: how long their errors last must show.
   constexpr double in_period = 24.0;
   constexpr Eigen::Index few = 400;
   const Eigen::Index most_width = std::lround(history.sample_rate * core::two_pi / natural_ / in_period);
-  const Eigen::Index width = std::max<Eigen::Index>(1, std::min(most_width, moving / few));
+  const Eigen::Index width = std::max<Eigen::Index>(1, std::min(most_width, fit_.residuals().count() / few));
   // Means of independent errors have their deviation over the root of the width.
   const double root = std::sqrt(static_cast<double>(width));
   channels.x.add(root * averaged(rows.x.topRows(moving), width));
