@@ -39,7 +39,7 @@ bool reads_histories(const Estimate& estimate) {
   return estimate.is_of_histories || (method != nullptr && method->needs == RecordKind::history);
 }
 
-/// Of the methods that read histories, none has a zero of x of its own in each.
+/// Of the methods that read histories, none has the zero of x of each free: at most what it is beyond their mean.
 bool takes_one_zero(const Estimate& estimate) {
   const MethodEntry* method = find_method(estimate.method);
   return method != nullptr && method->needs == RecordKind::history;
